@@ -3,7 +3,7 @@
 use crate::scenes::{camera, shipped};
 use etendue_bench_rays::clock::process_cpu_s;
 use etendue_bench_rays::table::Table;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::{Plan, Unobserved};
 
 const NOTE: &str = "Five scenes in 320 × 200 px (the Cornell box as it is), by `noise_threshold` and by as many samples everywhere as its mean, four \
@@ -57,33 +57,33 @@ pub fn table() -> Table {
 
 fn measured((name, job, limit, [least, most], changes): &Row) -> Vec<String> {
     let small: &[&str] = if job.starts_with("cornell") { &[] } else { &SMALL };
-    let of = |samples: &[String]| {
+    let plan_with = |samples: &[String]| {
         let samples = samples.iter().map(String::as_str);
         shipped(job, &small.iter().chain(*changes).copied().chain(samples).collect::<Vec<_>>())
     };
     let limits =
         [("noise_threshold", limit.to_string()), ("min_spp", least.to_string()), ("max_spp", most.to_string())];
     let limits = limits.map(|(key, value)| format!("render.{key}={value}"));
-    let adaptive = Pictures::of(&mut of(&[&["render.spp=null".to_owned()], &limits[..]].concat()));
+    let adaptive = SeedImages::render(&mut plan_with(&[&["render.spp=null".to_owned()], &limits[..]].concat()));
     let spp = ((adaptive.mean_samples / 8.0).round() as u32 * 8).max(8);
-    let even = Pictures::of(&mut of(&[format!("render.spp={spp}")]));
-    let (adaptive_left, even_left) = (adaptive.left(), even.left());
-    let saved = |even_left: f64, left: f64| even_left / left * even.seconds / adaptive.seconds;
-    let (even_mean, mean) = (mean_of(&even_left), mean_of(&adaptive_left));
-    let quantiles = PARTS.map(|part| saved(quantile(&even_left, part), quantile(&adaptive_left, part)));
-    let told = [
+    let uniform_samples = SeedImages::render(&mut plan_with(&[format!("render.spp={spp}")]));
+    let (adaptive_left, uniform_left) = (adaptive.left(), uniform_samples.left());
+    let saving = |uniform_left: f64, left: f64| uniform_left / left * uniform_samples.seconds / adaptive.seconds;
+    let (even_mean, mean) = (mean_of(&uniform_left), mean_of(&adaptive_left));
+    let quantiles = PARTS.map(|part| saving(quantile(&uniform_left, part), quantile(&adaptive_left, part)));
+    let cells = [
         (*name).to_owned(),
         format!("{limit}"),
         format!("{:.0}", adaptive.mean_samples),
         format!("{:.2}", even_mean.sqrt()),
         format!("{:.2}", mean.sqrt()),
-        format!("{:.2}", saved(even_mean, mean)),
+        format!("{:.2}", saving(even_mean, mean)),
     ];
-    told.into_iter().chain(quantiles.map(|saved| format!("{saved:.2}"))).collect()
+    cells.into_iter().chain(quantiles.map(|saving| format!("{saving:.2}"))).collect()
 }
 
 /// The same picture by several seeds.
-struct Pictures {
+struct SeedImages {
     width: usize,
     /// Mean electrons of each pixel, picture by picture.
     electrons: Vec<Vec<f64>>,
@@ -94,15 +94,15 @@ struct Pictures {
     seconds: f64,
 }
 
-impl Pictures {
-    fn of(plan: &mut Plan) -> Self {
+impl SeedImages {
+    fn render(plan: &mut Plan) -> Self {
         let sensor = plan.cameras[0].body.sensor.as_ref().expect("a camera with electronics");
         let noise = sensor.temporal_noise();
         let (mut electrons, mut samples, mut width) = (Vec::new(), 0.0, 0);
         let from_s = process_cpu_s();
         for seed in 1..=SEEDS {
             plan.cameras[0].settings.seed = seed;
-            let film = light(plan, camera(plan), Request::default(), &Unobserved).expect("nobody cancels");
+            let film = light(plan, camera(plan), LightRequest::default(), &Unobserved).expect("nobody cancels");
             let rate = film.electron_rate.expect("electrons are folded").mean;
             width = rate.width();
             electrons.push(rate.samples().iter().map(|e| f64::from(*e) * noise.exposure_s()).collect::<Vec<f64>>());
@@ -110,10 +110,10 @@ impl Pictures {
             samples += all as f64 / (rate.samples().len() as f64 * SEEDS as f64);
         }
         let seconds = process_cpu_s() - from_s;
-        let mean = |i: usize| electrons.iter().map(|picture| picture[i]).sum::<f64>() / SEEDS as f64;
-        let of_pixel =
+        let mean = |i: usize| electrons.iter().map(|image| image[i]).sum::<f64>() / SEEDS as f64;
+        let pixel_variance =
             |i: usize| Some(mean(i)).filter(|mean| *mean < noise.white_e()).map(|mean| noise.variance_e2(mean));
-        let sensor_e2 = (0..electrons[0].len()).map(of_pixel).collect();
+        let sensor_e2 = (0..electrons[0].len()).map(pixel_variance).collect();
         Self { width, electrons, sensor_e2, mean_samples: samples, seconds }
     }
 
@@ -132,8 +132,8 @@ impl Pictures {
 
     /// The variance of a pixel over the pictures.
     fn scatter_e2(&self, i: usize) -> f64 {
-        let mean = self.electrons.iter().map(|picture| picture[i]).sum::<f64>() / SEEDS as f64;
-        let squares = self.electrons.iter().map(|picture| (picture[i] - mean) * (picture[i] - mean));
+        let mean = self.electrons.iter().map(|image| image[i]).sum::<f64>() / SEEDS as f64;
+        let squares = self.electrons.iter().map(|image| (image[i] - mean) * (image[i] - mean));
         squares.sum::<f64>() / (SEEDS - 1) as f64
     }
 }
@@ -157,15 +157,15 @@ mod tests {
     fn what_is_left_is_scatter_over_the_sensors_in_squares() {
         // Two squares side by side: scatter 1 over 4, and 0; white pixels are left out.
         let width = 2 * SQUARE;
-        let picture = |k: u64| {
-            let of = |i: usize| if i % width < SQUARE { if k.is_multiple_of(2) { 9.0 } else { 11.0 } } else { 5.0 };
-            (0..width * SQUARE).map(of).collect::<Vec<f64>>()
+        let image_of = |k: u64| {
+            let electrons_at = |i: usize| if i % width < SQUARE { if k.is_multiple_of(2) { 9.0 } else { 11.0 } } else { 5.0 };
+            (0..width * SQUARE).map(electrons_at).collect::<Vec<f64>>()
         };
         let sensor_e2 = (0..width * SQUARE).map(|i| (i != 0).then_some(4.0)).collect();
-        let electrons = (0..SEEDS).map(picture).collect();
-        let pictures = Pictures { width, electrons, sensor_e2, mean_samples: 1.0, seconds: 1.0 };
+        let electrons = (0..SEEDS).map(image_of).collect();
+        let images = SeedImages { width, electrons, sensor_e2, mean_samples: 1.0, seconds: 1.0 };
         // Four numbers ± 1: Σ 4/3.
-        let left = pictures.left();
+        let left = images.left();
         assert!((left[0] - 1.0 / 3.0).abs() < 1e-12 && left[1] == 0.0 && left.len() == 2, "{left:?}");
         assert!((mean_of(&left) - 1.0 / 6.0).abs() < 1e-12);
         assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), 2.0);

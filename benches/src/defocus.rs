@@ -2,17 +2,17 @@
 
 use crate::scenes::{camera, plan_of_text};
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_core::SpectralCube;
 use etendue_core::quantity::Radiance;
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
-use etendue_pipeline::defocus::seen;
+use etendue_pipeline::defocus::pupil_mean_radiance;
 use etendue_pipeline::plan::Route;
 use etendue_pipeline::pupil_depth::pupil_depth;
-use etendue_pipeline::render::{Request, light};
-use etendue_pipeline::stored::Stored;
+use etendue_pipeline::render::{LightRequest, light};
+use etendue_pipeline::stored::StoredRadianceImage;
 use etendue_pipeline::{Plan, Unobserved};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
@@ -40,19 +40,19 @@ pub fn table() -> Table {
     let mut table = Table::new("Depth of field", NOTE, &[head.as_slice(), &["time, ms"]].concat());
     let formula_px = DEPTHS_M.map(|m| expected_px(&plan("pupil", m), m));
     table.row(row("formula, px", formula_px.map(|px| format!("{px:.2}")), "–".to_owned()));
-    let ways: [(&str, Way); 3] = [
+    let methods: [(&str, BlurMethod); 3] = [
         ("through the lens", through_lens),
         ("physical", |plan, pool| at_pupil(plan, pool, DepthOfField::Physical)),
         ("fast", |plan, pool| at_pupil(plan, pool, DepthOfField::Fast(blend(plan)))),
     ];
-    for (name, way) in ways {
-        let mut time_s = Runs::default();
+    for (name, method) in methods {
+        let mut time_s = RunStatistics::default();
         let errors = core::array::from_fn(|i| {
             let route = if name == "through the lens" { "lens" } else { "pupil" };
-            let (picture, seconds) = way(&plan(route, DEPTHS_M[i]), &one);
+            let (image, seconds) = method(&plan(route, DEPTHS_M[i]), &one);
             time_s.add(seconds);
             let dot = if route == "lens" { DOT_PX * DOT_PX } else { 0.0 };
-            format!("{:+.1} %", 100.0 * (diameter_px(&picture, dot) / formula_px[i] - 1.0))
+            format!("{:+.1} %", 100.0 * (diameter_px(&image, dot) / formula_px[i] - 1.0))
         });
         table.row(row(name, errors, format!("{:.0}", 1e3 * time_s.median())));
     }
@@ -60,7 +60,7 @@ pub fn table() -> Table {
 }
 
 /// A picture and the seconds that its blur took.
-type Way = fn(&Plan, &ThreadPool) -> (SpectralCube<Radiance>, f64);
+type BlurMethod = fn(&Plan, &ThreadPool) -> (SpectralCube<Radiance>, f64);
 
 fn row(name: &str, cells: [String; DEPTHS_M.len()], time: String) -> Vec<String> {
     core::iter::once(name.to_owned()).chain(cells).chain([time]).collect()
@@ -104,7 +104,7 @@ fn blend(plan: &Plan) -> FastBlend {
 }
 
 fn through_lens(plan: &Plan, pool: &ThreadPool) -> (SpectralCube<Radiance>, f64) {
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), Request::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
     (film.expect("nobody cancels").radiance().expect("a cube is kept").mean, seconds)
 }
 
@@ -112,18 +112,18 @@ fn at_pupil(plan: &Plan, pool: &ThreadPool, method: DepthOfField) -> (SpectralCu
     let Route::Pupil(projection) = &camera(plan).settings.route else { panic!("the route at the pupil") };
     let (stored, _) = through_lens(plan, pool);
     let depth = pupil_depth(plan, camera(plan), 0, Simd::Auto).expect("the route at the pupil");
-    let stored = Stored { projection, radiance: &stored, distance: Some(&depth.distance) };
-    let filtered = |method| seen(&stored, &camera(plan).body, &method).expect("the picture is covered");
+    let stored = StoredRadianceImage { projection, radiance: &stored, distance: Some(&depth.distance) };
+    let filtered = |method| pupil_mean_radiance(&stored, &camera(plan).body, &method).expect("the picture is covered");
     let (_, resampling_s) = pool.install(|| timed(|| filtered(DepthOfField::None)));
-    let (picture, seconds) = pool.install(|| timed(|| filtered(method)));
-    (picture, seconds - resampling_s)
+    let (image, seconds) = pool.install(|| timed(|| filtered(method)));
+    (image, seconds - resampling_s)
 }
 
 /// The diameter of the disc that has the spread of a picture's light, px; `dot` is the square of the dot's side.
-fn diameter_px(picture: &SpectralCube<Radiance>, dot: f64) -> f64 {
-    let at = |i: usize| DVec2::new((i % picture.width()) as f64, (i / picture.width()) as f64);
+fn diameter_px(image: &SpectralCube<Radiance>, dot: f64) -> f64 {
+    let at = |i: usize| DVec2::new((i % image.width()) as f64, (i / image.width()) as f64);
     let light: Vec<f64> =
-        picture.planes()[picture.planes().len() / 2].samples().iter().map(|l| f64::from(*l)).collect();
+        image.planes()[image.planes().len() / 2].samples().iter().map(|l| f64::from(*l)).collect();
     let sum: f64 = light.iter().sum();
     let mean = light.iter().enumerate().map(|(i, l)| at(i) * *l).sum::<DVec2>() / sum;
     let square: f64 = light.iter().enumerate().map(|(i, l)| at(i).distance_squared(mean) * l).sum();
@@ -138,7 +138,7 @@ mod tests {
     fn the_filter_has_the_diameter_of_the_formula() {
         // 8 px: the pixel's square meets the rim of a disc in few pixels, which leaves a hundredth of the diameter.
         let plan = plan("pupil", 3.0);
-        let (picture, _) = at_pupil(&plan, &pool(1), DepthOfField::Physical);
-        assert!((diameter_px(&picture, 0.0) / expected_px(&plan, 3.0) - 1.0).abs() < 0.02);
+        let (image, _) = at_pupil(&plan, &pool(1), DepthOfField::Physical);
+        assert!((diameter_px(&image, 0.0) / expected_px(&plan, 3.0) - 1.0).abs() < 0.02);
     }
 }

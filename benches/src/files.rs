@@ -1,7 +1,7 @@
 //! Writing a spectral image.
 
 use crate::scenes::{STREET, camera};
-use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::runs::{COUNT, RunStatistics};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::{busiest, pool};
 use etendue_core::SpectralCube;
@@ -9,7 +9,7 @@ use etendue_core::quantity::Radiance;
 use etendue_io::Provenance;
 use etendue_io::exr::encode_spectral;
 use etendue_pipeline::Unobserved;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 
 const NOTE: &str = "Radiance of a small picture of the street (a noisy one: it compresses badly), without its variance, \
     encoded into memory. MB: floating-point numbers before compression. Processor time of one thread, and of the busier of two.";
@@ -18,7 +18,7 @@ const NOTE: &str = "Radiance of a small picture of the street (a noisy one: it c
 pub fn table() -> Table {
     let cube = radiance();
     let encoded = || encode_spectral(&cube, None, &Provenance::default()).expect("a legal image").len();
-    let [mut one, mut two] = [Runs::default(), Runs::default()];
+    let [mut one, mut two] = [RunStatistics::default(), RunStatistics::default()];
     let pools = [pool(1), pool(2)];
     let mut length = 0;
     for _ in 0..COUNT {
@@ -45,6 +45,6 @@ pub fn table() -> Table {
 
 fn radiance() -> SpectralCube<Radiance> {
     let plan = STREET.small_plan();
-    let film = light(&plan, camera(&plan), Request::default(), &Unobserved).expect("nobody cancels");
+    let film = light(&plan, camera(&plan), LightRequest::default(), &Unobserved).expect("nobody cancels");
     film.radiance().expect("the street keeps radiance").mean
 }

@@ -2,7 +2,7 @@
 
 use crate::child;
 use crate::memory::peak_mb;
-use etendue::{Existing, FilmMemory, JobRequest, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, FilmMemory, JobRequest, RenderOptions, Unobserved};
 use etendue_bench_rays::clock::process_cpu_s;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
@@ -16,7 +16,7 @@ const NOTE: &str = "A ball on a floor under an even sky, 12 000 × 8 400 px, 22 
     4 GiB end the benchmark.";
 
 /// Memory that a job may take, MB.
-const BOUND_MB: f64 = 4294.0;
+const MAX_MEMORY_MB: f64 = 4294.0;
 
 /// Jobs: how a camera reaches its sensor, what the sensor is, and what is delivered.
 const JOBS: [(&str, &str, &str, &str); 3] = [
@@ -41,7 +41,7 @@ pub fn table() -> Table {
     for (i, (name, ..)) in JOBS.iter().enumerate() {
         let row = child::row(name, &[CHILD, path, &i.to_string()]);
         let memory_mb = row.last().and_then(|mb| mb.parse::<f64>().ok());
-        assert!(memory_mb.is_none_or(|mb| mb < BOUND_MB), "{name}: {row:?}");
+        assert!(memory_mb.is_none_or(|mb| mb < MAX_MEMORY_MB), "{name}: {row:?}");
         table.row(row);
     }
     table
@@ -54,9 +54,9 @@ pub fn child(folder: &str, job: &str) -> String {
     let output = folder.join("out");
     pool(2).install(|| {
         let request = JobRequest { films, ..JobRequest::new(folder.join(format!("{job}.toml"))) };
-        let job = request.open().unwrap_or_else(|faults| panic!("{faults}"));
-        let saved = job.save(&RenderOptions::default(), &output, Existing::Replace, &Unobserved);
-        saved.unwrap_or_else(|fault| panic!("{fault}"))
+        let job = request.open().unwrap_or_else(|errors| panic!("{errors}"));
+        let result = job.save(&RenderOptions::default(), &output, ExistingFiles::Replace, &Unobserved);
+        result.unwrap_or_else(|error| panic!("{error}"))
     });
     std::fs::remove_dir_all(&output).expect("the folder of temporary files can be written to");
     format!("{:.0} {}", process_cpu_s(), peak_mb())

@@ -2,12 +2,12 @@
 
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
-use etendue_isp::{RawPicture, develop};
+use etendue_isp::{RawImage, develop};
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorParameters, SensorState};
 
@@ -25,15 +25,15 @@ pub fn table() -> Table {
     let development = body.development.as_ref().expect("the street's camera makes pictures");
     let raw = expose(&sensor, &means);
     let one = pool(1);
-    let exposing = Runs::of(|| one.install(|| timed(|| std::hint::black_box(expose(&sensor, &means))).1));
-    let developing = Runs::of(|| one.install(|| timed(|| std::hint::black_box(picture(&raw, development))).1));
+    let exposing = RunStatistics::measure(|| one.install(|| timed(|| std::hint::black_box(expose(&sensor, &means))).1));
+    let developing = RunStatistics::measure(|| one.install(|| timed(|| std::hint::black_box(ramp_image(&raw, development))).1));
     let mut table = Table::new("A frame of two megapixels", NOTE, &["step", "ms", "ns a pixel", "spread"]);
     table.row(row("electrons to raw, all noises", &exposing));
     table.row(row("raw to picture", &developing));
     table
 }
 
-fn row(name: &str, runs: &Runs) -> Vec<String> {
+fn row(name: &str, runs: &RunStatistics) -> Vec<String> {
     let seconds = runs.median();
     let pixel_ns = seconds / (WIDTH * HEIGHT) as f64 * 1e9;
     vec![name.to_owned(), format!("{:.0}", seconds * 1e3), format!("{pixel_ns:.0}"), runs.spread_text()]
@@ -56,13 +56,13 @@ fn expose(sensor: &Sensor, means: &Plane<MeanElectrons>) -> Raw {
     sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 }).1
 }
 
-fn picture(raw: &Raw, development: &Development) -> etendue_isp::Developed {
-    let picture = RawPicture {
+fn ramp_image(raw: &Raw, development: &Development) -> etendue_isp::DevelopmentResult {
+    let image = RawImage {
         plane: &raw.plane,
         black_level_dn: raw.black_level_dn,
         white_level_dn: raw.white_level_dn,
         mosaic: &development.mosaic,
         optical_black: None,
     };
-    develop(&picture, &development.processing, FrameAddress::default()).expect("the camera's own processing")
+    develop(&image, &development.processing, FrameAddress::default()).expect("the camera's own processing")
 }

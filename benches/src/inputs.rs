@@ -10,12 +10,12 @@ use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, layers_image};
+use etendue_io::exr::{ExrLayer, layers_image};
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::mesh::read_mesh;
 use etendue_io::photograph::Encoding;
 use etendue_io::photometry::read_photometry;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_io::png::encode_display;
 use etendue_io::trajectory::read_trajectory;
 use std::fs::File;
@@ -42,10 +42,10 @@ struct Input {
 
 const INPUTS: [Input; 10] = [
     Input { name: "OBJ, 10 million triangles", file: "hills.obj", make: hills, read: mesh },
-    Input { name: "PNG, 8192 × 8192 px of 3 × 8 bits", file: "stripes.png", make: png, read: picture },
-    Input { name: "JPEG, 8192 × 8192 px", file: "stripes.jpg", make: jpeg, read: picture },
-    Input { name: "Radiance HDR, 8192 × 8192 px", file: "stripes.hdr", make: |file| hdr(file, SIDE), read: picture },
-    Input { name: "EXR, 8192 × 8192 px of 3 × 32 bits", file: "stripes.exr", make: exr, read: picture },
+    Input { name: "PNG, 8192 × 8192 px of 3 × 8 bits", file: "stripes.png", make: png, read: read_image },
+    Input { name: "JPEG, 8192 × 8192 px", file: "stripes.jpg", make: jpeg, read: read_image },
+    Input { name: "Radiance HDR, 8192 × 8192 px", file: "stripes.hdr", make: |file| hdr(file, SIDE), read: read_image },
+    Input { name: "EXR, 8192 × 8192 px of 3 × 32 bits", file: "stripes.exr", make: exr, read: read_image },
     Input {
         name: "job under a sky of 8192 × 4096 px (HDR)",
         file: "sky.hdr",
@@ -66,12 +66,12 @@ pub fn table() -> Table {
     let mut table = Table::new("Large inputs", NOTE, &head);
     for (i, input) in INPUTS.iter().enumerate() {
         let path = folder.0.join(input.file);
-        let made = File::create(&path).and_then(|file| {
+        let created = File::create(&path).and_then(|file| {
             let mut file = BufWriter::new(file);
             (input.make)(&mut file)?;
             file.flush()
         });
-        made.expect("the folder of temporary files can be written to");
+        created.expect("the folder of temporary files can be written to");
         let bytes = path.metadata().map_or(0, |facts| facts.len());
         let path_text = path.to_str().expect("a folder of temporary files whose name is text");
         let mut row = child::row(input.name, &[CHILD, &i.to_string(), path_text]);
@@ -102,8 +102,8 @@ fn mesh(file: &Path) {
     std::hint::black_box(read_mesh(file).expect("readable"));
 }
 
-fn picture(file: &Path) {
-    std::hint::black_box(read_picture(file).expect("readable"));
+fn read_image(file: &Path) {
+    std::hint::black_box(read_image(file).expect("readable"));
 }
 
 fn trajectory(file: &Path) {
@@ -115,7 +115,7 @@ fn lamp(file: &Path) {
 }
 
 fn job(file: &Path) {
-    std::hint::black_box(JobRequest::new(file).open().unwrap_or_else(|faults| panic!("{faults}")));
+    std::hint::black_box(JobRequest::new(file).open().unwrap_or_else(|errors| panic!("{errors}")));
 }
 
 /// A job beside the sky's picture.
@@ -158,7 +158,7 @@ fn jpeg(file: &mut BufWriter<File>) -> io::Result<()> {
 fn exr(file: &mut BufWriter<File>) -> io::Result<()> {
     let places = || (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
     let planes = [0, 1, 2].map(|c| places().map(|(x, y)| f32::from(byte(x, y, c))).collect::<Vec<f32>>());
-    let layers = ["R", "G", "B"].iter().zip(&planes).map(|(name, plane)| ((*name).to_owned(), Layer::Float(plane)));
+    let layers = ["R", "G", "B"].iter().zip(&planes).map(|(name, plane)| ((*name).to_owned(), ExrLayer::Float(plane)));
     let layers: Vec<_> = layers.collect();
     layers_image(SIDE, SIDE, &layers, &Provenance::default()).write_to(file).map_err(io::Error::other)
 }

@@ -2,10 +2,10 @@
 
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
-use etendue_pipeline::render::{Request, light, light_counts};
+use etendue_pipeline::render::{LightRequest, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 
@@ -19,7 +19,7 @@ const SMALL: [&str; 3] =
     ["cameras.0.sensor.width_px=160", "cameras.0.sensor.height_px=100", "cameras.0.sensor.pixel_pitch_um=36"];
 const SPP: u32 = 16;
 const SEEDS: u64 = 3;
-const TRIMMED: f64 = 0.001;
+const TRIMMED_FRACTION: f64 = 0.001;
 const FLOOR: f64 = 0.01;
 
 /// Cost and error against the number of lamps.
@@ -27,7 +27,7 @@ pub fn table() -> Table {
     let head = ["lamps", "start, ms", "µs a path", "beside", "relative error²", "beside", "spread of times"];
     let mut table = Table::new("Lamps", NOTE, &head);
     let one = pool(1);
-    let measured: Vec<Measured> = COUNTS.iter().map(|count| Measured::of(&mut plan(*count), &one)).collect();
+    let measured: Vec<LampMeasurement> = COUNTS.iter().map(|count| LampMeasurement::measure(&mut plan(*count), &one)).collect();
     for (count, this) in COUNTS.iter().zip(&measured) {
         table.row(this.row(*count, &measured[0]));
     }
@@ -35,22 +35,22 @@ pub fn table() -> Table {
 }
 
 /// What is measured under a number of lamps.
-struct Measured {
+struct LampMeasurement {
     start_s: f64,
-    path_s: Runs,
+    path_s: RunStatistics,
     error: f64,
 }
 
-impl Measured {
-    fn of(plan: &mut Plan, pool: &ThreadPool) -> Self {
+impl LampMeasurement {
+    fn measure(plan: &mut Plan, pool: &ThreadPool) -> Self {
         let (_, start_s) = timed(|| light_counts(plan, camera(plan)));
-        let (mut path_s, mut pictures) = (Runs::default(), vec![]);
+        let (mut path_s, mut images) = (RunStatistics::default(), vec![]);
         for seed in 1..=SEEDS {
-            let (picture, seconds) = rendered(plan, pool, seed);
-            path_s.add((seconds - start_s) / (picture.len() as f64 * f64::from(SPP)));
-            pictures.push(picture);
+            let (image, seconds) = rendered(plan, pool, seed);
+            path_s.add((seconds - start_s) / (image.len() as f64 * f64::from(SPP)));
+            images.push(image);
         }
-        Self { start_s, path_s, error: relative_error(&pictures) }
+        Self { start_s, path_s, error: relative_error(&images) }
     }
 
     fn row(&self, count: u32, first: &Self) -> Vec<String> {
@@ -93,25 +93,25 @@ fn scene(lamps: u32) -> String {
 fn rendered(plan: &mut Plan, pool: &ThreadPool, seed: u64) -> (Vec<f32>, f64) {
     let settings = &mut plan.cameras[0].settings;
     (settings.spp, settings.seed) = (SPP, seed);
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), Request::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
     let electrons = film.expect("nobody cancels").electron_rate.expect("the street's camera folds electrons");
     (electrons.mean.samples().to_vec(), seconds)
 }
 
 /// Mean relative square error of a picture, told by the scatter of independent ones.
-fn relative_error(pictures: &[Vec<f32>]) -> f64 {
-    let n = pictures.len() as f64;
-    let mean_of = |i: usize| pictures.iter().map(|p| f64::from(p[i])).sum::<f64>() / n;
-    let means: Vec<f64> = (0..pictures[0].len()).map(mean_of).collect();
+fn relative_error(images: &[Vec<f32>]) -> f64 {
+    let n = images.len() as f64;
+    let mean_of = |i: usize| images.iter().map(|p| f64::from(p[i])).sum::<f64>() / n;
+    let means: Vec<f64> = (0..images[0].len()).map(mean_of).collect();
     let floor = FLOOR * means.iter().sum::<f64>() / means.len() as f64;
     let error = |(i, mean): (usize, &f64)| {
-        let squares: f64 = pictures.iter().map(|p| f64::from(p[i]) - mean).map(|d| d * d).sum();
+        let squares: f64 = images.iter().map(|p| f64::from(p[i]) - mean).map(|d| d * d).sum();
         squares / (n - 1.0) / (mean * mean + floor * floor)
     };
     let mut errors: Vec<f64> = means.iter().enumerate().map(error).collect();
     errors.sort_by(f64::total_cmp);
-    let kept = (errors.len() as f64 * (1.0 - TRIMMED)).ceil() as usize;
-    errors[..kept].iter().sum::<f64>() / kept as f64
+    let trimmed_count = (errors.len() as f64 * (1.0 - TRIMMED_FRACTION)).ceil() as usize;
+    errors[..trimmed_count].iter().sum::<f64>() / trimmed_count as f64
 }
 
 #[cfg(test)]

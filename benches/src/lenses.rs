@@ -1,7 +1,7 @@
 //! Time of a ray through each kind of lens.
 
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::runs::{COUNT, RunStatistics};
 use etendue_bench_rays::table::Table;
 use etendue_core::quantity::Irradiance;
 use etendue_core::{Bands, SpectralCube};
@@ -61,7 +61,7 @@ const LENSES: [(&str, &str); 12] = [
 /// Nanoseconds of a ray, for every kind of lens.
 pub fn table() -> Table {
     let bodies = LENSES.map(|(_, keys)| body(keys));
-    let mut times = LENSES.map(|_| Runs::default());
+    let mut times = LENSES.map(|_| RunStatistics::default());
     let mut open = LENSES.map(|_| 0);
     for _ in 0..COUNT {
         for ((body, times), open) in bodies.iter().zip(&mut times).zip(&mut open) {
@@ -72,9 +72,9 @@ pub fn table() -> Table {
     }
     let mut table = Table::new("Rays through lenses", NOTE, &["lens", "ns a ray", "open", "spread"]);
     for (((name, _), times), open) in LENSES.iter().zip(&times).zip(open) {
-        let share = 100.0 * f64::from(open) / f64::from(RAYS);
+        let percent = 100.0 * f64::from(open) / f64::from(RAYS);
         let cells =
-            [format!("{:.0}", times.median()), format!("{share:.0} %"), format!("± {:.0} %", 100.0 * times.spread())];
+            [format!("{:.0}", times.median()), format!("{percent:.0} %"), format!("± {:.0} %", 100.0 * times.spread())];
         table.row([(*name).to_owned()].into_iter().chain(cells));
     }
     table
@@ -89,14 +89,14 @@ pub fn ghosts() -> Table {
     for (name, coating) in [("bare", "\"uncoated\""), ("a quarter wave", "{ quarter_wave_nm = 550 }")] {
         let lens = "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"";
         let body = body(&format!("{lens}\ncoating = {coating}"));
-        let (mut times, mut share) = (Runs::default(), 0.0);
+        let (mut times, mut ratio) = (RunStatistics::default(), 0.0);
         for _ in 0..COUNT {
             let (light, seconds) = alone(|| timed(|| light_of_ghosts(&body)));
             times.add(1e3 * seconds);
-            share = light;
+            ratio = light;
         }
         let cells =
-            [format!("{:.0}", times.median()), format!("{share:.1e}"), format!("± {:.0} %", 100.0 * times.spread())];
+            [format!("{:.0}", times.median()), format!("{ratio:.1e}"), format!("± {:.0} %", 100.0 * times.spread())];
         table.row([name.to_owned()].into_iter().chain(cells));
     }
     table
@@ -113,24 +113,24 @@ fn light_of_ghosts(body: &CameraBody) -> f64 {
     let Lens::Prescription(lens) = &body.lens else { panic!("a lens of surfaces") };
     let raster = Raster::centred(450, 300, 0.08).expect("a raster");
     let bands = Bands::new(400.0, 40.0, 8).expect("bands");
-    let mut picture = SpectralCube::new(450, 300, bands);
-    for plane in picture.planes_mut() {
+    let mut image = SpectralCube::new(450, 300, bands);
+    for plane in image.planes_mut() {
         plane.samples_mut().fill(1.0);
         (0..60).for_each(|i| plane.set(100 + i % 8, 70 + i / 8, 1e5));
     }
-    let layer = layer(&picture, lens, &raster, GhostSettings::default()).expect("of the raster's size");
+    let layer = layer(&image, lens, &raster, GhostSettings::default()).expect("of the raster's size");
     let sum = |cube: &SpectralCube<Irradiance>| {
         cube.planes().iter().flat_map(|plane| plane.samples()).map(|v| f64::from(*v)).sum::<f64>()
     };
-    sum(&layer) / sum(&picture)
+    sum(&layer) / sum(&image)
 }
 
 /// A camera with a picture of 36 × 24 mm.
 fn body(lens: &str) -> CameraBody {
     let text = format!("format = 1\n[sensor]\nwidth_px = 900\nheight_px = 600\npixel_pitch_um = 40\n[lens]\n{lens}\n");
     let camera = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());
-    let camera = camera.unwrap_or_else(|faults| panic!("{faults}"));
-    compile_camera(&camera, &Assets::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+    let camera = camera.unwrap_or_else(|errors| panic!("{errors}"));
+    compile_camera(&camera, &Assets::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 /// How many rays come through.

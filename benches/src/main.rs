@@ -77,8 +77,8 @@ fn main() -> ExitCode {
             println!("{}", memory::child(scene));
             ExitCode::SUCCESS
         }
-        [flag, way] if flag == instances::CHILD => {
-            println!("{}", instances::child(way));
+        [flag, world] if flag == instances::CHILD => {
+            println!("{}", instances::child(world));
             ExitCode::SUCCESS
         }
         [flag, name] if flag == sensor::CHILD => {
@@ -116,8 +116,8 @@ fn answer(lines: Result<Vec<String>, String>) -> ExitCode {
             lines.iter().for_each(|line| println!("{line}"));
             ExitCode::SUCCESS
         }
-        Err(what) => {
-            eprintln!("{what}");
+        Err(message) => {
+            eprintln!("{message}");
             ExitCode::from(2)
         }
     }

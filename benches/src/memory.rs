@@ -5,7 +5,7 @@ use crate::scenes::{ALL, Scene, camera};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::Unobserved;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 
 /// The argument that makes this program a child that measures the scene named next.
 pub const CHILD: &str = "--peak-memory-of";
@@ -27,7 +27,7 @@ pub fn child(scene: &str) -> String {
     let plan = Scene::named(scene).thin_plan();
     let compiled = peak_mb();
     let camera = camera(&plan);
-    let film = pool(2).install(|| light(&plan, camera, Request::default(), &Unobserved));
+    let film = pool(2).install(|| light(&plan, camera, LightRequest::default(), &Unobserved));
     std::hint::black_box(film.expect("nobody cancels"));
     let (width, height) = camera.film_size();
     let film_mb = camera.film_layout().bytes(width as usize, height as usize) / 1e6;
@@ -46,8 +46,8 @@ pub fn resident_mb() -> String {
     status_mb("VmRSS:").map_or_else(|| "unknown".to_owned(), |mb| format!("{mb:.1}"))
 }
 
-fn status_mb(of: &str) -> Option<f64> {
+fn status_mb(field: &str) -> Option<f64> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
-    let kib = text.lines().find_map(|line| line.strip_prefix(of)?.split_whitespace().next()?.parse::<f64>().ok());
+    let kib = text.lines().find_map(|line| line.strip_prefix(field)?.split_whitespace().next()?.parse::<f64>().ok());
     kib.map(|kib| kib * 1024.0 / 1e6)
 }

@@ -2,10 +2,10 @@
 
 use crate::scenes::{STREET, camera, text_of};
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::runs::{COUNT, RunStatistics};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
-use etendue_pipeline::render::{Request, light, light_counts};
+use etendue_pipeline::render::{LightRequest, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 use std::fmt::Write as _;
@@ -41,8 +41,8 @@ pub fn table() -> Table {
     let mut table = Table::new("Motion", NOTE, &head);
     let plans = WORLDS.map(|(_, moves, shutter)| plan(moves, shutter));
     let one = pool(1);
-    let mut starts: [Runs; 3] = Default::default();
-    let mut frames: [Runs; 3] = Default::default();
+    let mut starts: [RunStatistics; 3] = Default::default();
+    let mut frames: [RunStatistics; 3] = Default::default();
     for _ in 0..COUNT {
         for (i, plan) in plans.iter().enumerate() {
             starts[i].add(one.install(|| timed(|| light_counts(plan, camera(plan)))).1);
@@ -67,7 +67,7 @@ pub fn table() -> Table {
 
 /// Processor time of a frame, s.
 fn frame_s(plan: &Plan, pool: &ThreadPool) -> f64 {
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), Request::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
     std::hint::black_box(film.expect("nobody cancels"));
     seconds
 }
@@ -76,13 +76,13 @@ fn frame_s(plan: &Plan, pool: &ThreadPool) -> f64 {
 fn plan(moves: bool, shutter: &str) -> Plan {
     let mut scene = text_of("street/scene.toml");
     (0..VEHICLES).for_each(|i| {
-        let (lane_m, way) = if i % 2 == 0 { (-1.6, 1.0) } else { (1.7, -1.0) };
+        let (lane_m, sign) = if i % 2 == 0 { (-1.6, 1.0) } else { (1.7, -1.0) };
         let mesh = ["saloon", "hatchback", "van"][i % 3];
-        add(&mut scene, mesh, [9.0 + 7.0 * (i / 2) as f64, lane_m], if moves { 12.0 * way } else { 0.0 });
+        add(&mut scene, mesh, [9.0 + 7.0 * (i / 2) as f64, lane_m], if moves { 12.0 * sign } else { 0.0 });
     });
     (0..PEOPLE).for_each(|i| {
-        let (side_m, way) = if i % 2 == 0 { (-6.5, 1.0) } else { (6.5, -1.0) };
-        add(&mut scene, "walker", [7.0 + 4.0 * (i / 2) as f64, side_m], if moves { 1.4 * way } else { 0.0 });
+        let (side_m, sign) = if i % 2 == 0 { (-6.5, 1.0) } else { (6.5, -1.0) };
+        add(&mut scene, "walker", [7.0 + 4.0 * (i / 2) as f64, side_m], if moves { 1.4 * sign } else { 0.0 });
     });
     let shutter = format!("cameras.0.sensor.shutter={shutter}");
     let changes: Vec<&str> = SMALL.into_iter().chain([shutter.as_str()]).collect();
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn fifty_objects_move_or_stand() {
-        let moving = |plan: &Plan| plan.world.instances().iter().filter(|i| i.to_world.as_still().is_none()).count();
+        let moving = |plan: &Plan| plan.world.instances().iter().filter(|i| i.to_world.as_constant().is_none()).count();
         let (_, moves, shutter) = WORLDS[2];
         assert_eq!(moving(&plan(moves, shutter)), VEHICLES + PEOPLE);
         assert_eq!(moving(&plan(false, WORLDS[0].2)), 0);

@@ -1,7 +1,7 @@
 //! A mesh of a million triangles from its OBJ file to the first ray.
 
 use etendue_bench_rays::clock::{clock_s, process_cpu_s};
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::terrain;
 use etendue_bench_rays::threads::pool;
@@ -29,7 +29,7 @@ const STAGES: [&str; 4] = ["read the file", "check the mesh", "build the tree", 
 pub fn table() -> Table {
     let file = HillsFile::new();
     let two = pool(2);
-    let mut clock: [Runs; STAGES.len() + 1] = Default::default();
+    let mut clock: [RunStatistics; STAGES.len() + 1] = Default::default();
     let mut cpu = clock.clone();
     for _ in 0..etendue_bench_rays::runs::COUNT {
         let times = two.install(|| stages(&file.0));
@@ -58,7 +58,7 @@ fn stages(file: &Path) -> [(f64, f64); STAGES.len()] {
     let (world, building) = both(|| {
         let mut builder = WorldBuilder::new();
         let shape = Shape::Mesh(builder.add_mesh(mesh));
-        let to_world = Motion::still(DAffine3::IDENTITY);
+        let to_world = Motion::constant(DAffine3::IDENTITY);
         builder.add_instance(Instance {
             shape,
             to_world,

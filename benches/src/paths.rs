@@ -2,10 +2,10 @@
 
 use crate::scenes::{ALL, Scene, camera};
 use etendue_bench_rays::clock::{clock_s, timed};
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::{busiest, pool};
-use etendue_pipeline::render::{Request, light, light_counts};
+use etendue_pipeline::render::{LightRequest, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 
@@ -18,13 +18,13 @@ const COUNT: usize = 3;
 
 /// What is measured of a scene.
 #[derive(Default)]
-struct Measured {
+struct PathMeasurement {
     /// Processor time of one thread, s.
-    one_cpu: Runs,
+    one_cpu: RunStatistics,
     /// Time by the clock of one thread, over that of two.
-    clock_ratio: Runs,
+    clock_ratio: RunStatistics,
     /// Processor time of one thread, over that of the busier of two.
-    cpu_ratio: Runs,
+    cpu_ratio: RunStatistics,
 }
 
 /// Paths a second of all scenes.
@@ -65,8 +65,8 @@ fn row(scene: &Scene, pools: &[ThreadPool; 2]) -> Vec<String> {
 }
 
 /// One thread and two take turns.
-fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> Measured {
-    let mut measured = Measured::default();
+fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> PathMeasurement {
+    let mut measured = PathMeasurement::default();
     for _ in 0..COUNT {
         let (one_clock, one_cpu) = rendered(plan, one);
         let (two_clock, two_cpu) = rendered(plan, two);
@@ -81,7 +81,7 @@ fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> Measured
 /// Time by the clock, and processor time of the busiest thread, of one rendering, s.
 fn rendered(plan: &Plan, pool: &ThreadPool) -> (f64, f64) {
     let start = clock_s();
-    let (film, cpu) = busiest(pool, || light(plan, camera(plan), Request::default(), &Unobserved));
+    let (film, cpu) = busiest(pool, || light(plan, camera(plan), LightRequest::default(), &Unobserved));
     let clock = clock_s() - start;
     std::hint::black_box(film.expect("nobody cancels"));
     (clock, cpu)

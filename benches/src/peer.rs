@@ -12,7 +12,7 @@ use etendue_bench_rays::clock::cpu_s;
 use etendue_bench_rays::machine;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 use std::path::Path;
@@ -23,7 +23,7 @@ pub const FLAG: &str = "--peer";
 const USAGE: &str = "expected JOB.toml OUT.f32 SPP THREADS SEED…, numbers of 0 or more";
 
 /// What is asked for.
-struct Order<'a> {
+struct PeerRequest<'a> {
     plan: Plan,
     pool: ThreadPool,
     out: &'a str,
@@ -35,7 +35,7 @@ struct Order<'a> {
 /// A sentence where the arguments are no such order, the job folds no electrons or a file cannot be written.
 pub fn rendered(arguments: &[String]) -> Result<Vec<String>, String> {
     let [job, out, spp, threads, seeds @ ..] = arguments else { return Err(USAGE.to_owned()) };
-    let mut order = Order { plan: plan_of(Path::new(job)), pool: pool(number(threads)?), out };
+    let mut order = PeerRequest { plan: plan_of(Path::new(job)), pool: pool(number(threads)?), out };
     order.render(1, 0);
     let spp = number(spp)?;
     let kernels = std::iter::once(Ok(format!("# {}", machine::our_set())));
@@ -46,11 +46,11 @@ fn number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
     text.parse().map_err(|_| USAGE.to_owned())
 }
 
-impl Order<'_> {
+impl PeerRequest<'_> {
     fn line(&mut self, spp: u32, seed: u64) -> Result<String, String> {
         let (film, seconds) = self.render(spp, seed);
         let sensor = camera(&self.plan).body.sensor.as_ref();
-        let exposed = film.electron_rate.zip(sensor).map(|(r, s)| r.exposed(s.parameters().exposure.exposure_s));
+        let exposed = film.electron_rate.zip(sensor).map(|(r, s)| r.electrons(s.parameters().exposure.exposure_s));
         let electrons = exposed.ok_or("the job folds no electrons; give its camera a sensor")?;
         let bytes: Vec<u8> = electrons.mean.samples().iter().flat_map(|value| value.to_le_bytes()).collect();
         let path = self.out.replace('%', &seed.to_string());
@@ -63,7 +63,7 @@ impl Order<'_> {
         let settings = &mut self.plan.cameras[0].settings;
         (settings.spp, settings.seed) = (spp, seed);
         let before = self.pool.broadcast(|_| cpu_s());
-        let film = self.pool.install(|| light(&self.plan, camera(&self.plan), Request::default(), &Unobserved));
+        let film = self.pool.install(|| light(&self.plan, camera(&self.plan), LightRequest::default(), &Unobserved));
         let after = self.pool.broadcast(|_| cpu_s());
         let seconds = after.iter().zip(&before).map(|(after, before)| after - before).sum();
         (film.expect("nobody cancels"), seconds)

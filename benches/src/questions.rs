@@ -1,6 +1,6 @@
 //! Rays about a plan's first camera, and the file of a scene that the comparison with Embree reads.
 
-pub use etendue_bench_rays::questions::{Questions, about};
+pub use etendue_bench_rays::questions::{RayQueries, about};
 
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::contest_file::ContestFile;
@@ -31,7 +31,7 @@ fn sun(plan: &Plan) -> Vec3 {
 }
 
 /// Questions of all kinds about a plan's first camera, in the order of its pixels.
-pub fn questions(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Vec<Questions> {
+pub fn questions(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Vec<RayQueries> {
     about(primary(camera), sun(plan), view)
 }
 

@@ -1,10 +1,10 @@
 //! Rays a second in the street.
 
-use crate::questions::{Questions, questions};
+use crate::questions::{RayQueries, questions};
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::clock::timed;
 use etendue_bench_rays::flat;
-use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::runs::{COUNT, RunStatistics};
 use etendue_bench_rays::table::Table;
 use etendue_core::TimeInterval;
 use etendue_tracer::accel::Simd;
@@ -29,32 +29,32 @@ pub fn table() -> Table {
     let questions = questions(&plan, camera, &views[0]);
     let head = ["ray", "thousands", "met", "AVX2", "scalar", "as one mesh, AVX2", "as one mesh, scalar", "spread"];
     let mut table = Table::new("Rays in the street", NOTE, &head);
-    for (asked, rates) in questions.iter().zip(measured(&questions, &views)) {
-        table.row(row(asked, asked.ask(&views[0]), &rates));
+    for (queries, rates) in questions.iter().zip(measured(&questions, &views)) {
+        table.row(row(queries, queries.count_hits(&views[0]), &rates));
     }
     table
 }
 
 /// Rates of every kind of ray in every view. Views and kinds take turns, so that their ratios hold on a busy machine.
-fn measured(questions: &[Questions], views: &[RenderSpace<'_>]) -> Vec<Vec<Runs>> {
-    let mut rates = vec![vec![Runs::default(); views.len()]; questions.len()];
+fn measured(questions: &[RayQueries], views: &[RenderSpace<'_>]) -> Vec<Vec<RunStatistics>> {
+    let mut rates = vec![vec![RunStatistics::default(); views.len()]; questions.len()];
     for _ in 0..COUNT {
-        for (asked, rates) in questions.iter().zip(&mut rates) {
-            views.iter().zip(rates).for_each(|(view, rates)| rates.add(rate(asked, view)));
+        for (queries, rates) in questions.iter().zip(&mut rates) {
+            views.iter().zip(rates).for_each(|(view, rates)| rates.add(rate(queries, view)));
         }
     }
     rates
 }
 
-fn rate(asked: &Questions, view: &RenderSpace<'_>) -> f64 {
-    let (_, seconds) = timed(|| std::hint::black_box(asked.ask(view)));
-    asked.rays.len() as f64 / seconds / 1e6
+fn rate(queries: &RayQueries, view: &RenderSpace<'_>) -> f64 {
+    let (_, seconds) = timed(|| std::hint::black_box(queries.count_hits(view)));
+    queries.rays.len() as f64 / seconds / 1e6
 }
 
-fn row(asked: &Questions, met: usize, rates: &[Runs]) -> Vec<String> {
-    let rays = asked.rays.len() as f64;
-    let mut cells = vec![asked.name.to_owned(), format!("{:.0}", rays / 1e3)];
-    cells.push(format!("{:.0} %", 100.0 * met as f64 / rays));
+fn row(queries: &RayQueries, hits: usize, rates: &[RunStatistics]) -> Vec<String> {
+    let rays = queries.rays.len() as f64;
+    let mut cells = vec![queries.name.to_owned(), format!("{:.0}", rays / 1e3)];
+    cells.push(format!("{:.0} %", 100.0 * hits as f64 / rays));
     cells.extend(rates.iter().map(|r| format!("{:.2}", r.median())));
     let spread = rates.iter().map(|r| r.spread()).fold(0.0, f64::max);
     cells.push(format!("± {:.0} %", 100.0 * spread));

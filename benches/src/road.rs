@@ -2,10 +2,10 @@
 
 use crate::scenes::{camera, shipped};
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
-use etendue_pipeline::render::{Request, light, light_counts};
+use etendue_pipeline::render::{LightRequest, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 
@@ -40,19 +40,19 @@ pub fn table() -> Table {
 
 fn row(name: &str, plan: &mut Plan, pool: &ThreadPool) -> Vec<String> {
     let (_, start_s) = timed(|| light_counts(plan, camera(plan)));
-    let (mut path_s, mut pictures) = (Runs::default(), vec![]);
+    let (mut path_s, mut images) = (RunStatistics::default(), vec![]);
     for seed in 1..=SEEDS {
-        let (picture, seconds) = rendered(plan, pool, seed);
-        path_s.add((seconds - start_s) / (picture.len() as f64 * f64::from(SPP)));
-        pictures.push(picture);
+        let (image, seconds) = rendered(plan, pool, seed);
+        path_s.add((seconds - start_s) / (image.len() as f64 * f64::from(SPP)));
+        images.push(image);
     }
-    let squares: Vec<Vec<f64>> = pictures.iter().map(|picture| means(picture)).collect();
-    let mean = pictures.iter().flatten().sum::<f64>() / pictures.iter().flatten().count() as f64;
-    let brightest = pictures.iter().flatten().copied().fold(0.0, f64::max);
+    let squares: Vec<Vec<f64>> = images.iter().map(|image| means(image)).collect();
+    let mean = images.iter().flatten().sum::<f64>() / images.iter().flatten().count() as f64;
+    let brightest = images.iter().flatten().copied().fold(0.0, f64::max);
     vec![
         name.to_owned(),
         format!("{:.2}", path_s.median() * 1e6),
-        format!("{:.1} %", 100.0 * error(&pictures)),
+        format!("{:.1} %", 100.0 * error(&images)),
         format!("{:.2} %", 100.0 * error(&squares)),
         format!("{:.0}", brightest / mean),
         path_s.spread_text(),
@@ -63,26 +63,26 @@ fn row(name: &str, plan: &mut Plan, pool: &ThreadPool) -> Vec<String> {
 fn rendered(plan: &mut Plan, pool: &ThreadPool, seed: u64) -> (Vec<f64>, f64) {
     let settings = &mut plan.cameras[0].settings;
     (settings.spp, settings.seed) = (SPP, seed);
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), Request::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
     let electrons = film.expect("nobody cancels").electron_rate.expect("the street's camera folds electrons");
     (electrons.mean.samples().iter().map(|e| f64::from(*e)).collect(), seconds)
 }
 
 /// Root mean square of the standard errors of all values, told by the scatter of independent pictures, over their mean.
-fn error(pictures: &[Vec<f64>]) -> f64 {
-    let (n, count) = (pictures.len() as f64, pictures[0].len() as f64);
-    let mean_of = |i: usize| pictures.iter().map(|p| p[i]).sum::<f64>() / n;
-    let means: Vec<f64> = (0..pictures[0].len()).map(mean_of).collect();
-    let square = |picture: &Vec<f64>| picture.iter().zip(&means).map(|(p, mean)| (p - mean) * (p - mean)).sum::<f64>();
-    let variance = pictures.iter().map(square).sum::<f64>() / (n - 1.0) / count;
+fn error(images: &[Vec<f64>]) -> f64 {
+    let (n, count) = (images.len() as f64, images[0].len() as f64);
+    let mean_of = |i: usize| images.iter().map(|p| p[i]).sum::<f64>() / n;
+    let means: Vec<f64> = (0..images[0].len()).map(mean_of).collect();
+    let square = |image: &Vec<f64>| image.iter().zip(&means).map(|(p, mean)| (p - mean) * (p - mean)).sum::<f64>();
+    let variance = images.iter().map(square).sum::<f64>() / (n - 1.0) / count;
     variance.sqrt() / (means.iter().sum::<f64>() / count)
 }
 
 /// Means over the squares of a picture.
-fn means(picture: &[f64]) -> Vec<f64> {
+fn means(image: &[f64]) -> Vec<f64> {
     let columns = WIDTH / SQUARE;
-    let mut sums = vec![0.0; columns * (picture.len() / WIDTH / SQUARE)];
-    for (i, value) in picture.iter().enumerate() {
+    let mut sums = vec![0.0; columns * (image.len() / WIDTH / SQUARE)];
+    for (i, value) in image.iter().enumerate() {
         let (x, y) = (i % WIDTH, i / WIDTH);
         sums[y / SQUARE * columns + x / SQUARE] += value / (SQUARE * SQUARE) as f64;
     }
@@ -101,10 +101,10 @@ mod tests {
 
     #[test]
     fn squares_keep_their_places() {
-        let picture: Vec<f64> =
+        let image: Vec<f64> =
             (0..80 * WIDTH).map(|i| f64::from(u8::from(i % WIDTH >= 96 && i / WIDTH < 16))).collect();
-        let found = means(&picture);
-        assert_eq!(found.iter().position(|mean| *mean > 0.5), Some(6));
-        assert_eq!((found.len(), found.iter().sum::<f64>()), (35, 1.0));
+        let actual = means(&image);
+        assert_eq!(actual.iter().position(|mean| *mean > 0.5), Some(6));
+        assert_eq!((actual.len(), actual.iter().sum::<f64>()), (35, 1.0));
     }
 }

@@ -65,7 +65,7 @@ impl Scene {
 
     fn planned(&self, changes: &[&str], spp: u32) -> Plan {
         let mut overrides = Overrides::new(changes);
-        overrides.push_render(&format!("`spp` {spp}"), "spp", &spp.to_string());
+        overrides.add_render(&format!("`spp` {spp}"), "spp", &spp.to_string());
         compiled(&self.job(), &read, &overrides)
     }
 
@@ -81,7 +81,7 @@ pub fn shipped(job: &str, changes: &[&str]) -> Plan {
 
 /// The text of a file of `scenes/`. Panics where it cannot be read.
 pub fn text_of(file: &str) -> String {
-    read(&scenes().join(file)).unwrap_or_else(|fault| panic!("{fault}"))
+    read(&scenes().join(file)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn scenes() -> PathBuf {
@@ -113,10 +113,10 @@ fn compiled(job: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Plan {
 }
 
 fn compiled_within(job: &Path, read: &ReadText<'_>, overrides: &Overrides, memory: &TextureMemory) -> Plan {
-    let description = Description::load(job, read, overrides).unwrap_or_else(|faults| panic!("{faults}"));
+    let description = Description::load(job, read, overrides).unwrap_or_else(|errors| panic!("{errors}"));
     let assets = complete_assets(Assets::default(), &description.assets(), memory, &Sandbox::NONE)
-        .unwrap_or_else(|faults| panic!("{faults:?}"));
-    compile(&description, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+        .unwrap_or_else(|errors| panic!("{errors:?}"));
+    compile(&description, &assets, &Choices::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 /// The first camera of a plan.

@@ -2,7 +2,7 @@
 
 use crate::child;
 use crate::memory::resident_mb;
-use etendue::{Existing, JobRequest, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, RenderOptions, Unobserved};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ const NOTE: &str = "The tests' job with a little of everything (46 × 30 px, mes
     More than a twentieth and 2 MB above that after the hundredth ends the benchmark.";
 
 /// After how many renders is looked.
-const LOOKS: [usize; 6] = [1, 10, 100, 300, 600, 1000];
+const CHECKPOINTS: [usize; 6] = [1, 10, 100, 300, 600, 1000];
 
 /// The look that the last one is compared with.
-const SETTLED: usize = 2;
+const SETTLED_CHECKPOINT: usize = 2;
 
 /// Memory by the number of renders.
 pub fn table() -> Table {
@@ -27,10 +27,10 @@ pub fn table() -> Table {
     let rows: Vec<Vec<String>> =
         answer.lines().map(|line| line.split_whitespace().map(str::to_owned).collect()).collect();
     let memory_mb = |row: &[String]| row[1].parse::<f64>().ok();
-    if let (Some(settled), Some(last)) = (memory_mb(&rows[SETTLED]), memory_mb(&rows[rows.len() - 1])) {
+    if let (Some(settled), Some(last)) = (memory_mb(&rows[SETTLED_CHECKPOINT]), memory_mb(&rows[rows.len() - 1])) {
         assert!(last <= 1.05 * settled + 2.0, "memory grows: {rows:?}");
     }
-    let [settled, last] = [&rows[SETTLED], &rows[rows.len() - 1]];
+    let [settled, last] = [&rows[SETTLED_CHECKPOINT], &rows[rows.len() - 1]];
     assert_eq!(settled[2..], last[2..], "files or threads stay open: {rows:?}");
     rows.into_iter().for_each(|row| table.row(row));
     table
@@ -45,7 +45,7 @@ pub fn child(renders: &str) -> String {
     pool(2).install(|| {
         for done in 1..=renders {
             render(&job, &folder.0);
-            if LOOKS.contains(&done) {
+            if CHECKPOINTS.contains(&done) {
                 lines.push(format!("{done} {} {} {}", resident_mb(), entries("fd"), entries("task")));
             }
         }
@@ -55,14 +55,14 @@ pub fn child(renders: &str) -> String {
 
 fn render(job: &Path, folder: &Path) {
     let request = JobRequest { spp: Some(2), ..JobRequest::new(job) };
-    let job = request.open().unwrap_or_else(|faults| panic!("{faults}"));
-    let saved = job.save(&RenderOptions::default(), folder, Existing::Replace, &Unobserved);
-    saved.unwrap_or_else(|fault| panic!("{fault}"));
+    let job = request.open().unwrap_or_else(|errors| panic!("{errors}"));
+    let result = job.save(&RenderOptions::default(), folder, ExistingFiles::Replace, &Unobserved);
+    result.unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// How many entries a folder of this process has: what is open (`fd`), or threads (`task`).
-fn entries(of: &str) -> String {
-    let entries = std::fs::read_dir(Path::new("/proc/self").join(of));
+fn entries(folder_path: &str) -> String {
+    let entries = std::fs::read_dir(Path::new("/proc/self").join(folder_path));
     entries.map_or_else(|_| "unknown".to_owned(), |entries| entries.count().to_string())
 }
 

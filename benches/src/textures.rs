@@ -12,7 +12,7 @@ use etendue_io::TextureMemory;
 use etendue_io::photograph::Encoding;
 use etendue_io::png::encode_display;
 use etendue_pipeline::Unobserved;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -60,7 +60,7 @@ pub fn child(folder: &str, limit_mb: &str) -> String {
     };
     let film = pool(2).install(|| {
         let plan = plan_within(&folder.join("job.toml"), &memory);
-        light(&plan, camera(&plan), Request::default(), &Unobserved)
+        light(&plan, camera(&plan), LightRequest::default(), &Unobserved)
     });
     std::hint::black_box(film.expect("nobody cancels"));
     format!("{:.1} {}", process_cpu_s(), peak_mb())
@@ -74,10 +74,10 @@ impl JobFolder {
         let folder = Self(std::env::temp_dir().join(format!("etendue-textures-{}", std::process::id())));
         let write = |name: String, bytes: &[u8]| std::fs::write(folder.0.join(name), bytes);
         let written = std::fs::create_dir_all(&folder.0).and_then(|()| write("job.toml".to_owned(), job().as_bytes()));
-        let picture = picture();
+        let image = texture_image();
         // What follows the end of a PNG is not a part of it, and makes another file.
-        let pictures = (0..PICTURES).try_for_each(|i| write(format!("{i}.png"), &[&picture[..], &[i as u8]].concat()));
-        written.and(pictures).expect("the folder of temporary files can be written to");
+        let images = (0..PICTURES).try_for_each(|i| write(format!("{i}.png"), &[&image[..], &[i as u8]].concat()));
+        written.and(images).expect("the folder of temporary files can be written to");
         folder
     }
 }
@@ -107,10 +107,10 @@ fn job() -> String {
 }
 
 /// A PNG of stripes that are small as a file.
-fn picture() -> Vec<u8> {
+fn texture_image() -> Vec<u8> {
     let byte = |x: usize, y: usize, c: usize| (16 + (x * (3 + c) + y * 6 + (x * y) / 64) % 200) as f32;
     let places = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
     let samples = places.map(|(x, y)| [0, 1, 2].map(|c| byte(x, y, c) / 255.0)).collect();
-    let picture = Plane::<Display>::from_samples(SIDE, SIDE, samples).expect("as many as it takes");
-    encode_display(&picture, &Encoding::Srgb).expect("encodable")
+    let image = Plane::<Display>::from_samples(SIDE, SIDE, samples).expect("as many as it takes");
+    encode_display(&image, &Encoding::Srgb).expect("encodable")
 }

@@ -3,7 +3,7 @@
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::clock::timed;
 use etendue_bench_rays::flat;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_tracer::accel::{World, WorldBuilder};
@@ -26,8 +26,8 @@ pub fn table() -> Table {
 
 fn row(name: &str, world: &World) -> Vec<String> {
     let triangles: usize = world.meshes().iter().map(|mesh| mesh.triangles().len()).sum();
-    let build = Runs::of(|| build_s(world));
-    let view = Runs::of(|| timed(|| std::hint::black_box(world.render_space(glam::DVec3::ZERO))).1);
+    let build = RunStatistics::measure(|| build_s(world));
+    let view = RunStatistics::measure(|| timed(|| std::hint::black_box(world.render_space(glam::DVec3::ZERO))).1);
     vec![
         name.to_owned(),
         triangles.to_string(),

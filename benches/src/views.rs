@@ -2,14 +2,14 @@
 
 use crate::scenes::STREET;
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_optics::PupilProjection;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraPlan, Plan, Route};
-use etendue_pipeline::render::{Request, light};
-use etendue_pipeline::stored::Stored;
+use etendue_pipeline::render::{LightRequest, light};
+use etendue_pipeline::stored::StoredRadianceImage;
 use etendue_pipeline::{Unobserved, compile_camera};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Overrides, load_camera};
@@ -49,8 +49,8 @@ pub fn table() -> Table {
         let Route::Pupil(projection) = &pupil.settings.route else { unreachable!("made so") };
         let film = one.install(|| shot(&plan, &pupil));
         let radiance = film.radiance().expect("a cube").mean;
-        let stored = Stored { projection, radiance: &radiance, distance: None };
-        let (mut lens, mut views, mut last) = (Runs::default(), Runs::default(), Runs::default());
+        let stored = StoredRadianceImage { projection, radiance: &radiance, distance: None };
+        let (mut lens, mut views, mut last) = (RunStatistics::default(), RunStatistics::default(), RunStatistics::default());
         for _ in 0..etendue_bench_rays::runs::COUNT {
             lens.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &direct))).1));
             views.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &pupil))).1));
@@ -59,13 +59,13 @@ pub fn table() -> Table {
             }));
         }
         let pixels = (direct.body.raster.width() * direct.body.raster.height()) as f64;
-        let seen: usize = projection.views().map(|v| v.size()[0] * v.size()[1]).sum();
+        let view_pixels: usize = projection.views().map(|v| v.size()[0] * v.size()[1]).sum();
         table.row([
             name.to_owned(),
             format!("{:.2}", lens.median()),
             format!("{:.2}", views.median() + last.median()),
             format!("{:.3}", last.median()),
-            format!("{:.2}", seen as f64 / pixels),
+            format!("{:.2}", view_pixels as f64 / pixels),
             lens.spread_text(),
         ]);
     }
@@ -73,15 +73,15 @@ pub fn table() -> Table {
 }
 
 fn shot(plan: &Plan, camera: &CameraPlan) -> etendue_pipeline::film::Film {
-    light(plan, camera, Request::default(), &Unobserved).expect("nobody cancels")
+    light(plan, camera, LightRequest::default(), &Unobserved).expect("nobody cancels")
 }
 
 /// The street's camera with another body, by one of the routes.
 fn camera(plan: &Plan, keys: &str, at_pupil: bool) -> CameraPlan {
     let text = format!("format = 1\n[sensor]\n{keys}\n");
     let body = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());
-    let body = compile_camera(&body.unwrap_or_else(|faults| panic!("{faults}")), &Assets::default());
-    let body = body.unwrap_or_else(|faults| panic!("{faults:?}"));
+    let body = compile_camera(&body.unwrap_or_else(|errors| panic!("{errors}")), &Assets::default());
+    let body = body.unwrap_or_else(|errors| panic!("{errors:?}"));
     let mut camera = plan.cameras[0].clone();
     let range = etendue_core::WavelengthRange::new(400.0, 700.0);
     if at_pupil {
@@ -91,7 +91,7 @@ fn camera(plan: &Plan, keys: &str, at_pupil: bool) -> CameraPlan {
     camera.body = body;
     camera.settings.range = range;
     camera.settings.bands = etendue_core::Bands::covering(range.low_nm, range.high_nm, 50.0);
-    camera.settings.folded = false;
+    camera.settings.accumulates_electrons = false;
     camera.settings.spp = 16;
     camera.settings.replicates = 2;
     camera

@@ -2,7 +2,7 @@
 
 use crate::run::Warnings;
 use etendue::chart::{Chart, ChartRequest, make};
-use etendue::{Error, Existing, JobRequest, RenderOptions};
+use etendue::{Error, ExistingFiles, JobRequest, RenderOptions};
 use std::path::PathBuf;
 
 /// A reference camera and what its charts need.
@@ -73,7 +73,7 @@ impl Bench {
     /// A chart drawn into a folder of the bench.
     pub(crate) fn drawn(&self, name: &str, request: &ChartRequest) -> Result<PathBuf, Error> {
         let folder = self.folder.join(name);
-        make(request, &folder, Existing::Refuse)?;
+        make(request, &folder, ExistingFiles::Refuse)?;
         Ok(folder)
     }
 
@@ -82,7 +82,7 @@ impl Bench {
         let folder = self.drawn(name, request)?;
         let mut job = JobRequest::new(folder.join("job.toml"));
         job.set = vec![format!("render.spp={samples}"), "output.ground_truth=false".to_owned()];
-        job.open()?.save(&RenderOptions::default(), &folder.join("render"), Existing::Refuse, &Warnings)?;
+        job.open()?.save(&RenderOptions::default(), &folder.join("render"), ExistingFiles::Refuse, &Warnings)?;
         Ok(folder)
     }
 

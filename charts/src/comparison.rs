@@ -8,7 +8,7 @@ pub(crate) struct Comparison(pub(crate) Value);
 
 /// A bound and what was reached.
 #[derive(Clone, Debug)]
-pub(crate) struct Reached {
+pub(crate) struct BoundResult {
     pub(crate) quantity: String,
     pub(crate) bound: Bound,
     /// In the bound's unit; none where nothing is declared to be 0.
@@ -16,7 +16,7 @@ pub(crate) struct Reached {
     pub(crate) e_n: Option<f64>,
 }
 
-impl Reached {
+impl BoundResult {
     pub(crate) fn holds(&self) -> bool {
         self.bound.holds(self.error, self.e_n)
     }
@@ -24,20 +24,20 @@ impl Reached {
 
 impl Comparison {
     /// Rows of its quantities that are wanted.
-    pub(crate) fn rows<'a>(&'a self, wanted: impl Fn(&str) -> bool + 'a) -> impl Iterator<Item = &'a Value> {
+    pub(crate) fn rows<'a>(&'a self, includes: impl Fn(&str) -> bool + 'a) -> impl Iterator<Item = &'a Value> {
         let rows = self.0["tables"]["quantities"].as_array().into_iter().flatten();
-        rows.filter(move |row| row["quantity"].as_str().is_some_and(&wanted))
+        rows.filter(move |row| row["quantity"].as_str().is_some_and(&includes))
     }
 
     /// The quantities beside their bound, by their relative errors.
-    pub(crate) fn reached(&self, bound: Bound, wanted: impl Fn(&str) -> bool) -> Vec<Reached> {
-        let one = |row: &Value| Reached {
+    pub(crate) fn reached(&self, bound: Bound, includes: impl Fn(&str) -> bool) -> Vec<BoundResult> {
+        let one = |row: &Value| BoundResult {
             quantity: row["quantity"].as_str().unwrap_or_default().to_owned(),
             bound,
             error: row["relative_error_percent"].as_f64(),
             e_n: row["e_n"].as_f64(),
         };
-        self.rows(wanted).map(one).collect()
+        self.rows(includes).map(one).collect()
     }
 
     pub(crate) fn curves(&self) -> impl Iterator<Item = &Value> {
@@ -51,20 +51,20 @@ impl Comparison {
         bound: Bound,
         entry: &str,
         factor: f64,
-    ) -> Result<Reached, etendue::Error> {
+    ) -> Result<BoundResult, etendue::Error> {
         let row = self.curves().next().ok_or_else(|| {
             etendue::Error::coded(etendue::ErrorCode::NotMeasurable, format!("{quantity}: no curve was compared"))
         })?;
         let error = row[entry].as_f64().map(|e| factor * e);
-        Ok(Reached { quantity: quantity.to_owned(), bound, error, e_n: row["e_n"].as_f64() })
+        Ok(BoundResult { quantity: quantity.to_owned(), bound, error, e_n: row["e_n"].as_f64() })
     }
 
     /// A table of the quantities that are wanted.
-    pub(crate) fn quantities(&self, wanted: impl Fn(&str) -> bool) -> String {
+    pub(crate) fn quantities(&self, includes: impl Fn(&str) -> bool) -> String {
         let mut text =
             "\n| quantity | unit | declared | measured | error % | E_n |\n| --- | --- | --- | --- | --- | --- |\n"
                 .to_owned();
-        for row in self.rows(wanted) {
+        for row in self.rows(includes) {
             let word = |key: &str| row[key].as_str().unwrap_or_default().to_owned();
             let (declared, measured) = (number(row["b"]["value"].as_f64()), estimate(&row["a"]));
             let (error, e_n) = (rounded(row["relative_error_percent"].as_f64(), 3), rounded(row["e_n"].as_f64(), 2));
@@ -75,20 +75,20 @@ impl Comparison {
     }
 
     /// Where this is a simulated camera beside a measured one, and `measured` that beside what is declared: a table of all three.
-    pub(crate) fn three(&self, measured: &Self, wanted: impl Fn(&str) -> bool) -> String {
+    pub(crate) fn three_columns(&self, measured: &Self, includes: impl Fn(&str) -> bool) -> String {
         let mut text = "\n| quantity | declared | measured | simulated | simulated less measured, % | E_n |\n| --- | --- | --- | --- | --- | --- |\n".to_owned();
-        for row in self.rows(wanted) {
+        for row in self.rows(includes) {
             let key = row["quantity"].as_str().unwrap_or_default();
             let declared = measured.rows(|k| k == key).next().map_or(Value::Null, |row| row["b"]["value"].clone());
-            let (declared, seen, again) = (number(declared.as_f64()), estimate(&row["b"]), estimate(&row["a"]));
+            let (declared, measured_value, measured_estimate) = (number(declared.as_f64()), estimate(&row["b"]), estimate(&row["a"]));
             let (error, e_n) = (rounded(row["relative_error_percent"].as_f64(), 3), rounded(row["e_n"].as_f64(), 2));
-            text += &format!("| `{key}` | {declared} | {seen} | {again} | {error} | {e_n} |\n");
+            text += &format!("| `{key}` | {declared} | {measured_value} | {measured_estimate} | {error} | {e_n} |\n");
         }
         text
     }
 
     /// A sentence a curve.
-    pub(crate) fn told(&self, words: &str) -> String {
+    pub(crate) fn result_lines(&self, words: &str) -> String {
         let line = |row: &Value| {
             format!(
                 "\n{words}, {} points: largest difference {} ({} %), |E_n| up to {} (limit {}).\n",

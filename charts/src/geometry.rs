@@ -10,7 +10,7 @@ use etendue::chart::{Chart, ChartRequest};
 use etendue::measure::{
     CameraModel, ChartInput, CompareRequest, DistortionRequest, FocalRequest, StatedLength, Target, ViewsRequest,
 };
-use etendue::{Error, ErrorCode, Existing, measure, write_file};
+use etendue::{Error, ErrorCode, ExistingFiles, measure, write_file};
 use std::path::{Path, PathBuf};
 
 /// The chart's place is known to so much, mm: as well as a laboratory knows it.
@@ -27,34 +27,34 @@ fn dots(bench: &Bench) -> Chart {
     Chart::Dots(Dots { size, dot_ratio: 0.5 })
 }
 
-fn picture(dots: &Path) -> PathBuf {
+fn chart_image(dots: &Path) -> PathBuf {
     dots.join("render/camera/picture.0000.png")
 }
 
-fn of_dots() -> ChartInput {
+fn dots_input() -> ChartInput {
     ChartInput { target: Some(Target::Dots), ..ChartInput::default() }
 }
 
 fn distortion(bench: &Bench, dots: &Path) -> Result<Section, Error> {
     let report = bench.folder.join("distortion.json");
-    let request = DistortionRequest { chart: of_dots(), ..DistortionRequest::new(picture(dots)) };
+    let request = DistortionRequest { chart: dots_input(), ..DistortionRequest::new(chart_image(dots)) };
     keep(&measure::distortion(&request)?, &report)?;
     let (plot, shown) = bench.plot("distortion");
-    let found = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
+    let comparison = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Distortion",
-        body: found.quantities(|_| true) + &found.told("Observed over ideal distance") + &shown,
+        body: comparison.quantities(|_| true) + &comparison.result_lines("Observed over ideal distance") + &shown,
         // The curve is a ratio of distances: its relative error is one of the field position.
-        reached: vec![found.curve("distortion curve", bounds::DISTORTION, "largest_relative_error_percent", 1.0)?],
+        reached: vec![comparison.curve("distortion curve", bounds::DISTORTION, "largest_relative_error_percent", 1.0)?],
     })
 }
 
 fn focal(bench: &Bench, dots: &Path) -> Result<Section, Error> {
     let report = measured_focal(bench, dots, "focal")?;
-    let found = compared(&CompareRequest::new(report, bench.file("camera")), None)?;
-    let mut reached = found.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm");
-    reached.iter_mut().for_each(|r| r.quantity = "focal length".to_owned());
-    Ok(Section { title: "Focal length", body: found.quantities(|_| true), reached })
+    let comparison = compared(&CompareRequest::new(report, bench.file("camera")), None)?;
+    let mut results = comparison.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm");
+    results.iter_mut().for_each(|r| r.quantity = "focal length".to_owned());
+    Ok(Section { title: "Focal length", body: comparison.quantities(|_| true), reached: results })
 }
 
 /// Focal length, k1 and k2 of a picture of dots: the report.
@@ -62,13 +62,13 @@ fn measured_focal(bench: &Bench, dots: &Path, name: &str) -> Result<PathBuf, Err
     let (truth, side_car) = (json(&dots.join("truth.json"))?, json(&dots.join("render/camera/camera.json"))?);
     let distance_mm = 1e3 * number(&truth["seen"]["distance_m"], "the chart's distance")?;
     let views = ViewsRequest {
-        chart: of_dots(),
+        chart: dots_input(),
         pitch_mm: Some(number(&truth["sizes"]["pitch_mm"], "the chart's pitch")?),
         model: CameraModel::Radial,
         distance_mm: Some(StatedLength { value: distance_mm, digit: 0.0 }),
         distance_uncertainty_mm: Some(DISTANCE_UNCERTAINTY_MM),
         pixel_pitch_um: Some(number(&side_car["sensor"]["pixel_pitch_um"], "the pixels' pitch")?),
-        ..ViewsRequest::new(vec![picture(dots)])
+        ..ViewsRequest::new(vec![chart_image(dots)])
     };
     let report = bench.folder.join(format!("{name}.json"));
     keep(&measure::focal(&FocalRequest::new(views), &Warnings)?, &report)?;
@@ -76,7 +76,7 @@ fn measured_focal(bench: &Bench, dots: &Path, name: &str) -> Result<PathBuf, Err
 }
 
 /// The camera that was found, simulated, and measured as the first.
-fn simulated(bench: &Bench, found: &Path) -> Result<Section, Error> {
+fn simulated(bench: &Bench, measured_report: &Path) -> Result<Section, Error> {
     let first = bench.folder.join("focal.json");
     let declared = compared(&CompareRequest::new(&first, bench.file("camera")), None)?;
     let file = bench.folder.join("twin.toml");
@@ -84,20 +84,20 @@ fn simulated(bench: &Bench, found: &Path) -> Result<Section, Error> {
     let ratio = declared.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm").first().and_then(|r| r.error);
     let ratio =
         1.0 + 0.01 * ratio.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the focal length is not declared"))?;
-    let text = camera_of(bench, &first, found, ratio)?;
-    write_file(&file, text.as_bytes(), Existing::Replace)?;
+    let text = camera_of(bench, &first, measured_report, ratio)?;
+    write_file(&file, text.as_bytes(), ExistingFiles::Replace)?;
     let request = ChartRequest::new(dots(bench), file.display().to_string());
     let chart = bench.photographed("twin", &request, 16)?;
     let second = measured_focal(bench, &chart, "twin-focal")?;
-    let beside = compared(&CompareRequest::new(second, &first), None)?;
-    let of = |key: &str| ["fx_mm", "k1", "k2"].contains(&key);
-    Ok(Section { title: "Declared, measured and simulated", body: beside.three(&declared, of), reached: Vec::new() })
+    let simulated_comparison = compared(&CompareRequest::new(second, &first), None)?;
+    let is_compared = |key: &str| ["fx_mm", "k1", "k2"].contains(&key);
+    Ok(Section { title: "Declared, measured and simulated", body: simulated_comparison.three_columns(&declared, is_compared), reached: Vec::new() })
 }
 
 /// The reference camera with the focal length and the distortion that were found.
 fn camera_of(bench: &Bench, report: &Path, dots: &Path, ratio: f64) -> Result<String, Error> {
-    let found = json(report)?;
-    let figure = |key: &str| number(&found["figures"][key]["value"], key);
+    let report_json = json(report)?;
+    let figure = |key: &str| number(&report_json["figures"][key]["value"], key);
     let side_car = json(&dots.join("render/camera/camera.json"))?;
     let focal_length_mm = ratio * number(&side_car["optics"]["focal_length_mm"], "the focal length")?;
     let base = std::path::absolute(bench.file("camera")).map_err(Error::input)?;

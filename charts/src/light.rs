@@ -2,22 +2,22 @@
 
 use crate::bounds;
 use crate::cameras::Bench;
-use crate::comparison::Reached;
+use crate::comparison::BoundResult;
 use crate::page::Section;
 use crate::run::{Warnings, compared, json, keep, number};
 use etendue::chart::design::{Backlit, FlatField};
-use etendue::chart::{Chart, ChartRequest, Exposures, Series, Spacing};
+use etendue::chart::{Chart, ChartRequest, Exposures, ExposureSeries, Spacing};
 use etendue::measure::{
-    CompareRequest, FlatFieldRequest, OecfRequest, PictureInput, Selection, SignalLevels, VignettingRequest,
+    CompareRequest, FlatFieldRequest, OecfRequest, MeasurementInput, Selection, SignalLevels, VignettingRequest,
 };
-use etendue::{Error, ErrorCode, Existing, ExposeRequest, JobRequest, RenderOptions, expose, measure};
+use etendue::{Error, ErrorCode, ExistingFiles, ExposeRequest, JobRequest, RenderOptions, expose, measure};
 use std::path::{Path, PathBuf};
 
 const EXPOSURES: usize = 15;
 /// What white reaches in the shortest and the longest exposure, of saturation.
-const RANGE: [f64; 2] = [0.003, 1.3];
+const WHITE_RANGE: [f64; 2] = [0.003, 1.3];
 /// Of the 96 × 72 pixels, where the light is even to 0.1 %.
-const MIDDLE: [usize; 4] = [32, 20, 32, 32];
+const CENTRE_REGION: [usize; 4] = [32, 20, 32, 32];
 
 pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
     Ok(vec![vignetting(bench)?, tone(bench)?])
@@ -27,19 +27,19 @@ fn vignetting(bench: &Bench) -> Result<Section, Error> {
     let chart = bench.request(Chart::FlatField(FlatField { reflectance: 0.9 }), "camera");
     let field = bench.photographed("flat-field", &chart, 64)?;
     let report = bench.folder.join("vignetting.json");
-    let input = PictureInput {
+    let input = MeasurementInput {
         selection: Selection { channel: bench.green(), ..Selection::default() },
         levels: SignalLevels { black: Some(black_dn(bench, &field)?), full_scale: None },
-        ..PictureInput::default()
+        ..MeasurementInput::default()
     };
     let flat = FlatFieldRequest { input, ..FlatFieldRequest::new(field.join("render/camera/raw.0000.png")) };
     keep(&measure::vignetting(&VignettingRequest::new(flat))?, &report)?;
     let (plot, shown) = bench.plot("vignetting");
-    let found = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
+    let comparison = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Vignetting",
-        body: found.quantities(|_| true) + &found.told("Illumination relative to the centre") + &shown,
-        reached: vec![found.curve("vignetting", bounds::VIGNETTING, "largest_relative_error_percent", 1.0)?],
+        body: comparison.quantities(|_| true) + &comparison.result_lines("Illumination relative to the centre") + &shown,
+        reached: vec![comparison.curve("vignetting", bounds::VIGNETTING, "largest_relative_error_percent", 1.0)?],
     })
 }
 
@@ -53,20 +53,20 @@ fn black_dn(bench: &Bench, field: &Path) -> Result<f64, Error> {
 }
 
 fn tone(bench: &Bench) -> Result<Section, Error> {
-    let [lowest, highest] = RANGE;
+    let [lowest, highest] = WHITE_RANGE;
     let exposures = Exposures::spaced(EXPOSURES as u32, Spacing::Log, lowest, highest)
         .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))?;
-    let series = Some(Series { exposures, required: true });
+    let series = Some(ExposureSeries { exposures, required: true });
     let chart = ChartRequest { series, ..bench.request(Chart::Backlit(Backlit), "tone") };
     let panel = bench.drawn("backlit", &chart)?;
     let cameras: Vec<PathBuf> = (1..=EXPOSURES).map(|i| panel.join(format!("exposure-{i:02}.toml"))).collect();
     let shots = exposed(&panel, &cameras)?;
-    let pictures = |name: &str| shots.iter().map(|shot| shot.join(name)).collect::<Vec<_>>();
-    let raw = curve(bench, "raw", bench.green(), OecfRequest::new(pictures("raw.0000.png")))?;
+    let images = |name: &str| shots.iter().map(|shot| shot.join(name)).collect::<Vec<_>>();
+    let raw = curve(bench, "raw", bench.green(), OecfRequest::new(images("raw.0000.png")))?;
     let exposures = shots.iter().map(|shot| exposure_s(shot)).collect::<Result<Vec<f64>, _>>()?;
-    let request = OecfRequest { exposures, ..OecfRequest::new(pictures("picture.0000.png")) };
-    let picture = curve(bench, "picture", Some("G".to_owned()), request)?;
-    Ok(Section { title: "Tone curve, fifteen exposures", body: raw.1 + &picture.1, reached: vec![raw.0, picture.0] })
+    let request = OecfRequest { exposures, ..OecfRequest::new(images("picture.0000.png")) };
+    let developed = curve(bench, "picture", Some("G".to_owned()), request)?;
+    Ok(Section { title: "Tone curve, fifteen exposures", body: raw.1 + &developed.1, reached: vec![raw.0, developed.0] })
 }
 
 /// The light of a panel rendered once, and exposed by each camera: their folders of pictures.
@@ -75,14 +75,14 @@ fn exposed(panel: &Path, cameras: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     job.camera = Some("exposure-01".to_owned());
     let settings = ["render.route=\"pupil\"", "output.radiance=true", "render.spp=64"];
     job.set = settings.map(str::to_owned).to_vec();
-    job.open()?.save(&RenderOptions::default(), &panel.join("light"), Existing::Refuse, &Warnings)?;
+    job.open()?.save(&RenderOptions::default(), &panel.join("light"), ExistingFiles::Refuse, &Warnings)?;
     let light = panel.join("light/exposure-01/radiance.exr");
     let mut shots = Vec::new();
     // Each frame has noise of its own.
     for (seed, camera) in (1..).zip(cameras) {
         let to = panel.join(format!("shot-{seed}"));
         let request = ExposeRequest { seed: Some(seed), ..ExposeRequest::new(&light, camera) };
-        let files = expose(&request, &to, Existing::Refuse, &Warnings)?;
+        let files = expose(&request, &to, ExistingFiles::Refuse, &Warnings)?;
         let folder = files
             .first()
             .and_then(|file| file.parent())
@@ -98,20 +98,20 @@ fn exposure_s(shot: &Path) -> Result<f64, Error> {
 }
 
 /// A tone curve measured and compared.
-fn curve(bench: &Bench, of: &str, channel: Option<String>, request: OecfRequest) -> Result<(Reached, String), Error> {
-    let selection = Selection { channel, region: Some(MIDDLE), ..Selection::default() };
+fn curve(bench: &Bench, output_name: &str, channel: Option<String>, request: OecfRequest) -> Result<(BoundResult, String), Error> {
+    let selection = Selection { channel, region: Some(CENTRE_REGION), ..Selection::default() };
     let measured =
-        measure::oecf(&OecfRequest { input: PictureInput { selection, ..PictureInput::default() }, ..request })?;
-    let report = bench.folder.join(format!("tone-{of}.json"));
+        measure::oecf(&OecfRequest { input: MeasurementInput { selection, ..MeasurementInput::default() }, ..request })?;
+    let report = bench.folder.join(format!("tone-{output_name}.json"));
     keep(&measured, &report)?;
-    let (plot, shown) = bench.plot(&format!("tone-{of}"));
-    let found = compared(&CompareRequest::new(report, bench.file("tone")), Some(&plot))?;
+    let (plot, shown) = bench.plot(&format!("tone-{output_name}"));
+    let comparison = compared(&CompareRequest::new(report, bench.file("tone")), Some(&plot))?;
     let full_scale = measured
         .value("full_scale")
         .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the full scale is not told"))?
         .value;
-    let output = if of == "picture" { "developed image" } else { of };
-    let of = format!("tone curve, {output}");
-    let reached = found.curve(&of, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
-    Ok((reached, found.told(&format!("Value over exposure ({of})")) + &shown))
+    let output = if output_name == "picture" { "developed image" } else { output_name };
+    let title = format!("tone curve, {output}");
+    let result = comparison.curve(&title, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
+    Ok((result, comparison.result_lines(&format!("Value over exposure ({title})")) + &shown))
 }

@@ -18,15 +18,15 @@ mod run;
 
 use cameras::{Bench, CAMERAS, ReferenceCamera};
 use etendue::Error;
-use page::{Report, Section};
+use page::{RecoveryReport, Section};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// A part of the bench, and what it finds.
-type Part = (&'static str, fn(&Bench) -> Result<Vec<Section>, Error>);
+type BenchPart = (&'static str, fn(&Bench) -> Result<Vec<Section>, Error>);
 
-const PARTS: [Part; 4] = [
+const PARTS: [BenchPart; 4] = [
     ("distortion and focal length", geometry::sections),
     // Before the light: what dark current adds to a picture is taken off there.
     ("photon transfer and dark current", electronics::sections),
@@ -52,20 +52,20 @@ fn main() -> ExitCode {
 /// Runs the bench: the bounds that are broken.
 fn validated(names: &[String]) -> Result<Vec<String>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("charts/ lies in the repository")?;
-    std::env::set_current_dir(root).map_err(|cause| cause.to_string())?;
+    std::env::set_current_dir(root).map_err(|error| error.to_string())?;
     let cameras = chosen(names)?;
-    let whole = cameras.len() == CAMERAS.len();
+    let all_cameras = cameras.len() == CAMERAS.len();
     let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/validation".into()));
-    let pictures = if whole { PathBuf::from("docs/evidence/pictures") } else { folder.join("pictures") };
-    std::fs::create_dir_all(&pictures).map_err(|cause| format!("{}: {cause}", pictures.display()))?;
+    let image_folder = if all_cameras { PathBuf::from("docs/evidence/pictures") } else { folder.join("pictures") };
+    std::fs::create_dir_all(&image_folder).map_err(|error| format!("{}: {error}", image_folder.display()))?;
     let report = |camera: &ReferenceCamera| {
         let folder = emptied(&folder.join(camera.name))?;
-        let bench = Bench { camera: *camera, folder, pictures: pictures.clone() };
+        let bench = Bench { camera: *camera, folder, pictures: image_folder.clone() };
         reported(&bench)
     };
     let reports = cameras.iter().map(report).collect::<Result<Vec<_>, String>>()?;
-    let page = if whole { PathBuf::from("docs/evidence/validation.md") } else { folder.join("validation.md") };
-    std::fs::write(&page, page::page(&reports)).map_err(|cause| format!("{}: {cause}", page.display()))?;
+    let page = if all_cameras { PathBuf::from("docs/evidence/validation.md") } else { folder.join("validation.md") };
+    std::fs::write(&page, page::page(&reports)).map_err(|error| format!("{}: {error}", page.display()))?;
     println!("{}", page.display());
     Ok(reports.iter().flat_map(broken).collect())
 }
@@ -80,7 +80,7 @@ fn chosen(names: &[String]) -> Result<Vec<ReferenceCamera>, String> {
 
 /// A folder with nothing of earlier runs in it.
 fn emptied(folder: &Path) -> Result<PathBuf, String> {
-    let message = |cause: std::io::Error| format!("{}: {cause}", folder.display());
+    let message = |error: std::io::Error| format!("{}: {error}", folder.display());
     if folder.exists() {
         std::fs::remove_dir_all(folder).map_err(message)?;
     }
@@ -88,19 +88,19 @@ fn emptied(folder: &Path) -> Result<PathBuf, String> {
     Ok(folder.to_path_buf())
 }
 
-fn reported(bench: &Bench) -> Result<Report, String> {
+fn reported(bench: &Bench) -> Result<RecoveryReport, String> {
     let mut sections = Vec::new();
-    for (what, part) in PARTS {
+    for (title, part) in PARTS {
         let start = Instant::now();
-        eprint!("{}: {what} … ", bench.camera.name);
+        eprint!("{}: {title} … ", bench.camera.name);
         sections.extend(part(bench).map_err(|error| error.to_string())?);
         eprintln!("{:.0} s", start.elapsed().as_secs_f64());
     }
-    Ok(Report { camera: bench.camera.name, sections })
+    Ok(RecoveryReport { camera: bench.camera.name, sections })
 }
 
-fn broken(report: &Report) -> Vec<String> {
-    let message = |r: &comparison::Reached| {
+fn broken(report: &RecoveryReport) -> Vec<String> {
+    let message = |r: &comparison::BoundResult| {
         format!("{}: {}: {:?}, E_n {:?}; expected {}", report.camera, r.quantity, r.error, r.e_n, r.bound.text())
     };
     report.reached().filter(|r| !r.holds()).map(message).collect()

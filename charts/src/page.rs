@@ -1,23 +1,23 @@
 //! docs/evidence/validation.md.
 
 use crate::bounds::unit;
-use crate::comparison::{Reached, rounded};
+use crate::comparison::{BoundResult, rounded};
 
 /// A part of a camera's report.
 pub(crate) struct Section {
     pub(crate) title: &'static str,
     pub(crate) body: String,
-    pub(crate) reached: Vec<Reached>,
+    pub(crate) reached: Vec<BoundResult>,
 }
 
 /// What was found of a camera.
-pub(crate) struct Report {
+pub(crate) struct RecoveryReport {
     pub(crate) camera: &'static str,
     pub(crate) sections: Vec<Section>,
 }
 
-impl Report {
-    pub(crate) fn reached(&self) -> impl Iterator<Item = &Reached> {
+impl RecoveryReport {
+    pub(crate) fn reached(&self) -> impl Iterator<Item = &BoundResult> {
         self.sections.iter().flat_map(|section| &section.reached)
     }
 }
@@ -39,7 +39,7 @@ just validate     # writes this page; fails where a bound is broken
 ";
 
 /// The whole page.
-pub(crate) fn page(reports: &[Report]) -> String {
+pub(crate) fn page(reports: &[RecoveryReport]) -> String {
     let mut text = format!("{INTRODUCTION}\n{}", summary(reports));
     for report in reports {
         text += &format!("\n## {}\n", report.camera);
@@ -51,29 +51,29 @@ pub(crate) fn page(reports: &[Report]) -> String {
 }
 
 /// A line a quantity, a column a camera.
-fn summary(reports: &[Report]) -> String {
-    let mut quantities: Vec<&Reached> = Vec::new();
-    for reached in reports.iter().flat_map(Report::reached) {
-        if !quantities.iter().any(|q| q.quantity == reached.quantity) {
-            quantities.push(reached);
+fn summary(reports: &[RecoveryReport]) -> String {
+    let mut quantities: Vec<&BoundResult> = Vec::new();
+    for result in reports.iter().flat_map(RecoveryReport::reached) {
+        if !quantities.iter().any(|q| q.quantity == result.quantity) {
+            quantities.push(result);
         }
     }
     let heads: String = reports.iter().map(|r| format!(" {} |", r.camera)).collect();
     let mut text = format!("| quantity | bound |{heads}\n| --- | --- |{}\n", " --- |".repeat(reports.len()));
     for quantity in quantities {
-        let of =
-            |report: &Report| report.reached().find(|r| r.quantity == quantity.quantity).map_or("–".to_owned(), cell);
-        let cells: String = reports.iter().map(|report| format!(" {} |", of(report))).collect();
+        let cell_text =
+            |report: &RecoveryReport| report.reached().find(|r| r.quantity == quantity.quantity).map_or("–".to_owned(), cell);
+        let cells: String = reports.iter().map(|report| format!(" {} |", cell_text(report))).collect();
         text += &format!("| {} | {} |{cells}\n", quantity.quantity.replace('_', " "), quantity.bound.text());
     }
     text
 }
 
-fn cell(reached: &Reached) -> String {
-    let error = reached.error.map(|e| format!("{}{}", rounded(Some(e), 3), unit(short(reached.bound.unit))));
-    let e_n = reached.e_n.map(|e| format!("E_n {}", rounded(Some(e), 2)));
+fn cell(result: &BoundResult) -> String {
+    let error = result.error.map(|e| format!("{}{}", rounded(Some(e), 3), unit(short(result.bound.unit))));
+    let e_n = result.e_n.map(|e| format!("E_n {}", rounded(Some(e), 2)));
     let text = [error, e_n].into_iter().flatten().collect::<Vec<_>>().join(", ");
-    if reached.holds() { text } else { format!("**{text}**") }
+    if result.holds() { text } else { format!("**{text}**") }
 }
 
 /// Of a unit, the sign.

@@ -3,7 +3,7 @@
 use crate::comparison::Comparison;
 use etendue::measure::{CompareRequest, compare};
 use etendue::report::Report;
-use etendue::{Error, ErrorCode, Existing, Message, Observer, write_file};
+use etendue::{Error, ErrorCode, ExistingFiles, Message, Observer, write_file};
 use serde_json::Value;
 use std::path::Path;
 
@@ -21,14 +21,14 @@ impl Observer for Warnings {
 
 /// Keeps a measurement's report.
 pub(crate) fn keep(report: &Report, file: &Path) -> Result<(), Error> {
-    write_file(file, format!("{:#}\n", report.json()).as_bytes(), Existing::Replace)
+    write_file(file, format!("{:#}\n", report.json()).as_bytes(), ExistingFiles::Replace)
 }
 
 /// Two sides compared; draws the curves where a plot is wanted.
 pub(crate) fn compared(request: &CompareRequest, plot: Option<&Path>) -> Result<Comparison, Error> {
     let report = compare(request)?.report;
     if let Some(file) = plot {
-        write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
+        write_file(file, report.svg()?.as_bytes(), ExistingFiles::Replace)?;
     }
     Ok(Comparison(report.json()))
 }
@@ -36,12 +36,12 @@ pub(crate) fn compared(request: &CompareRequest, plot: Option<&Path>) -> Result<
 /// A JSON file.
 pub(crate) fn json(file: &Path) -> Result<Value, Error> {
     let text = std::fs::read_to_string(file)
-        .map_err(|cause| Error::coded(ErrorCode::MalformedFile, format!("{}: {cause}", file.display())))?;
+        .map_err(|error| Error::coded(ErrorCode::MalformedFile, format!("{}: {error}", file.display())))?;
     serde_json::from_str(&text)
-        .map_err(|cause| Error::coded(ErrorCode::MalformedFile, format!("{}: {cause}", file.display())))
+        .map_err(|error| Error::coded(ErrorCode::MalformedFile, format!("{}: {error}", file.display())))
 }
 
 /// A number of a JSON file.
-pub(crate) fn number(value: &Value, what: &str) -> Result<f64, Error> {
-    value.as_f64().ok_or_else(|| Error::coded(ErrorCode::MalformedFile, format!("{what} is not stated")))
+pub(crate) fn number(value: &Value, name: &str) -> Result<f64, Error> {
+    value.as_f64().ok_or_else(|| Error::coded(ErrorCode::MalformedFile, format!("{name} is not stated")))
 }

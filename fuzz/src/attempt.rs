@@ -22,7 +22,7 @@ pub struct Attempt {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// As it should: what it read or refused, in words.
-    Told(String),
+    Returned(String),
     /// By a panic: its place and message.
     Panicked(String),
 }
@@ -30,31 +30,31 @@ pub enum Outcome {
 /// The first panic of an attempt, on whatever thread.
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
-fn panic_told() -> MutexGuard<'static, Option<String>> {
+fn first_panic() -> MutexGuard<'static, Option<String>> {
     PANIC.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Keeps places and messages of panics, and prints none.
 pub fn keep_panics() {
     std::panic::set_hook(Box::new(|info| {
-        let told = info.to_string().replace('\n', " ");
-        panic_told().get_or_insert(told);
+        let message = info.to_string().replace('\n', " ");
+        first_panic().get_or_insert(message);
     }));
 }
 
 /// Has a target read the file that it is prepared for.
 #[must_use]
 pub fn attempt(target: &Target, file: &Path) -> Attempt {
-    *panic_told() = None;
+    *first_panic() = None;
     MEMORY.reset_peak_usage();
     let (before, start) = (MEMORY.current_usage(), processor_time_s());
-    let told = catch_unwind(AssertUnwindSafe(|| (target.read)(file)));
+    let read_result = catch_unwind(AssertUnwindSafe(|| (target.read)(file)));
     let time_s = processor_time_s() - start;
     let peak_bytes = MEMORY.peak_usage().saturating_sub(before) as u64;
-    let outcome = match told {
+    let outcome = match read_result {
         // The folder of the worker has another name each time.
-        Ok(told) => Outcome::Told(told.replace(&*file.with_file_name("").to_string_lossy(), "")),
-        Err(_) => Outcome::Panicked(panic_told().take().unwrap_or_default()),
+        Ok(text) => Outcome::Returned(text.replace(&*file.with_file_name("").to_string_lossy(), "")),
+        Err(_) => Outcome::Panicked(first_panic().take().unwrap_or_default()),
     };
     Attempt { outcome, peak_bytes, time_s }
 }
@@ -63,47 +63,47 @@ pub fn attempt(target: &Target, file: &Path) -> Attempt {
 /// not tell. Threads that have ended are left out: pools last.
 fn processor_time_s() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
-    let of_thread = |thread: std::fs::DirEntry| {
-        let told = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
-        told.split(' ').next()?.parse::<f64>().ok()
+    let thread_time = |thread: std::fs::DirEntry| {
+        let schedstat = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
+        schedstat.split(' ').next()?.parse::<f64>().ok()
     };
     let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-    let nanoseconds: f64 = threads.filter_map(of_thread).sum();
+    let nanoseconds: f64 = threads.filter_map(thread_time).sum();
     if nanoseconds > 0.0 { 1e-9 * nanoseconds } else { START.elapsed().as_secs_f64() }
 }
 
 impl Attempt {
     /// What is wrong with it, for an input of this length; `None` where nothing is.
     #[must_use]
-    pub fn fault(&self, target: &Target, length: usize) -> Option<String> {
-        if let Outcome::Panicked(told) = &self.outcome {
-            return Some(format!("panic: {told}"));
+    pub fn finding(&self, target: &Target, length: usize) -> Option<String> {
+        if let Outcome::Panicked(message) = &self.outcome {
+            return Some(format!("panic: {message}"));
         }
-        let most = target.most_bytes(length);
-        if self.peak_bytes > most {
-            return Some(format!("memory: {} bytes, where {length} bytes of input may take {most}", self.peak_bytes));
+        let max_bytes = target.max_bytes(length);
+        if self.peak_bytes > max_bytes {
+            return Some(format!("memory: {} bytes, where {length} bytes of input may take {max_bytes}", self.peak_bytes));
         }
         (self.time_s > crate::watch::SLOW_S).then(|| format!("time: {} s", self.time_s))
     }
 
     /// The words of the outcome without numbers and what is quoted: equal for inputs that go the same way.
     #[must_use]
-    pub fn way(&self) -> String {
-        let (Outcome::Told(told) | Outcome::Panicked(told)) = &self.outcome;
-        way_of(told)
+    pub fn path(&self) -> String {
+        let (Outcome::Returned(text) | Outcome::Panicked(text)) = &self.outcome;
+        path_of(text)
     }
 }
 
-fn way_of(told: &str) -> String {
-    let mut way = String::new();
+fn path_of(text: &str) -> String {
+    let mut path = String::new();
     let mut quoted = false;
-    for letter in told.chars().take(2000) {
+    for letter in text.chars().take(2000) {
         match letter {
             '"' | '`' => quoted = !quoted,
             _ if quoted || letter.is_ascii_digit() || !letter.is_ascii() => {}
-            _ => way.push(letter),
+            _ => path.push(letter),
         }
     }
-    way.truncate(160);
-    way
+    path.truncate(160);
+    path
 }

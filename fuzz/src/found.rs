@@ -10,7 +10,7 @@ pub fn folder() -> PathBuf {
 
 /// The stored inputs of a target, by name.
 #[must_use]
-pub fn of(target: &str) -> Vec<(String, Vec<u8>)> {
+pub fn findings(target: &str) -> Vec<(String, Vec<u8>)> {
     let files = std::fs::read_dir(folder().join(target)).into_iter().flatten().flatten().map(|entry| entry.path());
     let read = |path: PathBuf| {
         let name = path.file_name()?.to_str()?.to_owned();

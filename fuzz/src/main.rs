@@ -5,7 +5,7 @@
 use etendue_fuzz::attempt::{attempt, keep_panics};
 use etendue_fuzz::targets::{TARGETS, Target, target};
 use etendue_fuzz::watch::watch;
-use etendue_fuzz::worker::{Until, work};
+use etendue_fuzz::worker::{StopCondition, work};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,7 +17,7 @@ const USAGE: &str =
 struct Request {
     seconds: f64,
     seed: u64,
-    found: PathBuf,
+    findings: PathBuf,
     targets: Vec<&'static Target>,
 }
 
@@ -39,13 +39,13 @@ fn main() -> ExitCode {
 }
 
 fn request(words: &[&str]) -> Option<Request> {
-    let mut request = Request { seconds: 10.0, seed: 1, found: PathBuf::from("target/fuzz"), targets: Vec::new() };
+    let mut request = Request { seconds: 10.0, seed: 1, findings: PathBuf::from("target/fuzz"), targets: Vec::new() };
     let mut words = words.iter();
     while let Some(word) = words.next() {
         match *word {
             "--seconds" => request.seconds = words.next()?.parse().ok().filter(|s| (1.0..1e6).contains(s))?,
             "--seed" => request.seed = words.next()?.parse().ok()?,
-            "--found" => request.found = PathBuf::from(words.next()?),
+            "--found" => request.findings = PathBuf::from(words.next()?),
             name => request.targets.push(target(name)?),
         }
     }
@@ -61,12 +61,12 @@ fn fuzz(request: &Request) -> ExitCode {
     );
     let mut all = 0;
     for target in &request.targets {
-        let watched = watch(target, Duration::from_secs_f64(request.seconds), request.seed, &request.found);
-        let (name, megabytes) = (target.name, watched.peak_bytes as f64 / 1e6);
-        let (inputs, ways, time, count) = (watched.inputs, watched.ways, watched.time_s, watched.findings.len());
-        println!("| {name} | {} | {inputs} | {ways} | {megabytes:.1} | {time:.2} | {count} |", request.seconds);
-        for fault in watched.findings.values() {
-            eprintln!("{name}: {}", fault.chars().take(400).collect::<String>());
+        let result = watch(target, Duration::from_secs_f64(request.seconds), request.seed, &request.findings);
+        let (name, megabytes) = (target.name, result.peak_bytes as f64 / 1e6);
+        let (inputs, paths, time, count) = (result.inputs, result.paths, result.time_s, result.findings.len());
+        println!("| {name} | {} | {inputs} | {paths} | {megabytes:.1} | {time:.2} | {count} |", request.seconds);
+        for finding in result.findings.values() {
+            eprintln!("{name}: {}", finding.chars().take(400).collect::<String>());
         }
         all += count;
     }
@@ -81,13 +81,13 @@ fn worker(name: &str, milliseconds: &str, seed: &str, folder: &Path) -> ExitCode
     let (Some(target), Ok(milliseconds), Ok(seed)) = (target(name), milliseconds.parse(), seed.parse()) else {
         return ExitCode::from(2);
     };
-    let work = work(target, folder, seed, Until::Time(Duration::from_millis(milliseconds)));
-    for (i, (kind, (fault, input))) in work.findings.iter().enumerate() {
+    let work = work(target, folder, seed, StopCondition::Time(Duration::from_millis(milliseconds)));
+    for (i, (kind, (finding, input))) in work.findings.iter().enumerate() {
         let file = folder.join("findings").join(i.to_string());
         fs::write(file.with_extension("input"), input).expect("written");
-        fs::write(file.with_extension("txt"), format!("{kind}\n{fault}\n")).expect("written");
+        fs::write(file.with_extension("txt"), format!("{kind}\n{finding}\n")).expect("written");
     }
-    println!("worked {} {} {} {}", work.inputs, work.ways, work.peak_bytes, work.time_s);
+    println!("worked {} {} {} {}", work.inputs, work.paths, work.peak_bytes, work.time_s);
     ExitCode::SUCCESS
 }
 
@@ -99,6 +99,6 @@ fn read(name: &str, file: &Path) -> ExitCode {
     let place = folder.path().join(target.file);
     fs::write(&place, &input).expect("written");
     let attempt = attempt(target, &place);
-    println!("{attempt:#?}\n{:?}", attempt.fault(target, input.len()));
+    println!("{attempt:#?}\n{:?}", attempt.finding(target, input.len()));
     ExitCode::SUCCESS
 }

@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Kept inputs of new ways, beside the seeds.
-const MAX_KEPT: usize = 2048;
+const MAX_STORED: usize = 2048;
 /// Longest input that is kept, bytes.
-const MAX_KEPT_BYTES: usize = 16_384;
+const MAX_STORED_BYTES: usize = 16_384;
 /// Longest time of an input that is mutated, s.
 const QUICK_S: f64 = 0.3;
 /// How long a finding is made smaller.
@@ -22,7 +22,7 @@ const SHRINKING: Duration = Duration::from_secs(4);
 
 /// How long a worker goes on.
 #[derive(Clone, Copy, Debug)]
-pub enum Until {
+pub enum StopCondition {
     /// For this long.
     Time(Duration),
     /// For so many inputs.
@@ -31,11 +31,11 @@ pub enum Until {
 
 /// What a worker did.
 #[derive(Clone, Debug, Default)]
-pub struct Work {
+pub struct WorkerResult {
     /// Inputs that were read.
     pub inputs: u64,
     /// Ways that were found, those of the seeds included.
-    pub ways: usize,
+    pub paths: usize,
     /// Most memory of an input, bytes.
     pub peak_bytes: u64,
     /// Longest time of an input, s.
@@ -45,26 +45,26 @@ pub struct Work {
 }
 
 /// A prepared target.
-struct Bench<'a> {
+struct PreparedTarget<'a> {
     target: &'a Target,
     file: PathBuf,
     /// Milliseconds at which the input began that is being read, plus 1; 0: none is.
-    began: Arc<AtomicU64>,
+    input_start: Arc<AtomicU64>,
     start: Instant,
 }
 
-impl Bench<'_> {
+impl PreparedTarget<'_> {
     fn read(&self, input: &[u8]) -> Attempt {
         fs::write(&self.file, input).expect("the folder of the worker is writable");
-        self.began.store(1 + self.start.elapsed().as_millis() as u64, Ordering::Relaxed);
+        self.input_start.store(1 + self.start.elapsed().as_millis() as u64, Ordering::Relaxed);
         let attempt = attempt(self.target, &self.file);
-        self.began.store(0, Ordering::Relaxed);
+        self.input_start.store(0, Ordering::Relaxed);
         attempt
     }
 
-    fn fault(&self, input: &[u8]) -> Option<String> {
+    fn finding_of(&self, input: &[u8]) -> Option<String> {
         let attempt = self.read(input);
-        attempt.fault(self.target, input.len()).map(|fault| kind(&fault, &attempt))
+        attempt.finding(self.target, input.len()).map(|finding| kind(&finding, &attempt))
     }
 
     /// The input without what its fault does not need.
@@ -76,7 +76,7 @@ impl Bench<'_> {
             while at < input.len() && start.elapsed() < SHRINKING && size > 0 {
                 let mut smaller = input.clone();
                 smaller.drain(at..(at + size).min(input.len()));
-                if self.fault(&smaller).as_deref() == Some(kind) {
+                if self.finding_of(&smaller).as_deref() == Some(kind) {
                     input = smaller;
                 } else {
                     at += size;
@@ -89,27 +89,27 @@ impl Bench<'_> {
 }
 
 /// Ends the process where an input takes too long.
-fn watch_time(began: Arc<AtomicU64>, start: Instant) {
+fn watch_time(input_start: Arc<AtomicU64>, start: Instant) {
     std::thread::spawn(move || {
         loop {
             std::thread::sleep(Duration::from_millis(250));
-            let since = began.load(Ordering::Relaxed);
+            let since = input_start.load(Ordering::Relaxed);
             let now = start.elapsed().as_millis() as u64;
             if since > 0 && now.saturating_sub(since) as f64 > 1000.0 * crate::watch::LIMIT_S {
-                std::process::exit(crate::watch::TOO_LONG);
+                std::process::exit(crate::watch::TIMEOUT_STATUS);
             }
         }
     });
 }
 
 /// A fault without what differs from input to input.
-fn kind(fault: &str, attempt: &Attempt) -> String {
+fn kind(finding: &str, attempt: &Attempt) -> String {
     match &attempt.outcome {
-        Outcome::Panicked(told) => {
-            let place = told.strip_prefix("panicked at ").unwrap_or(told);
+        Outcome::Panicked(message) => {
+            let place = message.strip_prefix("panicked at ").unwrap_or(message);
             place.split(": ").next().unwrap_or(place).to_owned()
         }
-        Outcome::Told(_) => format!("{} {}", fault.split(':').next().unwrap_or_default(), attempt.way()),
+        Outcome::Returned(_) => format!("{} {}", finding.split(':').next().unwrap_or_default(), attempt.path()),
     }
 }
 
@@ -118,25 +118,25 @@ fn kind(fault: &str, attempt: &Attempt) -> String {
 /// # Panics
 /// Where the folder cannot be written to.
 #[must_use]
-pub fn work(target: &Target, folder: &Path, seed: u64, until: Until) -> Work {
+pub fn work(target: &Target, folder: &Path, seed: u64, until: StopCondition) -> WorkerResult {
     let mut inputs = (target.prepare)(folder);
     inputs
-        .extend(crate::found::of(target.name).into_iter().map(|(_, input)| input).filter(|i| i.len() < MAX_KEPT_BYTES));
-    let (began, start) = (Arc::new(AtomicU64::new(0)), Instant::now());
-    watch_time(Arc::clone(&began), start);
-    let bench = Bench { target, file: folder.join(target.file), began, start };
+        .extend(crate::found::findings(target.name).into_iter().map(|(_, input)| input).filter(|i| i.len() < MAX_STORED_BYTES));
+    let (input_start, start) = (Arc::new(AtomicU64::new(0)), Instant::now());
+    watch_time(Arc::clone(&input_start), start);
+    let bench = PreparedTarget { target, file: folder.join(target.file), input_start, start };
     // Slow ones would take the time of all others.
-    let mut ways = BTreeSet::new();
+    let mut paths = BTreeSet::new();
     inputs.retain(|input| {
         let attempt = bench.read(input);
-        ways.insert(attempt.way());
+        paths.insert(attempt.path());
         attempt.time_s < QUICK_S
     });
-    let mut work = Work::default();
+    let mut work = WorkerResult::default();
     let mut mutator = Mutator::new(seed);
     let go_on = |done: u64| match until {
-        Until::Time(time) => start.elapsed() < time,
-        Until::Inputs(count) => done < count,
+        StopCondition::Time(time) => start.elapsed() < time,
+        StopCondition::Inputs(count) => done < count,
     };
     while go_on(work.inputs) {
         let input = mutator.next(Material { inputs: &inputs, words: target.words, is_text: target.is_text });
@@ -144,20 +144,20 @@ pub fn work(target: &Target, folder: &Path, seed: u64, until: Until) -> Work {
         work.inputs += 1;
         work.peak_bytes = work.peak_bytes.max(attempt.peak_bytes);
         work.time_s = work.time_s.max(attempt.time_s);
-        if let Some(fault) = attempt.fault(target, input.len()) {
-            let kind = kind(&fault, &attempt);
+        if let Some(finding) = attempt.finding(target, input.len()) {
+            let kind = kind(&finding, &attempt);
             if let Entry::Vacant(place) = work.findings.entry(kind) {
                 let small = bench.shrunk(input, place.key());
-                place.insert((fault, small));
+                place.insert((finding, small));
             }
-        } else if attempt.time_s < QUICK_S && input.len() < MAX_KEPT_BYTES && ways.insert(attempt.way()) {
+        } else if attempt.time_s < QUICK_S && input.len() < MAX_STORED_BYTES && paths.insert(attempt.path()) {
             inputs.push(input);
             // New ways are followed; old ones have been.
-            if inputs.len() > MAX_KEPT {
+            if inputs.len() > MAX_STORED {
                 inputs.swap_remove(0);
             }
         }
     }
-    work.ways = ways.len();
+    work.paths = paths.len();
     work
 }

@@ -120,7 +120,7 @@ impl Job {
     /// Where the text is not a good job, with all faults.
     #[must_use]
     pub fn plan(&self) -> Plan {
-        self.compiled().unwrap_or_else(|faults| panic!("{faults}\n{}", self.text))
+        self.compiled().unwrap_or_else(|errors| panic!("{errors}\n{}", self.text))
     }
 
     /// The plan, or all faults, one a line.
@@ -130,10 +130,10 @@ impl Job {
     pub fn compiled(&self) -> Result<Plan, String> {
         let read = |_: &Path| Ok(self.text.clone());
         let mut overrides = Overrides::default();
-        overrides.push_render(&format!("--seed {}", self.seed), "seed", &self.seed.to_string());
+        overrides.add_render(&format!("--seed {}", self.seed), "seed", &self.seed.to_string());
         let description = Description::load(Path::new("job.toml"), &read, &overrides).map_err(|f| f.to_string())?;
         compile(&description, &self.assets, &Choices::default())
-            .map_err(|faults| faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+            .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     }
 
     /// The light of the first camera.
@@ -142,7 +142,7 @@ impl Job {
     /// As [`Job::plan`].
     #[must_use]
     pub fn shot(&self) -> Shot {
-        Shot::of(self.plan())
+        Shot::render(self.plan())
     }
 
     /// The light of every camera.
@@ -152,6 +152,6 @@ impl Job {
     #[must_use]
     pub fn shots(&self) -> Vec<Shot> {
         let plan = self.plan();
-        (0..plan.cameras.len()).map(|i| Shot::of_camera(plan.clone(), i)).collect()
+        (0..plan.cameras.len()).map(|i| Shot::render_camera(plan.clone(), i)).collect()
     }
 }

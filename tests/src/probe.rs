@@ -16,16 +16,16 @@ pub const FLAT: &str = "illuminant = \"E\"";
 /// Never: the illuminant is there.
 #[must_use]
 pub fn flat_per_lux() -> f64 {
-    let flat = illuminant::named("E").expect("an illuminant");
+    let flat = illuminant::by_name("E").expect("an illuminant");
     observer::with_luminance(flat, 1.0).expect("visible").band_mean(500.0, 600.0)
 }
 
 /// A pinhole camera at `from` whose only pixel, 0.1 mrad wide, sees the point `at`.
 #[must_use]
 pub fn eye(name: &str, from: DVec3, at: DVec3) -> String {
-    let way = (at - from).normalize();
+    let direction = (at - from).normalize();
     // Where it looks nearly up or down, up is forward.
-    let up = if acos(way.z.abs()) < 0.01 { DVec3::X } else { DVec3::Z };
+    let up = if acos(direction.z.abs()) < 0.01 { DVec3::X } else { DVec3::Z };
     format!(
         "[[cameras]]\nname = \"{name}\"\nposition_m = {:?}\nlook_at_m = {:?}\nup = {:?}\n\
          lens = {{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }}\n\

@@ -6,7 +6,7 @@ use etendue_pipeline::film::{CubeEstimate, Film};
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::pupil_depth::pupil_depth;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_pipeline::{Plan, Unobserved};
 use etendue_spectra::observer;
@@ -30,8 +30,8 @@ impl Shot {
     /// # Panics
     /// Where a sample is not finite.
     #[must_use]
-    pub fn of(plan: Plan) -> Self {
-        Self::of_camera(plan, 0)
+    pub fn render(plan: Plan) -> Self {
+        Self::render_camera(plan, 0)
     }
 
     /// Renders one of a plan's cameras, counted from 0. Replicates are independent, as for a camera that delivers variance.
@@ -39,9 +39,9 @@ impl Shot {
     /// # Panics
     /// Where a sample is not finite, or there is no such camera.
     #[must_use]
-    pub fn of_camera(mut plan: Plan, index: usize) -> Self {
+    pub fn render_camera(mut plan: Plan, index: usize) -> Self {
         plan.cameras.iter_mut().for_each(|camera| camera.products.variance |= camera.settings.replicates > 1);
-        let film = light(&plan, &plan.cameras[index], Request::default(), &Unobserved).expect("nobody cancels");
+        let film = light(&plan, &plan.cameras[index], LightRequest::default(), &Unobserved).expect("nobody cancels");
         assert_eq!(film.not_finite_samples(), 0, "samples that are not finite");
         Self { plan, film, index }
     }
@@ -56,7 +56,7 @@ impl Shot {
     #[must_use]
     pub fn light(&self) -> Light {
         let depth = pupil_depth(&self.plan, self.camera(), 0, Simd::Auto);
-        Light::of_film(self.camera(), self.film.clone(), depth.as_ref()).expect("finite light")
+        Light::from_film(self.camera(), self.film.clone(), depth.as_ref()).expect("finite light")
     }
 
     /// Mean electrons of every pixel.
@@ -74,7 +74,7 @@ impl Shot {
     /// Where no cube is kept.
     #[must_use]
     pub fn radiance(&self) -> Samples {
-        Samples::of(&self.film.radiance().expect("a cube is kept"), self.film.replicates)
+        Samples::from_cube(&self.film.radiance().expect("a cube is kept"), self.film.replicates)
     }
 
     /// Luminance, cd/m², of every pixel, by the bands that are kept.
@@ -95,7 +95,7 @@ impl Shot {
     /// Where no cube is kept.
     #[must_use]
     pub fn irradiance(&self) -> Samples {
-        Samples::of(self.film.cube().expect("a cube is kept"), self.film.replicates)
+        Samples::from_cube(self.film.cube().expect("a cube is kept"), self.film.replicates)
     }
 
     /// The ground truth.
@@ -117,14 +117,14 @@ pub struct Samples {
 }
 
 impl Samples {
-    fn of<Q: Quantity<Sample = f32>>(cube: &CubeEstimate<Q>, replicates: u32) -> Self {
+    fn from_cube<Q: Quantity<Sample = f32>>(cube: &CubeEstimate<Q>, replicates: u32) -> Self {
         Self { mean: joined(&cube.mean), variance: joined::<Variance>(&cube.variance), replicates }
     }
 
     /// As the statistics want it.
     #[must_use]
     pub fn estimate(&self) -> EstimatedPlane<'_> {
-        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates, alike: 1 }
+        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates, correlated_pixels: 1 }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 use etendue_core::{Motion, WavelengthRange};
-use etendue_spectra::{Outside, Spectrum};
+use etendue_spectra::{Extrapolation, Spectrum};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Instance, Mesh, Shape};
@@ -65,7 +65,7 @@ impl Cornell {
         for (number, (mesh, size, turn, position, material)) in (1..).zip(parts) {
             builder.add_instance(Instance {
                 shape: Shape::Mesh(mesh),
-                to_world: Motion::still(DAffine3::from_scale_rotation_translation(size, turn, position)),
+                to_world: Motion::constant(DAffine3::from_scale_rotation_translation(size, turn, position)),
                 materials: vec![material],
                 instance_id: number,
                 semantic_id: 1,
@@ -84,12 +84,12 @@ impl Cornell {
 fn materials() -> Vec<Material> {
     let nm = [400.0, 550.0, 700.0];
     let table = |values: [f64; 3]| [0, 1, 2].map(|i| (nm[i], values[i]));
-    let spectrum = |values| Spectrum::from_points(&table(values), Outside::Hold).expect("a table");
-    let matt = |values| Material::new(Surface::from(Reflectance::Spectrum(spectrum(values))));
+    let spectrum = |values| Spectrum::from_points(&table(values), Extrapolation::Hold).expect("a table");
+    let diffuse = |values| Material::new(Surface::from(Reflectance::Spectrum(spectrum(values))));
     let emission =
         Emission { radiance: spectrum([0.1, 0.4, 0.7]), factor: None, sides: EmissionSides::Front, modulation: None };
-    let lamp = Material { emission: Some(emission), ..matt([0.78; 3]) };
-    vec![matt([0.5, 0.75, 0.74]), matt([0.05, 0.06, 0.64]), matt([0.1, 0.45, 0.14]), lamp]
+    let lamp = Material { emission: Some(emission), ..diffuse([0.78; 3]) };
+    vec![diffuse([0.5, 0.75, 0.74]), diffuse([0.05, 0.06, 0.64]), diffuse([0.1, 0.45, 0.14]), lamp]
 }
 
 /// A square of side 1 about the origin, facing up.

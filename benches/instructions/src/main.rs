@@ -32,13 +32,13 @@ fn pixel_sum(tracer: &PathTracer<'_>, pixel: Pixel) -> f64 {
     let stream = PathStream::new(&address, 0);
     let place = |i: u32| ((i as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0) * HALF_WIDTH;
     let direction = Vec3::new(1.0, -place(pixel.x), -place(pixel.y)).normalize();
-    let of_sample = |sample| {
+    let sample_radiance = |sample| {
         let ray = Ray::new(Vec3::ZERO, direction, 0.0);
-        let asked = FieldRay { ray, stream: stream.with_sample(sample), lit: TimeInterval::default() };
+        let field_ray = FieldRay { ray, stream: stream.with_sample(sample), light_interval: TimeInterval::default() };
         let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, (sample as f32 + 0.5) / SAMPLES as f32);
-        tracer.radiance(&asked, &wavelengths).mean()
+        tracer.radiance(&field_ray, &wavelengths).mean()
     };
-    (0..SAMPLES).map(|sample| f64::from(of_sample(sample))).sum()
+    (0..SAMPLES).map(|sample| f64::from(sample_radiance(sample))).sum()
 }
 
 #[expect(clippy::print_stdout, reason = "a program's answer")]

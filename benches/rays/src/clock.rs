@@ -7,8 +7,8 @@ use std::time::Instant;
 pub fn cpu_s() -> f64 {
     // The kernel brings the account up to date when a thread yields, otherwise only at its tick.
     std::thread::yield_now();
-    let account = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = account.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    let schedstat = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = schedstat.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(clock_s, |ns| ns * 1e-9)
 }
 
@@ -17,9 +17,9 @@ pub fn cpu_s() -> f64 {
 pub fn process_cpu_s() -> f64 {
     /// USER_HZ, which Linux fixes for programs.
     const TICKS_A_SECOND: f64 = 100.0;
-    let account = std::fs::read_to_string("/proc/self/stat").ok();
+    let stat = std::fs::read_to_string("/proc/self/stat").ok();
     // Behind the program's name, in brackets, utime and stime are the 12th and 13th field (man 5 proc_pid_stat).
-    let ticks = account.and_then(|text| {
+    let ticks = stat.and_then(|text| {
         let mut fields = text.rsplit_once(')')?.1.split_whitespace().skip(11);
         Some(fields.next()?.parse::<f64>().ok()? + fields.next()?.parse::<f64>().ok()?)
     });

@@ -38,7 +38,7 @@ impl ContestFile {
     /// The file cannot be read or ends too early.
     pub fn read(path: &Path) -> io::Result<Self> {
         let bytes = std::fs::read(path)?;
-        let mut words = Words(bytes.as_chunks::<4>().0.iter());
+        let mut words = WordReader(bytes.as_chunks::<4>().0.iter());
         let sun = words.vector()?;
         let (corners, rays) = (words.list()?, words.list()?);
         let primary = rays.as_chunks::<2>().0.iter().map(|[origin, direction]| Ray::new(*origin, *direction, 0.0));
@@ -47,9 +47,9 @@ impl ContestFile {
 }
 
 /// The words of a file that are not read yet.
-struct Words<'a>(std::slice::Iter<'a, [u8; 4]>);
+struct WordReader<'a>(std::slice::Iter<'a, [u8; 4]>);
 
-impl Words<'_> {
+impl WordReader<'_> {
     fn word(&mut self) -> io::Result<[u8; 4]> {
         self.0.next().copied().ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
     }

@@ -9,11 +9,11 @@ use glam::{DAffine3, Vec3};
 
 /// All triangles of a view in one mesh, in the render frame. Spheres are left out.
 pub fn mesh(view: &RenderSpace<'_>) -> Mesh {
-    of_corners(instances(view).flat_map(|i| triangles(view, i)).flatten().collect())
+    mesh_from_corners(instances(view).flat_map(|i| triangles(view, i)).flatten().collect())
 }
 
 /// A mesh of triangles that share no corners: three corners each.
-pub fn of_corners(corners: Vec<Vec3>) -> Mesh {
+pub fn mesh_from_corners(corners: Vec<Vec3>) -> Mesh {
     let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     Mesh::new(corners, vec![], vec![], triangles, vec![]).expect("triangles of a legal world").0
 }
@@ -22,7 +22,7 @@ pub fn of_corners(corners: Vec<Vec3>) -> Mesh {
 pub fn world(mesh: Mesh) -> World {
     let mut builder = WorldBuilder::new();
     let shape = Shape::Mesh(builder.add_mesh(mesh));
-    let to_world = Motion::still(DAffine3::IDENTITY);
+    let to_world = Motion::constant(DAffine3::IDENTITY);
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 0 });
     builder.build().expect("a legal world")
 }

@@ -7,8 +7,8 @@ pub fn line() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let rustc = answer("rustc", &["--version"]).unwrap_or_else(|| "unknown rustc".to_owned());
     let commit = answer("git", &["describe", "--always", "--dirty"]).unwrap_or_else(|| "unknown".to_owned());
-    let (sets, ours) = (processor_sets(), our_set());
-    format!("{}, {threads} hardware threads ({sets}; Étendue uses {ours}); {rustc}; commit {commit}", processor())
+    let (sets, own_set) = (processor_sets(), our_set());
+    format!("{}, {threads} hardware threads ({sets}; Étendue uses {own_set}); {rustc}; commit {commit}", processor())
 }
 
 /// How busy the machine has been in the last minute.
@@ -32,12 +32,12 @@ pub fn processor_sets() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let flags = text.lines().find_map(|line| line.strip_prefix("flags")?.split(':').nth(1)).unwrap_or_default();
     let known = |(flag, name): &(&str, &'static str)| flags.split(' ').any(|f| f == *flag).then_some(*name);
-    let found: Vec<&str> = SETS.iter().filter_map(known).collect();
-    if found.is_empty() { "unknown".to_owned() } else { found.join(", ") }
+    let sets: Vec<&str> = INSTRUCTION_SETS.iter().filter_map(known).collect();
+    if sets.is_empty() { "unknown".to_owned() } else { sets.join(", ") }
 }
 
 /// Flags of /proc/cpuinfo, and the names of what they stand for.
-const SETS: [(&str, &str); 6] = [
+const INSTRUCTION_SETS: [(&str, &str); 6] = [
     ("sse4_2", "SSE4.2"),
     ("avx", "AVX"),
     ("fma", "FMA"),

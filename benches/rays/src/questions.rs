@@ -8,7 +8,7 @@ use glam::Vec3;
 
 /// Rays of one kind.
 #[derive(Clone, Debug)]
-pub struct Questions {
+pub struct RayQueries {
     /// What they are.
     pub name: &'static str,
     /// The rays.
@@ -17,9 +17,9 @@ pub struct Questions {
     pub any_hit: bool,
 }
 
-impl Questions {
+impl RayQueries {
     /// Asks all of them; the number of rays that met something.
-    pub fn ask(&self, view: &RenderSpace<'_>) -> usize {
+    pub fn count_hits(&self, view: &RenderSpace<'_>) -> usize {
         match self.any_hit {
             true => self.rays.iter().filter(|ray| view.occluded(ray)).count(),
             false => self.rays.iter().filter(|ray| view.closest(ray).is_some()).count(),
@@ -28,37 +28,37 @@ impl Questions {
 }
 
 /// A point that the camera sees, with the normal on its side.
-struct Seen {
+struct VisiblePoint {
     point: SurfacePoint,
     normal: Vec3,
     stream: PathStream,
 }
 
 /// Questions of all kinds that begin with `primary` rays, under a sun in direction `sun`.
-pub fn about(primary: Vec<Ray>, sun: Vec3, view: &RenderSpace<'_>) -> Vec<Questions> {
-    let seen: Vec<Seen> = primary.iter().enumerate().filter_map(|(i, ray)| seen(view, ray, i as u32)).collect();
+pub fn about(primary: Vec<Ray>, sun: Vec3, view: &RenderSpace<'_>) -> Vec<RayQueries> {
+    let visible_points: Vec<VisiblePoint> = primary.iter().enumerate().filter_map(|(i, ray)| visible_point(view, ray, i as u32)).collect();
     vec![
-        Questions { name: "primary", rays: primary, any_hit: false },
-        Questions { name: "bounce", rays: seen.iter().map(Seen::bounce).collect(), any_hit: false },
-        Questions { name: "shadow, sun", rays: seen.iter().filter_map(|s| s.towards(sun)).collect(), any_hit: true },
-        Questions {
+        RayQueries { name: "primary", rays: primary, any_hit: false },
+        RayQueries { name: "bounce", rays: visible_points.iter().map(VisiblePoint::bounce).collect(), any_hit: false },
+        RayQueries { name: "shadow, sun", rays: visible_points.iter().filter_map(|s| s.towards(sun)).collect(), any_hit: true },
+        RayQueries {
             name: "shadow, sky",
-            rays: seen.iter().filter_map(|s| s.towards(s.sky())).collect(),
+            rays: visible_points.iter().filter_map(|s| s.towards(s.sky())).collect(),
             any_hit: true,
         },
     ]
 }
 
-fn seen(view: &RenderSpace<'_>, ray: &Ray, number: u32) -> Option<Seen> {
+fn visible_point(view: &RenderSpace<'_>, ray: &Ray, number: u32) -> Option<VisiblePoint> {
     let point = view.surface(ray, &view.closest(ray)?);
     let outward = point.geometric_normal;
     let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
     let pixel = Pixel { x: number, y: 0 };
     let address = PixelAddress { frame: FrameAddress { seed: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
-    Some(Seen { point, normal, stream: PathStream::new(&address, 0) })
+    Some(VisiblePoint { point, normal, stream: PathStream::new(&address, 0) })
 }
 
-impl Seen {
+impl VisiblePoint {
     /// Where a diffuse surface sends light on.
     fn bounce(&self) -> Ray {
         let local = warp::cosine_hemisphere(self.stream.two(Draw::BsdfDirection, 0));

@@ -5,16 +5,16 @@ pub const COUNT: usize = 5;
 
 /// What several runs measured.
 #[derive(Clone, Debug, Default)]
-pub struct Runs(Vec<f64>);
+pub struct RunStatistics(Vec<f64>);
 
-impl Runs {
+impl RunStatistics {
     /// Notes one run.
     pub fn add(&mut self, value: f64) {
         self.0.push(value);
     }
 
     /// [`COUNT`] runs of `measure`.
-    pub fn of(mut measure: impl FnMut() -> f64) -> Self {
+    pub fn measure(mut measure: impl FnMut() -> f64) -> Self {
         Self((0..COUNT).map(|_| measure()).collect())
     }
 
@@ -27,8 +27,8 @@ impl Runs {
 
     /// Run by run, these values over those.
     #[must_use]
-    pub fn over(&self, those: &Self) -> Self {
-        Self(self.0.iter().zip(&those.0).map(|(a, b)| a / b).collect())
+    pub fn over(&self, other: &Self) -> Self {
+        Self(self.0.iter().zip(&other.0).map(|(a, b)| a / b).collect())
     }
 
     /// Distance of the farthest run from the middle one, as a share of it.
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn an_outlier_moves_the_spread_and_not_the_median() {
-        let mut runs = Runs::default();
+        let mut runs = RunStatistics::default();
         [3.0, 1.0, 2.0, 2.0, 5.0].into_iter().for_each(|v| runs.add(v));
         assert_eq!((runs.median(), runs.spread()), (2.0, 1.5));
     }

@@ -25,9 +25,9 @@ pub fn child(name: &str) -> String {
     let means = scene();
     let two = pool(2);
     let before = peak_bytes();
-    let taken = two.install(|| expose(&sensor, &means));
+    let frame = two.install(|| expose(&sensor, &means));
     let after = peak_bytes();
-    std::hint::black_box((taken, means));
+    std::hint::black_box((frame, means));
     before.zip(after).map_or_else(|| "unknown".to_owned(), |(a, b)| format!("{:.1}", (b - a) / PIXELS))
 }
 

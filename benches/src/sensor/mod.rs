@@ -5,7 +5,7 @@ mod memory;
 mod sensors;
 
 use etendue_bench_rays::clock::{clock_s, cpu_s, timed};
-use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
@@ -30,23 +30,23 @@ pub fn table() -> Table {
     let mut table = Table::new("The sensor", NOTE, &head);
     let pools = [pool(1), pool(2)];
     let means = scene();
-    let bare = Sensor::new(bare()).expect("legal");
+    let bare_sensor = Sensor::new(bare()).expect("legal");
     for (name, parameters) in kinds() {
         let sensor = Sensor::new(parameters).expect("a legal sensor");
-        table.row(row(name, &Measured::of(&sensor, &bare, &means, &pools)));
+        table.row(row(name, &SensorMeasurement::measure(&sensor, &bare_sensor, &means, &pools)));
     }
     table
 }
 
-fn row(name: &str, m: &Measured) -> Vec<String> {
-    let ms = |runs: &Runs| format!("{:.0}", runs.median() * 1e3);
+fn row(name: &str, m: &SensorMeasurement) -> Vec<String> {
+    let ms = |runs: &RunStatistics| format!("{:.0}", runs.median() * 1e3);
     vec![
         name.to_owned(),
         ms(&m.one),
         format!("{:.1}", m.one.median() / PIXELS * 1e9),
         ms(&m.two_clock),
         ms(&m.two_busier),
-        format!("{:.3}", m.over_bare.median()),
+        format!("{:.3}", m.relative_to_bare.median()),
         m.one.spread_text(),
         memory::bytes_a_pixel(name),
     ]
@@ -54,21 +54,21 @@ fn row(name: &str, m: &Measured) -> Vec<String> {
 
 /// What is measured of a sensor.
 #[derive(Default)]
-struct Measured {
-    one: Runs,
-    two_clock: Runs,
-    two_busier: Runs,
-    over_bare: Runs,
+struct SensorMeasurement {
+    one: RunStatistics,
+    two_clock: RunStatistics,
+    two_busier: RunStatistics,
+    relative_to_bare: RunStatistics,
 }
 
-impl Measured {
-    fn of(sensor: &Sensor, bare: &Sensor, means: &Plane<MeanElectrons>, [one, two]: &[ThreadPool; 2]) -> Self {
+impl SensorMeasurement {
+    fn measure(sensor: &Sensor, bare_sensor: &Sensor, means: &Plane<MeanElectrons>, [one, two]: &[ThreadPool; 2]) -> Self {
         let mut measured = Self::default();
         for _ in 0..etendue_bench_rays::runs::COUNT {
             let alone = |sensor| one.install(|| timed(|| std::hint::black_box(expose(sensor, means))).1);
-            let (before, own, after) = (alone(bare), alone(sensor), alone(bare));
+            let (before, own, after) = (alone(bare_sensor), alone(sensor), alone(bare_sensor));
             measured.one.add(own);
-            measured.over_bare.add(own / (0.5 * (before + after)));
+            measured.relative_to_bare.add(own / (0.5 * (before + after)));
             let (clock, busier) = shared(sensor, means, two);
             measured.two_clock.add(clock);
             measured.two_busier.add(busier);

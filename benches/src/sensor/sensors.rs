@@ -25,7 +25,7 @@ use etendue_spectra::Spectrum;
 pub(super) const FULL_WELL_E: f64 = 20_000.0;
 
 /// A name in the table, and its sensor.
-type Kind = (&'static str, SensorParameters);
+type NamedSensor = (&'static str, SensorParameters);
 
 /// The converter alone, with the well that every sensor has.
 pub(super) fn bare() -> SensorParameters {
@@ -34,7 +34,7 @@ pub(super) fn bare() -> SensorParameters {
         channels: vec![Channel { name: "mono".into(), quantum_efficiency: Spectrum::constant(0.5) }],
         cfa: Cfa::mono(),
         exposure: Exposure { exposure_s: 0.01, frame_period_s: Some(0.04), control: None },
-        specimen: None,
+        unit: None,
         light: LightEffects::default(),
         charge: ChargeEffects::plain(FULL_WELL_E, 0.0),
         voltage: VoltageEffects::default(),
@@ -63,10 +63,10 @@ impl Change for SensorParameters {
 }
 
 /// All sensors, in the order of the table.
-pub(super) fn kinds() -> Vec<Kind> {
+pub(super) fn kinds() -> Vec<NamedSensor> {
     let all = |p: &mut SensorParameters| {
         noises(p);
-        the_rest(p);
+        remaining_additions(p);
     };
     let together = [
         ("bare converter", bare()),
@@ -75,19 +75,19 @@ pub(super) fn kinds() -> Vec<Kind> {
         ("all effects", bare().with(all)),
         ("four captures, all noises", bare().with(captures)),
     ];
-    together.into_iter().chain(EACH.map(|(name, change)| (name, bare().with(change)))).collect()
+    together.into_iter().chain(ADDITIONS.map(|(name, change)| (name, bare().with(change)))).collect()
 }
 
 /// A name in the table, and what a sensor has beside the bare converter.
 type Addition = (&'static str, fn(&mut SensorParameters));
 
-const EACH: [Addition; 18] = [
+const ADDITIONS: [Addition; 18] = [
     ("shot noise", |p| p.noise = true),
     ("angle response", angle),
-    ("crosstalk", |p| p.light.crosstalk = Some(Crosstalk(SHARES))),
+    ("crosstalk", |p| p.light.crosstalk = Some(Crosstalk(NEIGHBOUR_FRACTIONS))),
     ("photo-response pattern", |p| p.light.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 }),
     ("smear", |p| p.light.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 })),
-    ("dark current, even", |p| p.charge.dark = DarkCurrent::even(500.0)),
+    ("dark current, even", |p| p.charge.dark = DarkCurrent::uniform(500.0)),
     ("dark current with pattern", |p| p.charge.dark = patterned_dark()),
     ("lag", |p| p.charge.lag.traps = vec![Trap { fraction: 0.02, time_constant_s: 0.1 }]),
     ("brighter-fatter", |p| p.charge.brighter_fatter.shift_per_e = 1e-6),
@@ -95,43 +95,43 @@ const EACH: [Addition; 18] = [
     ("blooming around", |p| p.charge.full_well.blooming = Some(Blooming::Around { overflow_fraction: 0.6 })),
     ("dead pixels", |p| p.charge.dead_pixels.fraction = 1e-4),
     ("response, two knees", |p| p.read_out.response = knees()),
-    ("capacitance", |p| p.voltage.capacitance = Some(InterPixelCapacitance(SHARES))),
+    ("capacitance", |p| p.voltage.capacitance = Some(InterPixelCapacitance(NEIGHBOUR_FRACTIONS))),
     ("offset pattern", |p| p.voltage.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
-    ("shot and read noise", |p| (p.noise, p.voltage.noise) = (true, READ)),
-    ("shot and RTS noise", |p| (p.noise, p.voltage.rts_noise) = (true, Some(RtsNoise(TWO)))),
+    ("shot and read noise", |p| (p.noise, p.voltage.noise) = (true, READ_NOISE)),
+    ("shot and RTS noise", |p| (p.noise, p.voltage.rts_noise) = (true, Some(RtsNoise(TWO_LEVEL)))),
     ("digital gain", |p| p.read_out.digital_gain = 1.5),
 ];
 
-const SHARES: Neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
-const READ: ReadNoise = ReadNoise { white_e: 5.0, row_e: 0.5, column_e: 0.5 };
-const TWO: TwoLevel = TwoLevel { fraction: 0.001, mean: 20.0, dwell_frames: 5.0 };
+const NEIGHBOUR_FRACTIONS: Neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
+const READ_NOISE: ReadNoise = ReadNoise { white_e: 5.0, row_e: 0.5, column_e: 0.5 };
+const TWO_LEVEL: TwoLevel = TwoLevel { fraction: 0.001, mean: 20.0, dwell_frames: 5.0 };
 
 fn noises(p: &mut SensorParameters) {
-    (p.noise, p.voltage.noise) = (true, READ);
-    p.voltage.rts_noise = Some(RtsNoise(TWO));
+    (p.noise, p.voltage.noise) = (true, READ_NOISE);
+    p.voltage.rts_noise = Some(RtsNoise(TWO_LEVEL));
     p.charge.dark = patterned_dark();
     p.light.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 };
     p.voltage.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
     p.charge.dead_pixels.fraction = 1e-4;
 }
 
-fn the_rest(p: &mut SensorParameters) {
+fn remaining_additions(p: &mut SensorParameters) {
     angle(p);
-    p.light.crosstalk = Some(Crosstalk(SHARES));
+    p.light.crosstalk = Some(Crosstalk(NEIGHBOUR_FRACTIONS));
     p.light.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 });
     p.charge.lag.traps = vec![Trap { fraction: 0.02, time_constant_s: 0.1 }];
     p.charge.brighter_fatter.shift_per_e = 1e-6;
     p.charge.full_well.blooming = Some(Blooming::Around { overflow_fraction: 0.6 });
     p.read_out.response = knees();
-    p.voltage.capacitance = Some(InterPixelCapacitance(SHARES));
+    p.voltage.capacitance = Some(InterPixelCapacitance(NEIGHBOUR_FRACTIONS));
     p.read_out.digital_gain = 1.5;
 }
 
 /// Everything described, nothing with strength.
 fn silent(p: &mut SensorParameters) {
-    p.charge.dark = DarkCurrent { spread: spread(), ..DarkCurrent::even(0.0) };
-    p.voltage.noise = READ;
-    p.voltage.rts_noise = Some(RtsNoise(TWO));
+    p.charge.dark = DarkCurrent { spread: spread(), ..DarkCurrent::uniform(0.0) };
+    p.voltage.noise = READ_NOISE;
+    p.voltage.rts_noise = Some(RtsNoise(TWO_LEVEL));
     p.light.photo_response = PhotoResponse::default();
     p.voltage.offset = OffsetPattern::default();
 }
@@ -139,9 +139,9 @@ fn silent(p: &mut SensorParameters) {
 fn captures(p: &mut SensorParameters) {
     noises(p);
     let like = Capture::default();
-    let again = Capture { gain_ratio: 1.0 / 16.0, dual_conversion_gain: true, ..like };
+    let second_capture = Capture { gain_ratio: 1.0 / 16.0, dual_conversion_gain: true, ..like };
     let small = Capture { sensitivity_ratio: 0.01, gain_ratio: 0.5, ..like };
-    p.hdr.captures = vec![again, small, Capture { gain_ratio: 1.0 / 8.0, ..again }];
+    p.hdr.captures = vec![second_capture, small, Capture { gain_ratio: 1.0 / 8.0, ..second_capture }];
     p.hdr.bits = Some(24);
 }
 
@@ -158,8 +158,8 @@ fn patterned_dark() -> DarkCurrent {
     DarkCurrent {
         spread: spread(),
         hot: Some(Hot { fraction: 1e-4, mean_e_s: 1e5 }),
-        dark_current_rts: Some(TwoLevel { mean: 1e4, ..TWO }),
-        ..DarkCurrent::even(500.0)
+        dark_current_rts: Some(TwoLevel { mean: 1e4, ..TWO_LEVEL }),
+        ..DarkCurrent::uniform(500.0)
     }
 }
 

@@ -6,7 +6,7 @@ use etendue_core::Word as FormatWord;
 /// Parser of a choice of the format, with its words and their help.
 pub fn word<T: FormatWord>() -> impl TypedValueParser<Value = T> {
     let words = T::WORDS.iter().zip(T::ABOUT);
-    choice(words.map(|((word, value), about)| (*value, *word, about.trim().trim_end_matches('.'))))
+    choice(words.map(|((word, value), description)| (*value, *word, description.trim().trim_end_matches('.'))))
 }
 
 /// Value of a word, the word, and its line of help.

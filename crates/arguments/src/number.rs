@@ -7,8 +7,8 @@ use std::ops::RangeInclusive;
 pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|n| range.contains(n));
-        let (least, most) = (range.start(), range.end());
-        number.ok_or_else(|| format!("expected a whole number from {least} to {most}, not '{text}'"))
+        let (min, max) = (range.start(), range.end());
+        number.ok_or_else(|| format!("expected a whole number from {min} to {max}, not '{text}'"))
     }
 }
 
@@ -19,8 +19,8 @@ where
     N: Into<i64> + TryFrom<i64> + Clone + Send + Sync + 'static,
     <N as TryFrom<i64>>::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
 {
-    let (least, most) = range.into_inner();
-    RangedI64ValueParser::new().range(least.into()..=most.into())
+    let (min, max) = range.into_inner();
+    RangedI64ValueParser::new().range(min.into()..=max.into())
 }
 
 /// Parses a finite number from 0.

@@ -46,7 +46,7 @@ pub enum Spacing {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exposures {
     /// Fractions, above 0.
-    pub shares: Vec<f64>,
+    pub fractions: Vec<f64>,
 }
 
 impl Exposures {
@@ -58,8 +58,8 @@ impl Exposures {
         if count < 2 {
             return Err(ChartError::option("exposures", count, "expected two or more exposures"));
         }
-        let legal = lowest > 0.0 && lowest < highest && highest.is_finite();
-        if !legal {
+        let is_valid = lowest > 0.0 && lowest < highest && highest.is_finite();
+        if !is_valid {
             let message = format!("expected a fraction of saturation above 0 and below `highest` {highest}");
             return Err(ChartError::option("lowest", lowest, message));
         }
@@ -70,18 +70,18 @@ impl Exposures {
                 Spacing::Log => exp(ln(lowest) + t * (ln(highest) - ln(lowest))),
             }
         };
-        Ok(Self { shares: (0..count).map(at).collect() })
+        Ok(Self { fractions: (0..count).map(at).collect() })
     }
 
     /// Returns the fractions as listed.
     ///
     /// # Errors
     /// If there is none, or one is not above 0.
-    pub fn listed(shares: Vec<f64>) -> Result<Self, ChartError> {
-        let legal = !shares.is_empty() && shares.iter().all(|s| s.is_finite() && *s > 0.0);
-        let text = shares.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        let told = || ChartError::option("levels", text, "expected fractions of saturation, each above 0");
-        if legal { Ok(Self { shares }) } else { Err(told()) }
+    pub fn listed(fractions: Vec<f64>) -> Result<Self, ChartError> {
+        let is_valid = !fractions.is_empty() && fractions.iter().all(|s| s.is_finite() && *s > 0.0);
+        let text = fractions.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let option_error = || ChartError::option("levels", text, "expected fractions of saturation, each above 0");
+        if is_valid { Ok(Self { fractions }) } else { Err(option_error()) }
     }
 }
 
@@ -98,17 +98,17 @@ pub fn camera_stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: b
         dark: false,
     };
     if !exposures_s.is_empty() {
-        let of = |(i, t): (usize, &f64)| {
+        let exposure_stations = |(i, t): (usize, &f64)| {
             let lit = ahead(format!("exposure-{:02}", i + 1), Some(*t));
-            let away = CameraStation {
+            let dark_station = CameraStation {
                 name: format!("dark-{:02}", i + 1),
                 target_m: -lit.target_m,
                 dark: true,
                 ..lit.clone()
             };
-            [Some(lit), dark.then_some(away)]
+            [Some(lit), dark.then_some(dark_station)]
         };
-        return exposures_s.iter().enumerate().flat_map(of).flatten().collect();
+        return exposures_s.iter().enumerate().flat_map(exposure_stations).flatten().collect();
     }
     match views {
         0 | 1 => vec![ahead("camera".to_owned(), None)],
@@ -121,7 +121,7 @@ pub fn camera_stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: b
 /// Tilt of the views relative to the sheet.
 const TILT_DEG: f64 = 25.0;
 /// Distance of tilted views relative to the perpendicular one.
-const FARTHER: f64 = 1.45;
+const TILTED_DISTANCE: f64 = 1.45;
 /// Roll of the views about their own axis, in turn.
 const ROLLS_DEG: [f64; 3] = [0.0, 10.0, -10.0];
 
@@ -129,10 +129,10 @@ const ROLLS_DEG: [f64; 3] = [0.0, 10.0, -10.0];
 fn view(distance_m: f64, i: u32, count: u32) -> CameraStation {
     let centre = DVec3::X * distance_m;
     let turn = TAU * f64::from(i.saturating_sub(1)) / f64::from(count - 1);
-    let (tilt, away) = if i == 0 { (0.0, 1.0) } else { (TILT_DEG.to_radians(), FARTHER) };
+    let (tilt, distance_factor) = if i == 0 { (0.0, 1.0) } else { (TILT_DEG.to_radians(), TILTED_DISTANCE) };
     let (across, along) = sin_cos(tilt);
     let (up, left) = sin_cos(turn);
-    let from = DVec3::new(-along, across * left, across * up) * distance_m * away;
+    let from = DVec3::new(-along, across * left, across * up) * distance_m * distance_factor;
     let (sin, cos) = sin_cos(ROLLS_DEG[i as usize % 3].to_radians());
     CameraStation {
         name: String::new(),
@@ -153,7 +153,7 @@ mod tests {
         let log = Exposures::spaced(4, Spacing::Log, 0.001, 1.0).expect("legal");
         let linear = Exposures::spaced(5, Spacing::Linear, 0.2, 1.2).expect("legal");
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-12);
-        assert!(near(&log.shares, &[0.001, 0.01, 0.1, 1.0]) && near(&linear.shares, &[0.2, 0.45, 0.7, 0.95, 1.2]));
+        assert!(near(&log.fractions, &[0.001, 0.01, 0.1, 1.0]) && near(&linear.fractions, &[0.2, 0.45, 0.7, 0.95, 1.2]));
         assert!(Exposures::spaced(1, Spacing::Log, 0.1, 1.0).is_err());
         assert!(Exposures::spaced(3, Spacing::Log, 1.0, 0.1).is_err());
         assert!(Exposures::listed(vec![0.1, 0.0]).is_err() && Exposures::listed(vec![]).is_err());

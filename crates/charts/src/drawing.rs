@@ -7,7 +7,7 @@ use crate::{ink::Ink, light::Panel};
 
 /// Kind of a feature of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FeatureKind {
     /// The centre of a disc.
     Dot,
     /// A corner of squares.
@@ -19,10 +19,10 @@ pub enum Kind {
     /// A lamp smaller than a pixel.
     Point,
     /// The outline of a round figure.
-    Rim,
+    Outline,
 }
 
-impl Kind {
+impl FeatureKind {
     /// Name in the ground truth.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -32,7 +32,7 @@ impl Kind {
             Self::Edge => "edge",
             Self::Centre => "centre",
             Self::Point => "point",
-            Self::Rim => "rim",
+            Self::Outline => "rim",
         }
     }
 }
@@ -41,7 +41,7 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
     /// Kind.
-    pub kind: Kind,
+    pub kind: FeatureKind,
     /// Index of the panel.
     pub panel: usize,
     /// Column and row in the chart's order, from 0 at the top left, if any.
@@ -55,14 +55,14 @@ pub struct Feature {
 impl Feature {
     /// A feature of one point on the first panel.
     #[must_use]
-    pub fn at(kind: Kind, index: [usize; 2], point_mm: DVec2) -> Self {
+    pub fn at(kind: FeatureKind, index: [usize; 2], point_mm: DVec2) -> Self {
         Self { kind, panel: 0, index: Some(index), points_mm: vec![point_mm], radius_mm: None }
     }
 
     /// An edge on the first panel.
     #[must_use]
     pub fn edge(index: [usize; 2], from_mm: DVec2, to_mm: DVec2) -> Self {
-        Self { kind: Kind::Edge, panel: 0, index: Some(index), points_mm: vec![from_mm, to_mm], radius_mm: None }
+        Self { kind: FeatureKind::Edge, panel: 0, index: Some(index), points_mm: vec![from_mm, to_mm], radius_mm: None }
     }
 }
 
@@ -89,7 +89,7 @@ pub struct Texture {
     /// Index of the panel.
     pub panel: usize,
     /// Position of the image on the panel: top left and bottom right corners, mm; it is mirrored beyond.
-    pub place_mm: (DVec2, DVec2),
+    pub position_mm: (DVec2, DVec2),
     /// Columns.
     pub width: usize,
     /// Rows.
@@ -123,7 +123,7 @@ pub struct Drawing {
     /// Boxes behind holes.
     pub cavities: Vec<Cavity>,
     /// True if uniform light from all directions falls on it; otherwise it is self-luminous in the dark.
-    pub lit: bool,
+    pub is_illuminated: bool,
     /// Features.
     pub features: Vec<Feature>,
     /// Areas of one ink.
@@ -143,7 +143,7 @@ impl Drawing {
             inks,
             textures: Vec::new(),
             cavities: Vec::new(),
-            lit: true,
+            is_illuminated: true,
             features: Vec::new(),
             patches: Vec::new(),
             spp: 64,

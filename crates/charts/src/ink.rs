@@ -23,11 +23,11 @@ pub enum Paint {
     /// Lambertian with a measured reflectance.
     Spectral(Spectrum),
     /// Self-luminous: this fraction of the light's luminance, in its spectrum. Reflects nothing.
-    Glow(f64),
+    Luminous(f64),
     /// Self-luminous in pulses; the fraction is the mean over time.
     Pulses {
         /// Fraction of the light's luminance.
-        share: f64,
+        fraction: f64,
         /// Pulse frequency, Hz.
         frequency_hz: f64,
         /// Fraction of the period that a pulse lasts.
@@ -62,10 +62,10 @@ impl Ink {
     #[must_use]
     pub fn radiance(&self, light: &Light) -> Spectrum {
         match &self.paint {
-            Paint::Grey(share)
-            | Paint::Glow(share)
-            | Paint::Pulses { share, .. }
-            | Paint::Texture { mean: share, .. } => light.radiance().scaled(*share),
+            Paint::Grey(fraction)
+            | Paint::Luminous(fraction)
+            | Paint::Pulses { fraction, .. }
+            | Paint::Texture { mean: fraction, .. } => light.radiance().scaled(*fraction),
             Paint::Spectral(reflectance) => light.radiance().product(reflectance),
         }
     }
@@ -80,10 +80,10 @@ impl Ink {
     #[must_use]
     pub fn luminous_fraction(&self, light: &Light) -> f64 {
         match &self.paint {
-            Paint::Grey(share)
-            | Paint::Glow(share)
-            | Paint::Pulses { share, .. }
-            | Paint::Texture { mean: share, .. } => *share,
+            Paint::Grey(fraction)
+            | Paint::Luminous(fraction)
+            | Paint::Pulses { fraction, .. }
+            | Paint::Texture { mean: fraction, .. } => *fraction,
             Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum())[1],
         }
     }
@@ -93,10 +93,10 @@ impl Ink {
     pub fn print_rgb(&self) -> [f64; 3] {
         let own = match &self.paint {
             Paint::Spectral(reflectance) => linear_srgb_from_xyz(xyz_of_reflectance(reflectance, illuminant::d65())),
-            Paint::Grey(share)
-            | Paint::Glow(share)
-            | Paint::Pulses { share, .. }
-            | Paint::Texture { mean: share, .. } => [*share; 3],
+            Paint::Grey(fraction)
+            | Paint::Luminous(fraction)
+            | Paint::Pulses { fraction, .. }
+            | Paint::Texture { mean: fraction, .. } => [*fraction; 3],
         };
         own.map(|v| v.clamp(0.0, 1.0))
     }
@@ -131,8 +131,8 @@ mod tests {
         let lab = grey.lab(&light);
         assert!((lab.l - 49.496).abs() < 1e-3 && lab.a.abs() < 1e-6 && lab.b.abs() < 1e-6, "{lab:?}");
         let red = Ink::new("red", Paint::Spectral(colorchecker()[14].reflectance.clone()));
-        let share = red.luminous_fraction(&light);
-        assert!((red.luminance_cd_m2(&light) / 1000.0 / share - 1.0).abs() < 1e-5);
+        let fraction = red.luminous_fraction(&light);
+        assert!((red.luminance_cd_m2(&light) / 1000.0 / fraction - 1.0).abs() < 1e-5);
         // BabelColor's averages: the red patch is near L* 42, a* 54, b* 28.
         let lab = red.lab(&light);
         assert!((lab.l - 42.0).abs() < 2.5 && lab.a > 45.0 && lab.b > 18.0, "{lab:?}");

@@ -24,9 +24,9 @@ mod write;
 
 pub use camera_station::{CameraStation, Exposures, Spacing, camera_stations};
 pub use design::Chart;
-pub use drawing::{Cavity, Drawing, Feature, Kind, Patch, Texture};
+pub use drawing::{Cavity, Drawing, Feature, FeatureKind, Patch, Texture};
 pub use error::ChartError;
 pub use ink::{Ink, Paint};
-pub use light::{Light, Meter, Panel};
+pub use light::{Light, CameraResponse, Panel};
 pub use ray_camera::{Footprint, RasterRay, RayCamera};
-pub use write::{ChartFile, Contents, Request, camera_file, files, picture};
+pub use write::{ChartFile, Contents, ChartSpecification, camera_file, files, chart_image};

@@ -22,9 +22,9 @@ impl Light {
     pub fn named(name: &str, luminance_cd_m2: f64) -> Result<Self, ChartError> {
         let unknown =
             || ChartError::option("illuminant", name, format!("expected one of {}", illuminant::names().join(", ")));
-        let spectrum = illuminant::named(name).ok_or_else(unknown)?;
-        let legal = luminance_cd_m2.is_finite() && luminance_cd_m2 > 0.0;
-        let radiance = with_luminance(spectrum, luminance_cd_m2).filter(|_| legal);
+        let spectrum = illuminant::by_name(name).ok_or_else(unknown)?;
+        let is_valid = luminance_cd_m2.is_finite() && luminance_cd_m2 > 0.0;
+        let radiance = with_luminance(spectrum, luminance_cd_m2).filter(|_| is_valid);
         let error = || ChartError::option("luminance_cd_m2", luminance_cd_m2, "expected a luminance above 0, cd/m²");
         Ok(Self { name: name.to_owned(), radiance: radiance.ok_or_else(error)?, luminance_cd_m2 })
     }
@@ -60,7 +60,7 @@ impl Light {
 }
 
 /// A camera's response to light, at the image centre.
-pub struct Meter<'a> {
+pub struct CameraResponse<'a> {
     /// Exposure that its file describes, s.
     pub exposure_s: f64,
     /// Maximum exposure that it allows, s.
@@ -71,10 +71,10 @@ pub struct Meter<'a> {
     pub electrons: &'a dyn Fn(&Spectrum) -> Vec<(String, f64)>,
 }
 
-impl Meter<'_> {
+impl CameraResponse<'_> {
     /// Electrons of the strongest channel relative to saturation, for a radiance.
     #[must_use]
-    pub fn share(&self, radiance: &Spectrum) -> f64 {
+    pub fn saturation_fraction(&self, radiance: &Spectrum) -> f64 {
         (self.electrons)(radiance).iter().map(|(_, e)| *e).fold(0.0, f64::max) / self.saturation_e
     }
 }

@@ -23,7 +23,7 @@ pub struct RayCamera<'a> {
 }
 
 /// Maximum angle of rays from the axis for the intersection with the sheet: beyond it the sheet would be unbounded.
-const WIDEST_DEG: f64 = 60.0;
+const MAX_ANGLE_DEG: f64 = 60.0;
 /// Points per side of the image border.
 const BORDER: usize = 32;
 /// Points per side of the lattice from which an inversion starts.
@@ -58,20 +58,20 @@ impl RayCamera<'_> {
     pub fn footprint(&self, distance_m: f64) -> Result<Footprint, ChartError> {
         let middle = self.size_px / 2.0;
         let meets = |at: DVec2| (self.ray)(at).and_then(|ray| on_plane(&ray, distance_m));
-        let ahead = |met: &(DVec2, bool)| met.1;
+        let ahead = |hit: &(DVec2, bool)| hit.1;
         let [left, right] = [-0.5, 0.5].map(|x| meets(middle + DVec2::new(x, 0.0)).filter(ahead));
         let (Some((left, _)), Some((right, _))) = (left, right) else { return Err(sideways()) };
         // If the border is dark, as with a fisheye: the last visible point on the way to it.
         let inwards = |at: DVec2| {
-            let on_the_way = |i: usize| meets(middle + (at - middle) * (i as f64 / BORDER as f64));
-            meets(at).or_else(|| (1..BORDER).rev().find_map(on_the_way).map(|(met, _)| (met, false)))
+            let on_segment = |i: usize| meets(middle + (at - middle) * (i as f64 / BORDER as f64));
+            meets(at).or_else(|| (1..BORDER).rev().find_map(on_segment).map(|(hit, _)| (hit, false)))
         };
         let border: Vec<(DVec2, bool)> = self.border().filter_map(inwards).collect();
-        let half = border.iter().fold(DVec2::ZERO, |most, (at, _)| most.max(at.abs()));
-        let share = border.iter().map(|(at, _)| (at.abs() / half).max_element()).fold(1.0, f64::min);
-        let fills = border.iter().all(|(_, whole)| *whole);
+        let half = border.iter().fold(DVec2::ZERO, |max_distance, (at, _)| max_distance.max(at.abs()));
+        let fraction = border.iter().map(|(at, _)| (at.abs() / half).max_element()).fold(1.0, f64::min);
+        let fills = border.iter().all(|(_, is_ahead)| *is_ahead);
         let pixel_mm = 1e3 * (right - left).length();
-        Ok(Footprint { distance_m, outer_mm: 2e3 * half, inner_mm: 2e3 * share * half, pixel_mm, fills })
+        Ok(Footprint { distance_m, outer_mm: 2e3 * half, inner_mm: 2e3 * fraction * half, pixel_mm, fills })
     }
 
     fn border(&self) -> impl Iterator<Item = DVec2> + '_ {
@@ -93,19 +93,19 @@ impl RayCamera<'_> {
     pub fn project(&self, starts: &[(DVec2, RasterRay)], point_m: DVec3) -> Option<DVec2> {
         let near = |ray: &RasterRay| ray.direction.dot((point_m - ray.origin_m).normalize_or_zero());
         let (start, _) = starts.iter().max_by(|a, b| near(&a.1).total_cmp(&near(&b.1)))?;
-        let found = self.newton(*start, point_m)?;
-        let inside = found.cmpge(DVec2::splat(-EXACT_PX)).all() && found.cmple(self.size_px + EXACT_PX).all();
-        inside.then_some(found)
+        let raster_px = self.newton(*start, point_m)?;
+        let inside = raster_px.cmpge(DVec2::splat(-EXACT_PX)).all() && raster_px.cmple(self.size_px + EXACT_PX).all();
+        inside.then_some(raster_px)
     }
 
     fn newton(&self, start: DVec2, point_m: DVec3) -> Option<DVec2> {
         let mut at = start;
         for _ in 0..STEPS {
             let ray = (self.ray)(at)?;
-            let error = miss(&ray, &ray, point_m)?;
+            let error = ray_offset(&ray, &ray, point_m)?;
             let slope = |step: DVec2| {
                 let (sign, other) = [1.0, -1.0].into_iter().find_map(|s| Some((s, (self.ray)(at + s * step)?)))?;
-                Some((miss(&ray, &other, point_m)? - error) * (sign / STEP_PX))
+                Some((ray_offset(&ray, &other, point_m)? - error) * (sign / STEP_PX))
             };
             let jacobian = DMat2::from_cols(slope(DVec2::new(STEP_PX, 0.0))?, slope(DVec2::new(0.0, STEP_PX))?);
             let step = jacobian.inverse() * error;
@@ -125,15 +125,15 @@ impl RayCamera<'_> {
 }
 
 fn sideways() -> ChartError {
-    let told = "the centre of this camera's image does not face forward, so no flat chart fills its field; use a camera without \
+    let message = "the centre of this camera's image does not face forward, so no flat chart fills its field; use a camera without \
                 a mirror, or point its lens forward";
-    ChartError::Camera(told.to_owned())
+    ChartError::Camera(message.to_owned())
 }
 
 /// Intersection of a ray with the plane z = distance, m from the axis, and true if it is near enough to the axis; farther ones
 /// are clamped to the widest angle in their direction.
 fn on_plane(ray: &RasterRay, distance_m: f64) -> Option<(DVec2, bool)> {
-    let widest = WIDEST_DEG.to_radians();
+    let widest = MAX_ANGLE_DEG.to_radians();
     let across = ray.direction.truncate();
     if ray.direction.z > cos(widest) {
         let t = (distance_m - ray.origin_m.z) / ray.direction.z;
@@ -144,8 +144,8 @@ fn on_plane(ray: &RasterRay, distance_m: f64) -> Option<(DVec2, bool)> {
 
 /// Error of a ray's direction relative to a point: its components perpendicular to the direction in which `about` should look,
 /// over its component along it. `None` for rays that look away.
-fn miss(about: &RasterRay, ray: &RasterRay, point_m: DVec3) -> Option<DVec2> {
-    let axis = (point_m - about.origin_m).try_normalize()?;
+fn ray_offset(reference: &RasterRay, ray: &RasterRay, point_m: DVec3) -> Option<DVec2> {
+    let axis = (point_m - reference.origin_m).try_normalize()?;
     let (x, y) = axis.any_orthonormal_pair();
     let towards = (point_m - ray.origin_m).try_normalize()?;
     let (d, u) = (ray.direction, towards);
@@ -174,8 +174,8 @@ mod tests {
         for (x, y) in [(0.0, 0.0), (3.25, 470.0), (320.0, 240.0), (639.9, 0.1), (100.7, 300.3)] {
             let at = DVec2::new(x, y);
             let ray = barrel(at).expect("everywhere");
-            let found = ray_camera.project(&starts, ray.origin_m + 2.5 * ray.direction).expect("inside");
-            assert!((found - at).length() < 1e-7, "{at} {found}");
+            let result = ray_camera.project(&starts, ray.origin_m + 2.5 * ray.direction).expect("inside");
+            assert!((result - at).length() < 1e-7, "{at} {result}");
         }
         assert_eq!(ray_camera.project(&starts, DVec3::new(3.0, 0.0, 1.0)), None);
         assert_eq!(ray_camera.project(&starts, DVec3::new(0.1, 0.0, -1.0)), None);
@@ -184,17 +184,17 @@ mod tests {
     #[test]
     fn a_footprint_holds_the_field() {
         let ray_camera = RayCamera { size_px: SIZE, ray: &barrel };
-        let seen = ray_camera.footprint(2.0).expect("ahead");
+        let footprint = ray_camera.footprint(2.0).expect("ahead");
         // The corner: p = (0.64, 0.48), r² = 0.64, ideal = 1.128 p.
-        assert!((seen.outer_mm - 4000.0 * 1.128 * DVec2::new(0.64, 0.48)).length() < 1e-9, "{seen:?}");
+        assert!((footprint.outer_mm - 4000.0 * 1.128 * DVec2::new(0.64, 0.48)).length() < 1e-9, "{footprint:?}");
         // The limiting point: the middle of the upper side, ideal y = 0.48 (1 + 0.2 · 0.2304).
-        let share = (1.0 + 0.2 * 0.2304) / 1.128;
-        assert!((seen.inner_mm - share * seen.outer_mm).length() < 1e-9);
-        assert!((seen.pixel_mm - 4.0).abs() < 1e-5 && seen.fills);
+        let fraction = (1.0 + 0.2 * 0.2304) / 1.128;
+        assert!((footprint.inner_mm - fraction * footprint.outer_mm).length() < 1e-9);
+        assert!((footprint.pixel_mm - 4.0).abs() < 1e-5 && footprint.fills);
     }
 
     #[test]
-    fn a_wide_camera_is_taken_to_60_degrees_and_a_sideways_one_refused() {
+    fn a_wide_camera_is_limited_to_60_degrees_and_a_sideways_one_refused() {
         let equidistant = |at: DVec2| {
             let p = (at - SIZE / 2.0) / 200.0;
             let theta = p.length();
@@ -203,8 +203,8 @@ mod tests {
             (theta < 1.15).then_some(RasterRay { origin_m: DVec3::ZERO, direction: across.extend(c) })
         };
         let ray_camera = RayCamera { size_px: SIZE, ray: &equidistant };
-        let seen = ray_camera.footprint(1.0).expect("ahead");
-        assert!(!seen.fills && (seen.outer_mm.x - 2000.0 * 3.0_f64.sqrt()).abs() < 1e-6, "{seen:?}");
+        let footprint = ray_camera.footprint(1.0).expect("ahead");
+        assert!(!footprint.fills && (footprint.outer_mm.x - 2000.0 * 3.0_f64.sqrt()).abs() < 1e-6, "{footprint:?}");
         let mirrored = |_| Some(RasterRay { origin_m: DVec3::ZERO, direction: DVec3::X });
         let ray_camera = RayCamera { size_px: SIZE, ray: &mirrored };
         assert!(matches!(ray_camera.footprint(1.0), Err(ChartError::Camera(_))));

@@ -19,7 +19,7 @@ pub struct Zone {
 
 /// Zones from the inside out, around a centre.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct ZoneFigure {
     /// The centre, inside of all zones.
     pub centre: DVec2,
     /// From the inside out. A zone with sectors follows the centre itself or a zone with as many corners at the same
@@ -35,7 +35,7 @@ impl Zone {
     }
 }
 
-impl Figure {
+impl ZoneFigure {
     /// A figure of one zone.
     #[must_use]
     pub fn one(centre: DVec2, outline: Vec<DVec2>, ink: usize) -> Self {
@@ -93,16 +93,16 @@ pub fn ring(centre: DVec2, inner: &[DVec2], outer: &[DVec2]) -> Vec<[DVec2; 3]> 
     while i < n || j < m {
         let (a, b) = at(i, j);
         let (next_a, next_b) = at(i + 1, j + 1);
-        let of_inner = [next_a, a, b];
-        let of_outer = [a, b, next_b];
+        let inner_triangle = [next_a, a, b];
+        let outer_triangle = [a, b, next_b];
         // The next corner in the order of angles, or the other one if that would fold the ring.
         let turn = (next_a - centre).perp_dot(next_b - centre);
         let inner_first = j == m || (i < n && turn > 0.0);
-        if (inner_first && area(&of_inner) > 0.0) || j == m {
-            triangles.push(of_inner);
+        if (inner_first && area(&inner_triangle) > 0.0) || j == m {
+            triangles.push(inner_triangle);
             i += 1;
         } else {
-            triangles.push(of_outer);
+            triangles.push(outer_triangle);
             j += 1;
         }
     }
@@ -176,8 +176,8 @@ pub fn centroid(outline: &[DVec2]) -> DVec2 {
     let first = outline.first().copied().unwrap_or_default();
     let weighed =
         edges(outline).map(|(a, b)| (a - first, b - first)).fold((DVec2::ZERO, 0.0), |(sum, weight), (a, b)| {
-            let twice = a.perp_dot(b);
-            (sum + (a + b) * twice, weight + twice)
+            let double_area = a.perp_dot(b);
+            (sum + (a + b) * double_area, weight + double_area)
         });
     match weighed {
         (sum, weight) if weight != 0.0 => first + sum / (3.0 * weight),
@@ -209,7 +209,7 @@ pub fn disc(centre: DVec2, radius: f64, corners: usize, start_rad: f64) -> Vec<D
 
 /// An outline rotated about `centre` by `angle_rad`, clockwise as seen, and scaled.
 #[must_use]
-pub fn turned(outline: &[DVec2], centre: DVec2, angle_rad: f64) -> Vec<DVec2> {
+pub fn rotated(outline: &[DVec2], centre: DVec2, angle_rad: f64) -> Vec<DVec2> {
     let axis = direction(angle_rad);
     outline.iter().map(|point| centre + axis.rotate(*point - centre)).collect()
 }
@@ -228,11 +228,11 @@ pub(crate) fn edges(outline: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> +
 
 /// Content of a lattice cell.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
+pub enum CellContent {
     /// One fill.
     Plain(Fill),
     /// A figure on a ground.
-    Figure(Figure, Fill),
+    Figure(ZoneFigure, Fill),
 }
 
 /// The lines of a lattice; the first and the last are the sheet's borders.
@@ -298,15 +298,15 @@ impl Lattice {
 
     /// The sheet, from the content of each cell (column, row).
     #[must_use]
-    pub fn sheet(&self, mut of: impl FnMut(usize, usize) -> Cell) -> Sheet {
+    pub fn sheet(&self, mut cell_content: impl FnMut(usize, usize) -> CellContent) -> Sheet {
         let size = DVec2::new(self.xs[self.columns()] - self.xs[0], self.ys[self.rows()] - self.ys[0]);
         let mut sheet = Sheet::new(size);
         for row in 0..self.rows() {
             for column in 0..self.columns() {
                 let outline = self.cell(column, row);
-                match of(column, row) {
-                    Cell::Plain(fill) => sheet.add(outline, fill),
-                    Cell::Figure(figure, ground) => sheet.pieces.extend(figure.pieces(&outline, ground)),
+                match cell_content(column, row) {
+                    CellContent::Plain(fill) => sheet.add(outline, fill),
+                    CellContent::Figure(figure, ground) => sheet.pieces.extend(figure.pieces(&outline, ground)),
                 }
             }
         }
@@ -339,7 +339,7 @@ mod tests {
         }
         let square = rectangle(centre - 4.0, centre + 4.0);
         for degrees in [-43.0_f64, -5.0, 0.0, 2.0, 5.0, 20.0, 45.0] {
-            check(centre, &turned(&square, centre, degrees.to_radians()), &cell);
+            check(centre, &rotated(&square, centre, degrees.to_radians()), &cell);
         }
     }
 

@@ -21,7 +21,7 @@ pub struct Subcommand {
 /// Kind of an argument's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum ArgumentKind {
     /// A switch without a value.
     Switch,
     /// A whole number.
@@ -48,7 +48,7 @@ pub struct Argument {
     /// True if several values are separated by commas.
     pub listed: bool,
     /// Kind of its values.
-    pub kind: Kind,
+    pub kind: ArgumentKind,
     /// Placeholder of its value in the help, such as `X,Y,W,H`.
     pub value: String,
     /// The allowed words; empty if any value is allowed.
@@ -76,7 +76,7 @@ fn subcommands(command: &Command) -> Vec<Subcommand> {
             verbs: subcommands(verb),
             arguments: match verb.has_subcommands() {
                 true => Vec::new(),
-                false => verb.get_arguments().filter(|argument| !is_everywhere(argument)).map(told).collect(),
+                false => verb.get_arguments().filter(|argument| !is_everywhere(argument)).map(argument_report).collect(),
             },
         })
         .collect()
@@ -87,7 +87,7 @@ fn is_everywhere(argument: &Arg) -> bool {
     ["help", "version"].contains(&argument.get_id().as_str()) || argument.is_global_set()
 }
 
-fn told(argument: &Arg) -> Argument {
+fn argument_report(argument: &Arg) -> Argument {
     let id = argument.get_id().as_str();
     let many = matches!(argument.get_action(), ArgAction::Append)
         || argument.get_num_args().is_some_and(|n| n.max_values() > 1);
@@ -111,11 +111,11 @@ fn told(argument: &Arg) -> Argument {
     }
 }
 
-fn kind(argument: &Arg, is_switch: bool) -> Kind {
+fn kind(argument: &Arg, is_switch: bool) -> ArgumentKind {
     let type_id = argument.get_value_parser().type_id();
     let is_one = |types: &[TypeId]| types.iter().any(|one| type_id == *one);
     match type_id {
-        _ if is_switch => Kind::Switch,
+        _ if is_switch => ArgumentKind::Switch,
         _ if is_one(&[
             TypeId::of::<u8>(),
             TypeId::of::<u32>(),
@@ -124,11 +124,11 @@ fn kind(argument: &Arg, is_switch: bool) -> Kind {
             TypeId::of::<i64>(),
         ]) =>
         {
-            Kind::Integer
+            ArgumentKind::Integer
         }
-        _ if is_one(&[TypeId::of::<f64>()]) => Kind::Number,
-        _ if is_one(&[TypeId::of::<PathBuf>()]) => Kind::Path,
-        _ => Kind::Text,
+        _ if is_one(&[TypeId::of::<f64>()]) => ArgumentKind::Number,
+        _ if is_one(&[TypeId::of::<PathBuf>()]) => ArgumentKind::Path,
+        _ => ArgumentKind::Text,
     }
 }
 
@@ -141,19 +141,19 @@ mod tests {
     }
 
     #[test]
-    fn every_verb_is_told_with_what_it_takes() {
+    fn every_verb_is_listed_with_its_arguments() {
         let verbs = catalogue();
         let measure = find(&verbs, "measure");
         assert!(measure.arguments.is_empty() && measure.verbs.len() > 15);
         let sfr = find(&measure.verbs, "sfr");
         let argument = |name: &str| sfr.arguments.iter().find(|a| a.name == name).expect("an argument of that name");
-        assert_eq!((argument("picture").positional, argument("picture").kind), (true, Kind::Path));
+        assert_eq!((argument("picture").positional, argument("picture").kind), (true, ArgumentKind::Path));
         assert_eq!(
             (argument("edge-degree").kind, argument("edge-degree").default.as_deref()),
-            (Kind::Integer, Some("1"))
+            (ArgumentKind::Integer, Some("1"))
         );
         assert_eq!((argument("edge").many, argument("edge").value.as_str()), (true, "X,Y,W,H"));
-        assert_eq!((argument("json").kind, argument("json").default.as_deref()), (Kind::Switch, None));
+        assert_eq!((argument("json").kind, argument("json").default.as_deref()), (ArgumentKind::Switch, None));
         assert!(sfr.arguments.iter().all(|a| !a.help.is_empty() && a.name != "limit" && a.name != "help"));
     }
 }

@@ -30,7 +30,7 @@ unsafe extern "C" {
 
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 #[allow(unsafe_code)]
-extern "C" fn look() {
+extern "C" fn check() {
     // SAFETY: `fcntl` with F_GETFD takes no further argument, accesses no memory of the program and is allowed for every number.
     let flags = unsafe { fcntl(STDOUT, F_GETFD) };
     IS_CLOSED.store(flags == -1, Ordering::Relaxed);
@@ -42,4 +42,4 @@ extern "C" fn look() {
 #[used]
 #[cfg_attr(target_os = "linux", unsafe(link_section = ".init_array"))]
 #[cfg_attr(target_vendor = "apple", unsafe(link_section = "__DATA,__mod_init_func"))]
-static LOOK: extern "C" fn() = look;
+static CHECK: extern "C" fn() = check;

@@ -14,7 +14,7 @@ pub trait Console: Sync {
     }
 
     /// Prints a line that is neither answer nor message of the library; the program prints it on stderr.
-    fn tell(&self, line: &str);
+    fn print_message(&self, line: &str);
 
     /// True if a person reads the answer as it is printed, so that a page may be opened.
     fn is_terminal(&self) -> bool {

@@ -18,7 +18,7 @@ mod spelling;
 mod subcommands;
 mod verbs;
 
-pub use catalogue::{Argument, Kind, Subcommand, catalogue};
+pub use catalogue::{Argument, ArgumentKind, Subcommand, catalogue};
 use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser};
 pub use console::Console;
@@ -26,8 +26,8 @@ use etendue::{Error, ErrorCode};
 use etendue_scene::limits;
 pub use machine::{pool, simd};
 pub use memory::stated_or_free as memory_limits;
-pub use panics::quieten_decoders;
-use progress::Terminal;
+pub use panics::silence_decoder_panics;
+use progress::TerminalProgress;
 use spelling::{SpelledConsole, Spelling};
 use std::ffi::OsString;
 use verbs::Verb;
@@ -63,14 +63,14 @@ pub fn command() -> clap::Command {
 
 /// Runs the program: `arguments` begin with its name. Returns its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    panics::quieten_decoders();
+    panics::silence_decoder_panics();
     let (arguments, spelling) = match parsed(arguments, Spelling::flags) {
         Ok(parsed) => parsed,
         Err(told) => return usage(&told),
     };
-    let terminal = Terminal::default();
+    let terminal = TerminalProgress::default();
     let console = SpelledConsole { console: &terminal, spelling: &spelling };
-    match panics::caught(|| arguments.run(&console)) {
+    match panics::catch_panic(|| arguments.run(&console)) {
         Ok(()) => 0,
         Err(error) => {
             output::print_message(&spelling.text(&error.to_string()));
@@ -91,8 +91,8 @@ fn parsed(
 }
 
 /// Error code of wrong arguments.
-fn code_of(told: &clap::Error) -> ErrorCode {
-    match told.kind() {
+fn code_of(error: &clap::Error) -> ErrorCode {
+    match error.kind() {
         ErrorKind::UnknownArgument | ErrorKind::InvalidSubcommand => ErrorCode::UnknownArgument,
         ErrorKind::MissingRequiredArgument | ErrorKind::MissingSubcommand => ErrorCode::MissingArgument,
         ErrorKind::ArgumentConflict => ErrorCode::Contradiction,
@@ -101,16 +101,16 @@ fn code_of(told: &clap::Error) -> ErrorCode {
 }
 
 /// Prints help, or the error of the arguments, which are escaped as all other text.
-fn usage(told: &clap::Error) -> u8 {
-    if told.use_stderr() {
-        let code = code_of(told);
-        output::print_message(&told.to_string().replacen("error: ", &format!("error[{code}]: "), 1));
-        return u8::try_from(told.exit_code()).unwrap_or(2);
+fn usage(error: &clap::Error) -> u8 {
+    if error.use_stderr() {
+        let code = code_of(error);
+        output::print_message(&error.to_string().replacen("error: ", &format!("error[{code}]: "), 1));
+        return u8::try_from(error.exit_code()).unwrap_or(2);
     }
-    match told.print() {
+    match error.print() {
         Ok(()) => 0,
         Err(cause) => {
-            output::print_message(&output::unwritten(&cause));
+            output::print_message(&output::write_error_message(&cause));
             1
         }
     }
@@ -130,7 +130,7 @@ pub fn refuse_closed_stdout() -> u8 {
 /// # Errors
 /// There is no such limit, or the number is not from 1 to its highest value.
 pub fn set_limit(limit: &str) -> Result<(), Error> {
-    limits::set(limit).map_err(|told| Error::argument("limit", format!("`limit` {limit}: {told}")))
+    limits::set(limit).map_err(|error| Error::argument("limit", format!("`limit` {limit}: {error}")))
 }
 
 /// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console. Messages name arguments as parameters: flags

@@ -48,7 +48,7 @@ fn kib_of(text: &str, name: &str) -> Option<u64> {
 }
 
 /// A hierarchy of control groups: its mount point and the names of its files.
-struct Hierarchy {
+struct ControlGroupHierarchy {
     mount: &'static str,
     limit: &'static str,
     used: &'static str,
@@ -56,13 +56,13 @@ struct Hierarchy {
     reclaimable: &'static [&'static str],
 }
 
-const VERSION_1: Hierarchy = Hierarchy {
+const VERSION_1: ControlGroupHierarchy = ControlGroupHierarchy {
     mount: "/sys/fs/cgroup/memory",
     limit: "memory.limit_in_bytes",
     used: "memory.usage_in_bytes",
     reclaimable: &["total_inactive_file ", "total_active_file "],
 };
-const VERSION_2: Hierarchy = Hierarchy {
+const VERSION_2: ControlGroupHierarchy = ControlGroupHierarchy {
     mount: "/sys/fs/cgroup",
     limit: "memory.max",
     used: "memory.current",
@@ -79,7 +79,7 @@ fn free_in_groups(groups: &str, read: &dyn Fn(&Path) -> Option<String>) -> Optio
             names => names.split(',').any(|name| name == "memory").then(|| (VERSION_1, PathBuf::from(path))),
         }
     };
-    let free_of_group = |(hierarchy, path): (Hierarchy, PathBuf)| {
+    let free_of_group = |(hierarchy, path): (ControlGroupHierarchy, PathBuf)| {
         let free = |at: &Path| free_in(&hierarchy, at.strip_prefix("/").unwrap_or(at), read);
         path.ancestors().filter_map(free).min()
     };
@@ -87,7 +87,7 @@ fn free_in_groups(groups: &str, read: &dyn Fn(&Path) -> Option<String>) -> Optio
 }
 
 /// Returns the memory that is free in one group, bytes. In a container the path may be that of the host, which does not exist there.
-fn free_in(hierarchy: &Hierarchy, group: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
+fn free_in(hierarchy: &ControlGroupHierarchy, group: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
     let folder = Path::new(hierarchy.mount).join(group);
     let number = |name: &str| read(&folder.join(name))?.trim().parse::<u64>().ok();
     let limit = number(hierarchy.limit).filter(|limit| *limit < NO_LIMIT_BYTES)?;

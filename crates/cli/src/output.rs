@@ -17,13 +17,13 @@ pub fn print_json(document: &str) {
 fn write_results(text: &str) {
     let mut out = io::stdout().lock();
     if let Err(cause) = out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        print_message(&unwritten(&cause));
+        print_message(&write_error_message(&cause));
         std::process::exit(1);
     }
 }
 
 /// The error message of results that cannot be written.
-pub fn unwritten(cause: &io::Error) -> String {
+pub fn write_error_message(cause: &io::Error) -> String {
     format!(
         "error: the results cannot be written to standard output: {cause}; files with their final names are complete\n"
     )

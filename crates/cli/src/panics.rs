@@ -6,11 +6,11 @@ use etendue::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Message after a panic.
-const FAULT: &str = "error: an internal error ended this run, at the place stated above; files with their final \
+const PANIC_MESSAGE: &str = "error: an internal error ended this run, at the place stated above; files with their final \
     names are complete. Please report the lines above with the job";
 
 /// Prints the messages of panics, except those of decoders, which become errors of the file.
-pub fn quieten_decoders() {
+pub fn silence_decoder_panics() {
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         if !etendue::is_decoding() {
@@ -20,8 +20,8 @@ pub fn quieten_decoders() {
 }
 
 /// Returns the result of `run`; an error if it panics.
-pub fn caught(run: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
-    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(Error::Run(FAULT.to_owned())))
+pub fn catch_panic(run: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(Error::Run(PANIC_MESSAGE.to_owned())))
 }
 
 #[cfg(test)]
@@ -35,12 +35,12 @@ mod tests {
         let workers = pool(Some(2)).expect("threads");
         let panicking =
             || workers.install(|| (0..100).into_par_iter().for_each(|i| assert_ne!(i, 57, "a test's panic")));
-        let told = caught(|| {
+        let error = catch_panic(|| {
             panicking();
             Ok(())
         });
-        assert_eq!(told, Err(Error::Run(FAULT.to_owned())));
-        assert_eq!(caught(|| Ok(())), Ok(()));
+        assert_eq!(error, Err(Error::Run(PANIC_MESSAGE.to_owned())));
+        assert_eq!(catch_panic(|| Ok(())), Ok(()));
         workers.install(|| (0..100).into_par_iter().for_each(|_| {}));
     }
 }

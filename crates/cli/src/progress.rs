@@ -2,27 +2,27 @@
 
 use crate::console::Console;
 use crate::output::{print, print_json, print_message};
-use etendue::{Message, Observer, Progress, Unit, terminal_text};
+use etendue::{Message, Observer, Progress, ProgressUnit, terminal_text};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::time::Instant;
 
 /// Draws a bar for each task on stderr if that is a terminal, or prints one line per minute; prints messages there.
-pub struct Terminal {
-    bar: Mutex<Option<Bar>>,
-    lines: Mutex<Lines>,
+pub struct TerminalProgress {
+    bar: Mutex<Option<TaskBar>>,
+    lines: Mutex<ProgressLines>,
     /// Start of its clock.
     start: Instant,
 }
 
-impl Default for Terminal {
+impl Default for TerminalProgress {
     fn default() -> Self {
         Self { bar: Mutex::default(), lines: Mutex::default(), start: Instant::now() }
     }
 }
 
-impl Console for Terminal {
+impl Console for TerminalProgress {
     fn print(&self, text: &str) {
         print(text);
     }
@@ -31,7 +31,7 @@ impl Console for Terminal {
         print_json(document);
     }
 
-    fn tell(&self, line: &str) {
+    fn print_message(&self, line: &str) {
         print_message(line);
     }
 
@@ -44,12 +44,12 @@ impl Console for Terminal {
     }
 }
 
-struct Bar {
+struct TaskBar {
     total: usize,
     bar: ProgressBar,
 }
 
-impl Bar {
+impl TaskBar {
     fn new(progress: Progress<'_>) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         let unit = unit(progress.unit);
@@ -60,11 +60,11 @@ impl Bar {
     }
 }
 
-fn unit(unit: Unit) -> &'static str {
+fn unit(unit: ProgressUnit) -> &'static str {
     match unit {
-        Unit::Tiles => "tiles",
-        Unit::Pictures => "images",
-        Unit::Pilots => "pilots",
+        ProgressUnit::Tiles => "tiles",
+        ProgressUnit::Images => "images",
+        ProgressUnit::Pilots => "pilots",
     }
 }
 
@@ -78,35 +78,35 @@ fn heading(progress: Progress<'_>) -> String {
 }
 
 /// Interval between lines of progress where stderr is no terminal, s.
-const LINE_EVERY_S: f64 = 60.0;
+const LINE_INTERVAL_S: f64 = 60.0;
 
 /// Schedule of lines of progress.
 #[derive(Default)]
-struct Lines {
+struct ProgressLines {
     /// Total of the task, and its start.
     task: Option<(usize, f64)>,
     last_s: f64,
 }
 
-impl Lines {
+impl ProgressLines {
     /// Returns the line of this progress, if one is due.
     fn due(&mut self, progress: Progress<'_>, now_s: f64) -> Option<String> {
         let (total, began_s) =
             self.task.filter(|(total, _)| *total == progress.total).unwrap_or((progress.total, now_s));
         self.task = (progress.done < progress.total).then_some((total, began_s));
-        if now_s - self.last_s < LINE_EVERY_S || progress.total == 0 {
+        if now_s - self.last_s < LINE_INTERVAL_S || progress.total == 0 {
             return None;
         }
         self.last_s = now_s;
-        let share = progress.done as f64 / progress.total as f64;
+        let fraction = progress.done as f64 / progress.total as f64;
         let left = match progress.done {
             0 => String::new(),
-            _ => format!(", about {:.0} s left", (now_s - began_s) * (1.0 - share) / share),
+            _ => format!(", about {:.0} s left", (now_s - began_s) * (1.0 - fraction) / fraction),
         };
         Some(format!(
             "{}: {:.0} % ({} of {} {}) after {now_s:.0} s{left}\n",
             heading(progress),
-            100.0 * share,
+            100.0 * fraction,
             progress.done,
             progress.total,
             unit(progress.unit)
@@ -114,7 +114,7 @@ impl Lines {
     }
 }
 
-impl Observer for Terminal {
+impl Observer for TerminalProgress {
     fn now_s(&self) -> Option<f64> {
         Some(self.start.elapsed().as_secs_f64())
     }
@@ -138,10 +138,10 @@ impl Observer for Terminal {
         if task.as_ref().is_some_and(|task| task.total != progress.total) {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }
-        let drawn = task.get_or_insert_with(|| Bar::new(progress));
-        drawn.bar.set_length(progress.total as u64);
-        drawn.bar.set_prefix(heading(progress));
-        drawn.bar.set_position(progress.done as u64);
+        let bar = task.get_or_insert_with(|| TaskBar::new(progress));
+        bar.bar.set_length(progress.total as u64);
+        bar.bar.set_prefix(heading(progress));
+        bar.bar.set_position(progress.done as u64);
         if progress.done == progress.total {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }
@@ -154,17 +154,17 @@ mod tests {
     use etendue::FramePlace;
 
     #[test]
-    fn a_frame_is_told_with_its_place_in_the_run() {
+    fn a_frame_is_reported_with_its_place_in_the_run() {
         let frame = Some(FramePlace { number: 12, place: 3, count: 20 });
-        let progress = Progress { heading: "left", frame, unit: Unit::Tiles, done: 5, total: 100 };
+        let progress = Progress { heading: "left", frame, unit: ProgressUnit::Tiles, done: 5, total: 100 };
         assert_eq!(heading(progress), "left, frame 12 (3/20)");
         assert_eq!(heading(Progress { frame: None, ..progress }), "left");
     }
 
     #[test]
     fn without_a_terminal_there_is_a_line_a_minute() {
-        let mut lines = Lines::default();
-        let progress = |done| Progress { heading: "left", frame: None, unit: Unit::Tiles, done, total: 200 };
+        let mut lines = ProgressLines::default();
+        let progress = |done| Progress { heading: "left", frame: None, unit: ProgressUnit::Tiles, done, total: 200 };
         let printed: Vec<String> = (0..=200).filter_map(|done| lines.due(progress(done), done as f64)).collect();
         let expected = [
             "left: 30 % (60 of 200 tiles) after 60 s, about 140 s left\n",

@@ -3,7 +3,7 @@
 
 use crate::console::Console;
 use clap::{ArgMatches, Command};
-use etendue::{Error, Fault, ImageTile, Message, Observer, Progress};
+use etendue::{Error, InputError, ImageTile, Message, Observer, Progress};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -79,15 +79,15 @@ impl Spelling {
             Some(written) => written.trim_matches('`').to_owned(),
             None => field,
         };
-        let fault = |fault: Fault| Fault {
-            message: self.text(&fault.message).into_owned(),
-            problem: self.text(&fault.problem).into_owned(),
-            remedy: fault.remedy.map(|remedy| self.text(&remedy).into_owned()),
-            field: fault.field.map(field),
-            ..fault
+        let respelled = |original: InputError| InputError {
+            message: self.text(&original.message).into_owned(),
+            problem: self.text(&original.problem).into_owned(),
+            remedy: original.remedy.map(|remedy| self.text(&remedy).into_owned()),
+            field: original.field.map(field),
+            ..original
         };
         match error {
-            Error::Input(faults) => Error::Input(faults.into_iter().map(fault).collect()),
+            Error::Input(errors) => Error::Input(errors.into_iter().map(respelled).collect()),
             Error::Run(reason) => Error::Run(self.text(&reason).into_owned()),
         }
     }
@@ -108,8 +108,8 @@ impl Console for SpelledConsole<'_> {
         self.console.print_json(document);
     }
 
-    fn tell(&self, line: &str) {
-        self.console.tell(line);
+    fn print_message(&self, line: &str) {
+        self.console.print_message(line);
     }
 
     fn is_terminal(&self) -> bool {
@@ -176,8 +176,8 @@ mod tests {
         assert_eq!(spelling(&RENDER, false).text(text), "--time 3: give --time 10 or samples with --spp");
         assert_eq!(spelling(&RENDER, true).text(text), "`time` 3: give `time` 10 or samples with `spp`");
         let error = spelling(&RENDER, true).error(Error::argument("time_s", text));
-        let Error::Input(faults) = error else { panic!("{error}") };
-        assert_eq!(faults[0].field.as_deref(), Some("time"));
+        let Error::Input(errors) = error else { panic!("{error}") };
+        assert_eq!(errors[0].field.as_deref(), Some("time"));
     }
 
     #[test]

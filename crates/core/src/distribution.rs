@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_are_drawn_by_weight_and_zero_ones_never() {
+    fn pieces_are_sampled_by_weight_and_zero_ones_never() {
         let d = Distribution1::new(vec![0.0, 1.0, 0.0, 3.0, 0.0]).expect("weights");
         let mut counts = [0; 5];
         for i in 0..1000 {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_without_weights_are_never_drawn() {
+    fn rows_without_weights_are_never_sampled() {
         let rows = 4096;
         let weights: Vec<f32> = (0..rows).flat_map(|row| [((row + 1) % 2) as f32, 0.0]).collect();
         let d = Distribution2::new(2, &weights).expect("weights");

@@ -122,13 +122,13 @@ impl FromStr for ExactTime {
     /// Decimal seconds such as `-12.5`, or with an exponent, which is read as an f64.
     fn from_str(text: &str) -> Result<Self, ParseTimeError> {
         let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
-        let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+        let (whole_digits, fraction) = digits.split_once('.').unwrap_or((digits, ""));
         let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-        if !is_digits(whole) || !is_digits(fraction) || whole.len() > 15 || digits.len() == fraction.len() + 1 {
+        if !is_digits(whole_digits) || !is_digits(fraction) || whole_digits.len() > 15 || digits.len() == fraction.len() + 1 {
             let seconds: f64 = text.parse().map_err(|_| ParseTimeError)?;
             return Self::from_seconds(seconds).ok_or(ParseTimeError);
         }
-        let whole_s: i64 = whole.parse().map_err(|_| ParseTimeError)?;
+        let whole_s: i64 = whole_digits.parse().map_err(|_| ParseTimeError)?;
         let fraction_s = format!("0.{fraction}0").parse().map_err(|_| ParseTimeError)?;
         let sum = Self::new(whole_s, fraction_s);
         Ok(if text.starts_with('-') { Self::default() - sum } else { sum })
@@ -143,12 +143,12 @@ pub struct Epoch {
 
 impl Epoch {
     /// Minimum distance from zero of the epoch of a job, s. Below it the spacing of f64 values is at most 1.2·10⁻¹⁰ s.
-    const FAR_S: f64 = 1e6;
+    const MIN_EPOCH_S: f64 = 1e6;
 
     /// Returns the epoch of a job that begins at `start`: zero unless `start` is far from zero.
     #[must_use]
     pub fn near(start: ExactTime) -> Self {
-        Self { whole_s: if start.seconds().abs() < Self::FAR_S { 0 } else { start.whole_s } }
+        Self { whole_s: if start.seconds().abs() < Self::MIN_EPOCH_S { 0 } else { start.whole_s } }
     }
 
     /// Returns true if times are counted from zero.
@@ -201,7 +201,7 @@ impl Cycle {
     /// a second. The error is below 10⁻⁶ of an event or a period for the stated rate or period.
     #[must_use]
     pub fn reduced_s(self, delay: ExactTime) -> f64 {
-        if delay.seconds().abs() < Epoch::FAR_S {
+        if delay.seconds().abs() < Epoch::MIN_EPOCH_S {
             return delay.seconds();
         }
         let whole_s = match self {
@@ -286,14 +286,14 @@ mod tests {
         };
         for far in ["1700000000", "10000000000", "999999999999999"] {
             assert_eq!(Cycle::from_frequency(1e6).reduced_s(time(far)), 0.0);
-            let whole: i64 = far.parse().expect("digits");
-            let eighths = (whole % 8) as f64 / 8.0;
+            let seconds: i64 = far.parse().expect("digits");
+            let eighths = (seconds % 8) as f64 / 8.0;
             // The division by the frequency and the product with it each round by half a step.
             assert!((phase(50.125, far) - eighths).abs() <= f64::EPSILON, "{far}");
             // The f64 nearest to 59.94 is m/2^47.
             let scale = (1_i64 << 47) as f64;
             let m = (59.94 * scale) as i128;
-            let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / scale;
+            let exact = ((m * i128::from(seconds)) % (1 << 47)) as f64 / scale;
             assert!((phase(59.94, far) - exact).abs() < 1e-6, "{far}");
         }
         // 25 files a second in a loop of 3; the product is exact in an f64.

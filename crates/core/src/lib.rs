@@ -45,7 +45,7 @@ pub use motion::Motion;
 pub use plane::{Plane, SpectralCube};
 pub use ray::{FieldRay, PrimitiveId, PupilRay, RadianceField, Ray};
 pub use shutter::{RowTiming, Shutter};
-pub use storage::KeptCube;
+pub use storage::StoredCube;
 pub use time_interval::TimeInterval;
 pub use track::Track;
 pub use waveform::Waveform;

@@ -16,29 +16,29 @@ use crate::track::{MovingTransform, RollingError, Track};
 
 /// Transform over time from a moved frame to the world. It is constant before the first key and after the last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion(Links);
+pub struct Motion(MotionChain);
 
 #[derive(Clone, Debug, PartialEq)]
-enum Links {
+enum MotionChain {
     One(Track),
     /// Two or more, the outermost first; all but the first move.
     Chain(Arc<[Track]>),
 }
 
 /// Tolerance for a matrix to count as a rotation, by element: descriptions have some ten digits.
-const RIGID: f64 = 1e-6;
+const RIGID_TOLERANCE: f64 = 1e-6;
 
 impl From<Track> for Motion {
     fn from(track: Track) -> Self {
-        Self(Links::One(track))
+        Self(MotionChain::One(track))
     }
 }
 
 impl Motion {
     /// Returns a constant transform: any affine one, kept bit for bit.
     #[must_use]
-    pub fn still(transform: DAffine3) -> Self {
-        Track::still(transform).into()
+    pub fn constant(transform: DAffine3) -> Self {
+        Track::constant(transform).into()
     }
 
     /// Returns the motion of an object that moves by `inner` in the frame moved by `self`.
@@ -53,16 +53,16 @@ impl Motion {
     pub fn nested<'m>(motions: impl IntoIterator<Item = &'m Self>) -> Self {
         let mut links: Vec<Track> = Vec::new();
         for track in motions.into_iter().flat_map(Self::links) {
-            match (links.last_mut(), track.as_still()) {
+            match (links.last_mut(), track.as_constant()) {
                 (Some(last), Some(still)) => *last = last.after(&still),
-                (Some(last), None) if last.as_still() == Some(DAffine3::IDENTITY) => *last = track.clone(),
+                (Some(last), None) if last.as_constant() == Some(DAffine3::IDENTITY) => *last = track.clone(),
                 _ => links.push(track.clone()),
             }
         }
         match <[Track; 1]>::try_from(links) {
             Ok([only]) => only.into(),
-            Err(links) if links.is_empty() => Self::still(DAffine3::IDENTITY),
-            Err(links) => Self(Links::Chain(links.into())),
+            Err(links) if links.is_empty() => Self::constant(DAffine3::IDENTITY),
+            Err(links) => Self(MotionChain::Chain(links.into())),
         }
     }
 
@@ -70,8 +70,8 @@ impl Motion {
     #[must_use]
     pub fn after(&self, first: &DAffine3) -> Self {
         match &self.0 {
-            Links::One(track) => track.after(first).into(),
-            Links::Chain(_) => self.carrying(&Self::still(*first)),
+            MotionChain::One(track) => track.after(first).into(),
+            MotionChain::Chain(_) => self.carrying(&Self::constant(*first)),
         }
     }
 
@@ -98,8 +98,8 @@ impl Motion {
     #[inline]
     pub fn at(&self, time_s: f64) -> DAffine3 {
         match &self.0 {
-            Links::One(track) => track.at(time_s),
-            Links::Chain(links) => {
+            MotionChain::One(track) => track.at(time_s),
+            MotionChain::Chain(links) => {
                 links.iter().skip(1).fold(links[0].at(time_s), |outer, link| outer * link.at(time_s))
             }
         }
@@ -115,20 +115,20 @@ impl Motion {
 
     /// Returns the transform if nothing ever moves; else `None`.
     #[must_use]
-    pub fn as_still(&self) -> Option<DAffine3> {
+    pub fn as_constant(&self) -> Option<DAffine3> {
         match &self.0 {
-            Links::One(track) => track.as_still(),
-            Links::Chain(_) => None,
+            MotionChain::One(track) => track.as_constant(),
+            MotionChain::Chain(_) => None,
         }
     }
 
     /// Returns the transform if nothing moves within an interval; else `None`. A single moment is such an interval.
     #[must_use]
-    pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
+    pub fn constant_over(&self, interval: TimeInterval) -> Option<DAffine3> {
         match &self.0 {
-            Links::One(track) => track.still_over(interval),
-            Links::Chain(links) => {
-                let holds = links.iter().all(|link| link.still_over(interval).is_some());
+            MotionChain::One(track) => track.constant_over(interval),
+            MotionChain::Chain(links) => {
+                let holds = links.iter().all(|link| link.constant_over(interval).is_some());
                 holds.then(|| self.at(interval.start_s()))
             }
         }
@@ -136,7 +136,7 @@ impl Motion {
 
     /// Returns the interval from the first key to the last; `None` if nothing ever moves. The motion is constant outside it.
     #[must_use]
-    pub fn moves_during(&self) -> Option<TimeInterval> {
+    pub fn motion_interval(&self) -> Option<TimeInterval> {
         let times_s = self.times_s();
         TimeInterval::new(*times_s.first()?, *times_s.last()?)
     }
@@ -156,8 +156,8 @@ impl Motion {
 
     fn links(&self) -> &[Track] {
         match &self.0 {
-            Links::One(track) => core::slice::from_ref(track),
-            Links::Chain(links) => links,
+            MotionChain::One(track) => core::slice::from_ref(track),
+            MotionChain::Chain(links) => links,
         }
     }
 
@@ -176,19 +176,19 @@ impl Motion {
     }
 
     fn moving_at(&self, time_s: f64, within_s: f64) -> MovingTransform {
-        let still = MovingTransform::still(DAffine3::IDENTITY);
+        let still = MovingTransform::constant(DAffine3::IDENTITY);
         self.links().iter().fold(still, |outer, link| outer.carrying(&link.moving_at(time_s, within_s)))
     }
 }
 
 fn is_rotation(m: &DMat3) -> bool {
     let off = (m.transpose() * *m - DMat3::IDENTITY).to_cols_array();
-    off.iter().all(|x| x.abs() <= RIGID) && m.determinant() > 0.0
+    off.iter().all(|x| x.abs() <= RIGID_TOLERANCE) && m.determinant() > 0.0
 }
 
 /// Returns true if the matrix scales all lengths by the same factor.
 fn is_similarity(m: &DMat3) -> bool {
     let square = m.x_axis.length_squared();
     let off = (m.transpose() * *m - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
-    off.iter().all(|x| x.abs() <= RIGID * square)
+    off.iter().all(|x| x.abs() <= RIGID_TOLERANCE * square)
 }

@@ -2,11 +2,11 @@
 
 /// Unit in which progress is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unit {
+pub enum ProgressUnit {
     /// Tiles of a camera's render.
     Tiles,
     /// Images that are read and searched.
-    Pictures,
+    Images,
     /// Render configurations that a study tests.
     Pilots,
 }
@@ -30,7 +30,7 @@ pub struct Progress<'a> {
     /// Frame in progress, if each frame is rendered separately.
     pub frame: Option<FramePlace>,
     /// Unit of the count.
-    pub unit: Unit,
+    pub unit: ProgressUnit,
     /// Number done, over all cameras and frames of the task.
     pub done: usize,
     /// Total number.

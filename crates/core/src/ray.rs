@@ -67,12 +67,12 @@ pub struct PupilRay {
 pub trait RadianceField<const N: usize>: Sync {
     /// Returns the spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that arrives at the ray's origin against its direction, at the path's wavelengths; an unbiased estimate
     /// if the field is a path tracer. Not divided by the density of the wavelengths.
-    fn radiance(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N>;
+    fn radiance(&self, field_ray: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N>;
 
     /// Appends to `radiance` the result of [`RadianceField::radiance`] for each of several rays of neighbouring pixels with the same wavelengths. Each is an
     /// unbiased estimate, but a field may share samples between them.
     fn radiance_of_group(&self, rays: &[FieldRay], wavelengths: &Wavelengths<N>, radiance: &mut Vec<Spectral<N>>) {
-        radiance.extend(rays.iter().map(|asked| self.radiance(asked, wavelengths)));
+        radiance.extend(rays.iter().map(|field_ray| self.radiance(field_ray, wavelengths)));
     }
 }
 
@@ -85,7 +85,7 @@ pub struct FieldRay {
     pub stream: PathStream,
     /// Simulated time over which the strength of a modulated light is averaged: the exposure of the ray's row or, if the ray has a single time, that moment.
     /// Within the interval of the view.
-    pub lit: TimeInterval,
+    pub light_interval: TimeInterval,
 }
 
 /// Field with the same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.

@@ -73,16 +73,16 @@ pub trait Scratch: Debug + Send + Sync {
 /// Bytes of a number.
 pub const NUMBER_BYTES: usize = size_of::<f32>();
 /// Numbers converted to bytes at a time.
-const PART: usize = 1 << 18;
+const NUMBERS_PER_PART: usize = 1 << 18;
 
 /// Writes numbers of 32 bits, little-endian, from the byte `offset` on.
 ///
 /// # Errors
 /// As [`Scratch::write`].
 pub fn write_numbers(scratch: &dyn Scratch, offset: u64, numbers: &[f32]) -> Result<(), String> {
-    for (part, numbers) in numbers.chunks(PART).enumerate() {
+    for (part, numbers) in numbers.chunks(NUMBERS_PER_PART).enumerate() {
         let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-        scratch.write(offset + (part * PART * NUMBER_BYTES) as u64, &bytes)?;
+        scratch.write(offset + (part * NUMBERS_PER_PART * NUMBER_BYTES) as u64, &bytes)?;
     }
     Ok(())
 }
@@ -92,9 +92,9 @@ pub fn write_numbers(scratch: &dyn Scratch, offset: u64, numbers: &[f32]) -> Res
 /// # Errors
 /// As [`Scratch::read`].
 pub fn read_numbers(scratch: &dyn Scratch, offset: u64, numbers: &mut [f32]) -> Result<(), String> {
-    for (part, numbers) in numbers.chunks_mut(PART).enumerate() {
+    for (part, numbers) in numbers.chunks_mut(NUMBERS_PER_PART).enumerate() {
         let mut bytes = vec![0; numbers.len() * NUMBER_BYTES];
-        scratch.read(offset + (part * PART * NUMBER_BYTES) as u64, &mut bytes)?;
+        scratch.read(offset + (part * NUMBERS_PER_PART * NUMBER_BYTES) as u64, &mut bytes)?;
         let (stored, _) = bytes.as_chunks::<NUMBER_BYTES>();
         numbers.iter_mut().zip(stored).for_each(|(number, stored)| *number = f32::from_le_bytes(*stored));
     }
@@ -138,14 +138,14 @@ pub struct CubeOnDisk {
 
 /// Spectral cube in memory or outside it, with the same access and the same numbers.
 #[derive(Clone, Debug)]
-pub enum KeptCube<Q: Quantity> {
+pub enum StoredCube<Q: Quantity> {
     /// In memory.
     Memory(SpectralCube<Q>),
     /// On the disk.
     Disk(CubeOnDisk),
 }
 
-impl<Q: Quantity> From<SpectralCube<Q>> for KeptCube<Q> {
+impl<Q: Quantity> From<SpectralCube<Q>> for StoredCube<Q> {
     fn from(cube: SpectralCube<Q>) -> Self {
         Self::Memory(cube)
     }
@@ -165,7 +165,7 @@ impl CubeOnDisk {
     }
 }
 
-impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
+impl<Q: Quantity<Sample = f32>> StoredCube<Q> {
     /// The wavelength bands.
     #[must_use]
     pub fn bands(&self) -> Bands {
@@ -276,10 +276,10 @@ mod tests {
     }
 
     #[test]
-    fn a_cube_reads_alike_from_both_places() {
+    fn a_cube_reads_the_same_from_both_places() {
         let bands = Bands::new(400.0, 50.0, 2).expect("two bands");
-        let disk = KeptCube::<Radiance>::Disk(CubeOnDisk::new(bands, 3, 4, Arc::new(Numbers)));
-        let memory = KeptCube::Memory(disk.clone().load().expect("read"));
+        let disk = StoredCube::<Radiance>::Disk(CubeOnDisk::new(bands, 3, 4, Arc::new(Numbers)));
+        let memory = StoredCube::Memory(disk.clone().load().expect("read"));
         assert!(disk.in_memory().is_none() && memory.in_memory().is_some());
         for cube in [&disk, &memory] {
             assert_eq!((cube.bands(), cube.width(), cube.height()), (bands, 3, 4));

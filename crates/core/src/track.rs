@@ -21,7 +21,7 @@ use turn::{Turn, vector_between};
 
 pub use rolling::RollingError;
 
-pub(crate) use rates::{Bend, Moving as MovingTransform};
+pub(crate) use rates::{CurvatureBounds, Moving as MovingTransform};
 
 /// Pose at a moment: scale, then rotation, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +38,8 @@ pub struct Key {
 
 /// Interpolates rotations along the shorter arc about one axis at constant rate (Shoemake 1985). `share` is the fraction of the arc, 0 … 1. Both quaternions
 /// may have any length except 0.
-pub fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
-    Turn::even(from.normalize(), to.normalize()).at(share)
+pub fn slerp(from: DQuat, to: DQuat, fraction: f64) -> DQuat {
+    Turn::even(from.normalize(), to.normalize()).at(fraction)
 }
 
 words! {
@@ -99,17 +99,17 @@ pub enum TrackError {
 
 /// Transform over time. It is constant before its first key and after its last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Track(Kind);
+pub struct Track(TrackState);
 
 #[derive(Clone, Debug, PartialEq)]
-enum Kind {
-    Still(DAffine3),
-    Moving(Arc<Keyed>),
+enum TrackState {
+    Static(DAffine3),
+    Moving(Arc<KeyedTrack>),
 }
 
 /// Two keys or more, not all equal.
 #[derive(Clone, Debug, PartialEq)]
-struct Keyed {
+struct KeyedTrack {
     /// Times of the keys, in increasing order.
     times_s: Vec<f64>,
     /// One span from each key except the last to the next.
@@ -123,8 +123,8 @@ struct Keyed {
 impl Track {
     /// Returns a constant transform: any affine one, kept bit for bit.
     #[must_use]
-    pub fn still(transform: DAffine3) -> Self {
-        Self(Kind::Still(transform))
+    pub fn constant(transform: DAffine3) -> Self {
+        Self(TrackState::Static(transform))
     }
 
     /// Returns the track through `keys`, which must be in order of time.
@@ -143,20 +143,20 @@ impl Track {
             return Err(TrackError::NotFinite { key });
         }
         if spans.iter().all(Span::is_constant) {
-            return Ok(Self::still(poses[0].transform()));
+            return Ok(Self::constant(poses[0].transform()));
         }
         let last = poses[poses.len() - 1];
-        Ok(Self(Kind::Moving(Arc::new(Keyed { times_s, spans, last, first: DAffine3::IDENTITY }))))
+        Ok(Self(TrackState::Moving(Arc::new(KeyedTrack { times_s, spans, last, first: DAffine3::IDENTITY }))))
     }
 
     /// Returns the same track with `first` applied before it.
     #[must_use]
     pub fn after(&self, first: &DAffine3) -> Self {
         match &self.0 {
-            Kind::Still(transform) => Self::still(*transform * *first),
-            Kind::Moving(keyed) => {
-                let moved = Keyed { first: keyed.first * *first, ..Keyed::clone(keyed) };
-                Self(Kind::Moving(Arc::new(moved)))
+            TrackState::Static(transform) => Self::constant(*transform * *first),
+            TrackState::Moving(keyed) => {
+                let moved = KeyedTrack { first: keyed.first * *first, ..KeyedTrack::clone(keyed) };
+                Self(TrackState::Moving(Arc::new(moved)))
             }
         }
     }
@@ -165,26 +165,26 @@ impl Track {
     #[must_use]
     pub fn at(&self, time_s: f64) -> DAffine3 {
         match &self.0 {
-            Kind::Still(transform) => *transform,
-            Kind::Moving(keyed) => keyed.at(time_s),
+            TrackState::Static(transform) => *transform,
+            TrackState::Moving(keyed) => keyed.at(time_s),
         }
     }
 
     /// Returns the transform if the track is constant; `None` for a moving one.
     #[must_use]
-    pub fn as_still(&self) -> Option<DAffine3> {
+    pub fn as_constant(&self) -> Option<DAffine3> {
         match &self.0 {
-            Kind::Still(transform) => Some(*transform),
-            Kind::Moving(_) => None,
+            TrackState::Static(transform) => Some(*transform),
+            TrackState::Moving(_) => None,
         }
     }
 
     /// Returns the transform if the track is constant within an interval; else `None`. A single moment is such an interval.
     #[must_use]
-    pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
+    pub fn constant_over(&self, interval: TimeInterval) -> Option<DAffine3> {
         match &self.0 {
-            Kind::Still(transform) => Some(*transform),
-            Kind::Moving(keyed) => {
+            TrackState::Static(transform) => Some(*transform),
+            TrackState::Moving(keyed) => {
                 let holds = interval.is_moment() || keyed.during(interval).all(|(span, _)| span.is_constant());
                 holds.then(|| keyed.at(interval.start_s()))
             }
@@ -192,7 +192,7 @@ impl Track {
     }
 }
 
-impl Keyed {
+impl KeyedTrack {
     fn at(&self, time_s: f64) -> DAffine3 {
         self.pose(time_s).transform() * self.first
     }
@@ -230,15 +230,15 @@ fn check(keys: &[Key]) -> Result<(), TrackError> {
     if keys.is_empty() {
         return Err(TrackError::Empty);
     }
-    for (key, found) in keys.iter().enumerate() {
-        if !(found.time_s.is_finite()
-            && found.position_m.is_finite()
-            && found.rotation.is_finite()
-            && found.scale.is_finite())
+    for (key, entry) in keys.iter().enumerate() {
+        if !(entry.time_s.is_finite()
+            && entry.position_m.is_finite()
+            && entry.rotation.is_finite()
+            && entry.scale.is_finite())
         {
             return Err(TrackError::NotFinite { key });
         }
-        if found.rotation.length_squared() == 0.0 {
+        if entry.rotation.length_squared() == 0.0 {
             return Err(TrackError::NoRotation { key });
         }
     }
@@ -280,7 +280,7 @@ fn straight(from: &Pose, to: &Pose) -> Span {
 }
 
 /// Rates of change of position, scale and rotation at a key, per second.
-type Rates = [DVec3; 3];
+type KeyRates = [DVec3; 3];
 
 fn smooth(times_s: &[f64], poses: &[Pose]) -> Vec<Span> {
     let rates = rates(times_s, poses);
@@ -298,9 +298,9 @@ fn smooth(times_s: &[f64], poses: &[Pose]) -> Vec<Span> {
 }
 
 /// Returns the rates at all keys; none for a single key.
-fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<Rates> {
+fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<KeyRates> {
     let lengths_s: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let means: Vec<Rates> =
+    let means: Vec<KeyRates> =
         poses.windows(2).zip(&lengths_s).map(|(pair, length_s)| mean_rates(pair, *length_s)).collect();
     let Some(last) = means.len().checked_sub(1) else { return Vec::new() };
     if last == 0 {
@@ -313,20 +313,20 @@ fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<Rates> {
         join(&means[i - 1], &means[i], |before, after| before * (1.0 - weight) + after * weight)
     };
     // Derivative of the same parabola at its end: the mean rate of a span is that at its middle.
-    let end = |mean: &Rates, inner: &Rates| join(mean, inner, |mean, inner| mean * 2.0 - inner);
-    let mut rates: Vec<Rates> = (1..=last).map(inner).collect();
+    let end = |mean: &KeyRates, inner: &KeyRates| join(mean, inner, |mean, inner| mean * 2.0 - inner);
+    let mut rates: Vec<KeyRates> = (1..=last).map(inner).collect();
     let (first, end) = (end(&means[0], &rates[0]), end(&means[last], &rates[last - 1]));
     rates.insert(0, first);
     rates.push(end);
     rates
 }
 
-fn mean_rates(pair: &[Pose], length_s: f64) -> Rates {
+fn mean_rates(pair: &[Pose], length_s: f64) -> KeyRates {
     let [from, to] = [&pair[0], &pair[1]];
-    let way = [to.position - from.position, to.scale - from.scale, vector_between(from.rotation, to.rotation)];
-    way.map(|way| way / length_s)
+    let differences = [to.position - from.position, to.scale - from.scale, vector_between(from.rotation, to.rotation)];
+    differences.map(|difference| difference / length_s)
 }
 
-fn join(a: &Rates, b: &Rates, f: impl Fn(DVec3, DVec3) -> DVec3) -> Rates {
+fn join(a: &KeyRates, b: &KeyRates, f: impl Fn(DVec3, DVec3) -> DVec3) -> KeyRates {
     [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2])]
 }

@@ -18,7 +18,7 @@ pub const MAX_LEVEL: f64 = 1e6;
 /// Factor on a light's strength over time, 0 … [`MAX_LEVEL`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
-    shape: Shape,
+    shape: WaveformShape,
     /// Frequency or period; `None` if the waveform is not periodic.
     cycle: Option<Cycle>,
     /// Delay of the whole waveform, s.
@@ -26,7 +26,7 @@ pub struct Waveform {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Shape {
+enum WaveformShape {
     Mains(Mains),
     Levels(Levels),
 }
@@ -48,7 +48,7 @@ pub struct Pulses {
 
 /// Interpolation of a table between its rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Between {
+pub enum TableInterpolation {
     /// Along straight lines.
     #[default]
     Linear,
@@ -154,8 +154,8 @@ impl Waveform {
             Piece { length_s: fall_s, from: peak, to: 0.0 },
             Piece { length_s: dark_s, from: 0.0, to: 0.0 },
         ];
-        let levels = Levels::recurring(-0.5 * rise_s, &pieces, period_s);
-        Ok(Self { cycle: Some(Cycle::from_frequency(frequency_hz)), ..Self::of_levels(levels) })
+        let levels = Levels::periodic(-0.5 * rise_s, &pieces, period_s);
+        Ok(Self { cycle: Some(Cycle::from_frequency(frequency_hz)), ..Self::from_levels(levels) })
     }
 
     /// Returns the modulation of a lamp on mains of `frequency_hz`: 1 + m cos(2π · 2f t), with the modulation `depth` m, 0 … 1. It is brightest at the time 0
@@ -169,7 +169,7 @@ impl Waveform {
             return Err(WaveformError::Depth { depth });
         }
         let cycle = Some(Cycle::from_frequency(2.0 * frequency_hz));
-        Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), cycle, delay_s: 0.0 })
+        Ok(Self { shape: WaveformShape::Mains(Mains { frequency_hz, depth }), cycle, delay_s: 0.0 })
     }
 
     /// Returns a table of levels at increasing times (s). Without `period_s` the first level holds before and the last after them. With it the table repeats:
@@ -177,7 +177,7 @@ impl Waveform {
     ///
     /// # Errors
     /// If rows are out of order, a level is out of its range or all are 0, or the period is too short.
-    pub fn table(rows: &[(f64, f64)], between: Between, period_s: Option<f64>) -> Result<Self, WaveformError> {
+    pub fn table(rows: &[(f64, f64)], between: TableInterpolation, period_s: Option<f64>) -> Result<Self, WaveformError> {
         check_levels(rows.iter().map(|(_, level)| *level))?;
         let (first, last) = (rows[0], rows[rows.len() - 1]);
         if let Some([before, after]) = rows.array_windows().find(|[a, b]| !(a.0 < b.0 && b.0.is_finite())) {
@@ -187,19 +187,19 @@ impl Waveform {
             return Err(WaveformError::Unordered { time_s: first.0, before_s: first.0 });
         }
         let piece = |[a, b]: &[(f64, f64); 2]| {
-            let to = if between == Between::Linear { b.1 } else { a.1 };
+            let to = if between == TableInterpolation::Linear { b.1 } else { a.1 };
             Piece { length_s: b.0 - a.0, from: a.1, to }
         };
         let mut pieces: Vec<Piece> = rows.array_windows().map(piece).collect();
-        let Some(period_s) = period_s else { return Ok(Self::of_levels(Levels::once(first.0, &pieces, last.1))) };
+        let Some(period_s) = period_s else { return Ok(Self::from_levels(Levels::one_shot(first.0, &pieces, last.1))) };
         let length_s = last.0 - first.0;
-        let fits = if between == Between::Linear { period_s >= length_s } else { period_s > length_s };
+        let fits = if between == TableInterpolation::Linear { period_s >= length_s } else { period_s > length_s };
         if !(fits && period_s > 0.0 && period_s.is_finite()) {
             return Err(WaveformError::Period { length_s, period_s });
         }
-        let to = if between == Between::Linear { first.1 } else { last.1 };
+        let to = if between == TableInterpolation::Linear { first.1 } else { last.1 };
         pieces.push(Piece { length_s: period_s - length_s, from: last.1, to });
-        Ok(Self::of_levels(Levels::recurring(first.0, &pieces, period_s)))
+        Ok(Self::from_levels(Levels::periodic(first.0, &pieces, period_s)))
     }
 
     /// Returns levels that hold for their durations (s), one after the other from the time 0 on: repeated, or once, with the first held before it and the last
@@ -216,15 +216,15 @@ impl Waveform {
         let pieces: Vec<Piece> = steps.iter().map(piece).collect();
         let period_s = pieces.iter().map(|piece| piece.length_s).sum();
         let last = steps[steps.len() - 1].1;
-        Ok(Self::of_levels(match repeats {
-            true => Levels::recurring(0.0, &pieces, period_s),
-            false => Levels::once(0.0, &pieces, last),
+        Ok(Self::from_levels(match repeats {
+            true => Levels::periodic(0.0, &pieces, period_s),
+            false => Levels::one_shot(0.0, &pieces, last),
         }))
     }
 
-    fn of_levels(levels: Levels) -> Self {
+    fn from_levels(levels: Levels) -> Self {
         let cycle = levels.period_s().map(Cycle::Period);
-        Self { shape: Shape::Levels(levels), cycle, delay_s: 0.0 }
+        Self { shape: WaveformShape::Levels(levels), cycle, delay_s: 0.0 }
     }
 
     /// Returns the waveform later by `delay_s`, which is finite.
@@ -235,7 +235,7 @@ impl Waveform {
 
     /// Returns the waveform delayed by a time that may be far from zero; a periodic one keeps its phase as in [`Cycle::reduced_s`].
     #[must_use]
-    pub fn later_by(self, delay: ExactTime) -> Self {
+    pub fn delay_by(self, delay: ExactTime) -> Self {
         let delay_s = self.cycle.map_or_else(|| delay.seconds(), |cycle| cycle.reduced_s(delay));
         self.later(delay_s)
     }
@@ -245,8 +245,8 @@ impl Waveform {
     pub fn at(&self, time_s: f64) -> f64 {
         let time_s = time_s - self.delay_s;
         match &self.shape {
-            Shape::Mains(mains) => mains.at(time_s),
-            Shape::Levels(levels) => levels.at(time_s),
+            WaveformShape::Mains(mains) => mains.at(time_s),
+            WaveformShape::Levels(levels) => levels.at(time_s),
         }
     }
 
@@ -255,8 +255,8 @@ impl Waveform {
     pub fn mean(&self, over: TimeInterval) -> f64 {
         let over = over.later(-self.delay_s);
         match &self.shape {
-            Shape::Mains(mains) => mains.mean(over),
-            Shape::Levels(levels) => levels.mean(over),
+            WaveformShape::Mains(mains) => mains.mean(over),
+            WaveformShape::Levels(levels) => levels.mean(over),
         }
     }
 
@@ -264,27 +264,27 @@ impl Waveform {
     #[must_use]
     pub fn mean_level(&self) -> Option<f64> {
         match &self.shape {
-            Shape::Mains(_) => Some(1.0),
-            Shape::Levels(levels) => levels.mean_level(),
+            WaveformShape::Mains(_) => Some(1.0),
+            WaveformShape::Levels(levels) => levels.mean_level(),
         }
     }
 
     /// Returns the maximum level within an interval, its ends included; 0 only if the light is dark throughout.
     #[must_use]
-    pub fn greatest(&self, over: TimeInterval) -> f64 {
+    pub fn max_over(&self, over: TimeInterval) -> f64 {
         let over = over.later(-self.delay_s);
         match &self.shape {
-            Shape::Mains(mains) => mains.greatest(over),
-            Shape::Levels(levels) => levels.greatest(over),
+            WaveformShape::Mains(mains) => mains.max_over(over),
+            WaveformShape::Levels(levels) => levels.max_over(over),
         }
     }
 
     /// Returns the maximum level at any time.
     #[must_use]
-    pub fn greatest_level(&self) -> f64 {
+    pub fn max_level(&self) -> f64 {
         match &self.shape {
-            Shape::Mains(mains) => 1.0 + mains.depth,
-            Shape::Levels(levels) => levels.greatest_level(),
+            WaveformShape::Mains(mains) => 1.0 + mains.depth,
+            WaveformShape::Levels(levels) => levels.max_level(),
         }
     }
 
@@ -292,8 +292,8 @@ impl Waveform {
     #[must_use]
     pub fn period_s(&self) -> Option<f64> {
         match &self.shape {
-            Shape::Mains(mains) => Some(0.5 / mains.frequency_hz),
-            Shape::Levels(levels) => levels.period_s(),
+            WaveformShape::Mains(mains) => Some(0.5 / mains.frequency_hz),
+            WaveformShape::Levels(levels) => levels.period_s(),
         }
     }
 }
@@ -345,7 +345,7 @@ impl Mains {
         1.0 + left * (self.at(over.middle_s()) - 1.0)
     }
 
-    fn greatest(&self, over: TimeInterval) -> f64 {
+    fn max_over(&self, over: TimeInterval) -> f64 {
         let [start, end] = [over.start_s(), over.end_s()].map(|time_s| self.periods(time_s));
         if start.ceil() <= end { 1.0 + self.depth } else { self.at(over.start_s()).max(self.at(over.end_s())) }
     }

@@ -3,7 +3,7 @@
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
 
 /// Shortest wavelength that a description may state, nm.
-pub const SHORTEST_NM: f64 = 300.0;
+pub const MIN_NM: f64 = 300.0;
 /// Longest wavelength that a description may state, nm.
 pub const MAX_NM: f64 = 1100.0;
 
@@ -189,7 +189,7 @@ impl Bands {
     #[must_use]
     pub fn new(low_nm: f64, width_nm: f64, count: usize) -> Option<Self> {
         let high_nm = low_nm + width_nm * count as f64;
-        let legal = count > 0 && width_nm > 0.0 && low_nm >= SHORTEST_NM && high_nm <= MAX_NM + 1e-9;
+        let legal = count > 0 && width_nm > 0.0 && low_nm >= MIN_NM && high_nm <= MAX_NM + 1e-9;
         legal.then_some(Self { low_nm, width_nm, count })
     }
 

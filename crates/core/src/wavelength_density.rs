@@ -16,14 +16,14 @@ const GRID: f64 = 16_777_216.0;
 /// that resolution is never sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WavelengthDensity {
-    pieces: Vec<Piece>,
+    pieces: Vec<DensityPiece>,
     /// Guide table: for each of equal steps of [0, 1), a power of two of them, the piece that contains its beginning.
     guide: Vec<u16>,
 }
 
 /// Piece of nonzero probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
+struct DensityPiece {
     /// Numbers from `begin` to `end` sample it.
     begin: f32,
     end: f32,
@@ -51,7 +51,7 @@ impl WavelengthDensity {
             sum += f64::from(*weight);
             let end = (sum / total * GRID).round() / GRID;
             if end > begin {
-                pieces.push(Piece::new(begin, end, edge_nm(i), edge_nm(i + 1)));
+                pieces.push(DensityPiece::new(begin, end, edge_nm(i), edge_nm(i + 1)));
                 begin = end;
             }
         }
@@ -61,16 +61,16 @@ impl WavelengthDensity {
     /// Samples `N` wavelengths from one number `u` in [0, 1) and its rotations.
     #[must_use]
     #[inline]
-    pub fn draw<const N: usize>(&self, u: f32) -> Wavelengths<N> {
+    pub fn sample<const N: usize>(&self, u: f32) -> Wavelengths<N> {
         let (mut nm, mut pdf) = ([0.0; N], [0.0; N]);
         for i in 0..N {
-            (nm[i], pdf[i]) = self.draw_one(crate::wavelength::turned(u, i, N));
+            (nm[i], pdf[i]) = self.sample_one(crate::wavelength::turned(u, i, N));
         }
         Wavelengths { nm, pdf }
     }
 
     #[inline]
-    fn draw_one(&self, u: f32) -> (f32, f32) {
+    fn sample_one(&self, u: f32) -> (f32, f32) {
         // Exact: the steps are a power of two.
         let step = ((u * self.guide.len() as f32) as usize).min(self.guide.len() - 1);
         let mut i = usize::from(self.guide[step]);
@@ -91,7 +91,7 @@ impl WavelengthDensity {
     }
 }
 
-impl Piece {
+impl DensityPiece {
     fn new(begin: f64, end: f64, low_nm: f32, next_nm: f32) -> Self {
         let width_nm = f64::from(next_nm) - f64::from(low_nm);
         Self {
@@ -106,7 +106,7 @@ impl Piece {
 }
 
 #[inline]
-fn guide(pieces: &[Piece], steps: usize) -> Vec<u16> {
+fn guide(pieces: &[DensityPiece], steps: usize) -> Vec<u16> {
     let begin = |step: usize| {
         let u = step as f64 / steps as f64;
         pieces.partition_point(|piece| f64::from(piece.end) <= u) as u16
@@ -124,9 +124,9 @@ mod tests {
         let n = 1 << 12;
         let mut counts = [0; 4];
         for i in 0..n {
-            let drawn = density.draw::<1>(i as f32 / n as f32);
-            counts[((drawn.nm[0] - 400.0) / 100.0) as usize] += 1;
-            assert_eq!(drawn.pdf[0], density.pdf(drawn.nm[0]));
+            let sampled = density.sample::<1>(i as f32 / n as f32);
+            counts[((sampled.nm[0] - 400.0) / 100.0) as usize] += 1;
+            assert_eq!(sampled.pdf[0], density.pdf(sampled.nm[0]));
         }
         assert_eq!(counts, [n / 8, 0, 3 * n / 8, n / 2]);
         assert_eq!(
@@ -144,9 +144,9 @@ mod tests {
         let edges = density.pieces.iter().flat_map(|p| [p.begin, p.end - grain]);
         for u in edges.chain((0..100_000).map(|i| i as f32 / 100_000.0)) {
             let piece = density.pieces.iter().find(|p| p.end > u).expect("the last one ends at 1");
-            let drawn = density.draw::<1>(u);
-            assert!((piece.low_nm..=piece.high_nm).contains(&drawn.nm[0]), "{u}: {drawn:?}");
-            assert_eq!(drawn.pdf[0], piece.pdf);
+            let sampled = density.sample::<1>(u);
+            assert!((piece.low_nm..=piece.high_nm).contains(&sampled.nm[0]), "{u}: {sampled:?}");
+            assert_eq!(sampled.pdf[0], piece.pdf);
         }
     }
 
@@ -157,20 +157,20 @@ mod tests {
         let total: f32 = weights.iter().sum();
         let mut sum = 0.0;
         for (piece, weight) in density.pieces.iter().zip(&weights) {
-            let share = f64::from(piece.pdf) * 800.0 / 47.0;
-            sum += share;
+            let fraction = f64::from(piece.pdf) * 800.0 / 47.0;
+            sum += fraction;
             // Half of the resolution at either end, and edges of some 17 nm rounded to f32: each by 3e-5 nm at most.
-            assert!((share - f64::from(weight / total)).abs() < 1.0 / GRID + 4e-6 * share + 1e-9);
+            assert!((fraction - f64::from(weight / total)).abs() < 1.0 / GRID + 4e-6 * fraction + 1e-9);
         }
         assert!((sum - 1.0).abs() < 1e-6, "{sum}");
     }
 
     #[test]
-    fn drawn_wavelengths_estimate_an_integral_by_their_density() {
+    fn sampled_wavelengths_estimate_an_integral_by_their_density() {
         let density = WavelengthDensity::new(&[1.0, 0.0, 3.0, 4.0], 400.0, 800.0).expect("weights");
         let mut sum = 0.0;
         for i in 0..256 {
-            let w = density.draw::<4>((i as f32 + 0.5) / 256.0);
+            let w = density.sample::<4>((i as f32 + 0.5) / 256.0);
             for (nm, pdf) in w.nm.iter().zip(w.pdf) {
                 sum += f64::from(*nm) / f64::from(pdf) / 1024.0;
             }

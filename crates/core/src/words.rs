@@ -59,7 +59,7 @@ pub struct Setting {
     /// Its value.
     pub value: SettingValue,
     /// True if it has an effect only with path tracing.
-    pub is_of_paths: bool,
+    pub is_path_only: bool,
 }
 
 /// The value of a setting. Displays as TOML spells it.
@@ -78,13 +78,13 @@ impl Setting {
     /// Returns a setting that has an effect with every integrator.
     #[must_use]
     pub fn new(key: &'static str, value: SettingValue) -> Self {
-        Self { key, value, is_of_paths: false }
+        Self { key, value, is_path_only: false }
     }
 
     /// Returns a setting that has an effect only with path tracing.
     #[must_use]
-    pub fn of_paths(key: &'static str, value: SettingValue) -> Self {
-        Self { key, value, is_of_paths: true }
+    pub fn path_only(key: &'static str, value: SettingValue) -> Self {
+        Self { key, value, is_path_only: true }
     }
 }
 

@@ -8,17 +8,17 @@ use std::{ops::Range, path::Path};
 use etendue::{Error, ErrorCode, Message, Observer};
 
 use crate::records::{Records, record_name};
-use crate::{draw::Drawn, format::Writer, record::SampleRecord, set::Set};
+use crate::{draw::SampleVariation, format::FormatWriter, record::SampleRecord, set::Set};
 
 /// Samples of a folder, checked by a run of some of them.
-pub(crate) struct DoneSamples<'a> {
+pub(crate) struct CompleteSamples<'a> {
     pub(crate) set: &'a Set,
-    pub(crate) writers: &'a [Box<dyn Writer>],
+    pub(crate) writers: &'a [Box<dyn FormatWriter>],
     pub(crate) root: &'a Path,
     pub(crate) records: &'a Records,
 }
 
-impl DoneSamples<'_> {
+impl CompleteSamples<'_> {
     /// Refuses unusable records of samples outside the run.
     pub(crate) fn check_others(&self, samples: &Range<u32>) -> Result<(), Error> {
         for sample in self.records.numbers().iter().filter(|sample| !samples.contains(sample)) {
@@ -34,12 +34,12 @@ impl DoneSamples<'_> {
     }
 
     /// Samples that a resumed run renders: those that are missing or incomplete. Incomplete ones are reported to the observer.
-    pub(crate) fn left(&self, samples: &Range<u32>, observer: &dyn Observer) -> Vec<u32> {
+    pub(crate) fn remaining(&self, samples: &Range<u32>, observer: &dyn Observer) -> Vec<u32> {
         let is_left = |sample: &u32| {
             if self.records.numbers().binary_search(sample).is_err() {
                 return true;
             }
-            let Err(why) = self.whole(*sample) else { return false };
+            let Err(why) = self.check_complete(*sample) else { return false };
             let path = self.root.join(record_name(*sample));
             observer.message(Message::Note(&format!("{}: {why}; sample {sample} is made again", path.display())));
             true
@@ -50,7 +50,7 @@ impl DoneSamples<'_> {
     /// Record of the set.
     fn record(&self, sample: u32) -> Result<SampleRecord, String> {
         let record = self.records.read(sample)?;
-        let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
+        let drawn = SampleVariation::new(self.set.variations.as_ref(), self.set.seed, sample);
         match (record.seed, &record.set) == (drawn.seed, &drawn.set()) && record.split == drawn.split {
             true => Ok(record),
             false => Err("its values are not those that this data set samples".to_owned()),
@@ -58,12 +58,12 @@ impl DoneSamples<'_> {
     }
 
     /// Record whose files are unchanged.
-    fn whole(&self, sample: u32) -> Result<(), String> {
+    fn check_complete(&self, sample: u32) -> Result<(), String> {
         let record = self.record(sample)?;
         let is_there = |name: &str| {
             let digest = &record.files[name];
             digest.matches(&self.root.join(name))
-                || self.writers.iter().any(|writer| writer.holds(name, &record, self.records, self.root))
+                || self.writers.iter().any(|writer| writer.has_file(name, &record, self.records, self.root))
         };
         match record.files.keys().find(|name| !is_there(name)) {
             Some(name) => Err(format!("{name} is missing or was changed")),

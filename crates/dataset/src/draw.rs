@@ -8,7 +8,7 @@ use rand::RngExt as _;
 use rand_distr::Distribution as _;
 use serde::{Deserialize, Serialize};
 
-use crate::request::{Change, choice_texts, number_text, of_choice, of_value};
+use crate::request::{Change, choice_texts, number_text, choice_changes, value_changes};
 
 /// Use of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -32,7 +32,7 @@ impl Split {
 
 /// Varied settings of one sample.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Drawn {
+pub(crate) struct SampleVariation {
     pub(crate) split: Split,
     /// Seed of its light and its noise.
     pub(crate) seed: u64,
@@ -40,9 +40,9 @@ pub(crate) struct Drawn {
     pub(crate) groups: Vec<Vec<Change>>,
 }
 
-impl Drawn {
+impl SampleVariation {
     /// Returns the settings of a sample.
-    pub(crate) fn of(variations: Option<&Variations>, seed: u64, sample: u32) -> Self {
+    pub(crate) fn new(variations: Option<&Variations>, seed: u64, sample: u32) -> Self {
         let stream = |name: &str| stream_of_name(seed, name, sample);
         let fraction = variations.and_then(|v| v.validation_fraction.as_ref()).map_or(0.0, |fraction| fraction.value);
         // Stream names that no key has: keys are not empty and have no trailing blank.
@@ -50,11 +50,11 @@ impl Drawn {
         let mut groups = Vec::new();
         for preset in variations.map_or(&[][..], |v| &v.presets) {
             let choice = weighted(&preset.weights, preset.choices.len(), &mut stream(&preset_name(&preset.name)));
-            groups.push(of_choice(preset, choice));
+            groups.push(choice_changes(preset, choice));
         }
         for entry in variations.map_or(&[][..], |v| &v.vary) {
             let value = value(&entry.distribution, &mut stream(&entry.key[0].value));
-            groups.push(of_value(entry, &value).collect());
+            groups.push(value_changes(entry, &value).collect());
         }
         Self { split, seed: stream(" light").double_word() >> 1, groups }
     }
@@ -112,12 +112,12 @@ fn weighted(weights: &[Placed<f64>], count: usize, random: &mut NoiseStream) -> 
     // Divided by the largest, so that their sum is finite.
     let greatest = weights.iter().map(|weight| weight.value).fold(0.0, f64::max);
     let parts: Vec<f64> = weights.iter().map(|weight| weight.value / greatest).collect();
-    let mut left = random.random_range(0.0..parts.iter().sum());
+    let mut remaining = random.random_range(0.0..parts.iter().sum());
     for (index, part) in parts.iter().enumerate() {
-        if left < *part {
+        if remaining < *part {
             return index;
         }
-        left -= part;
+        remaining -= part;
     }
     // Rounding of the sum: the last choice of nonzero weight.
     weights.iter().rposition(|weight| weight.value > 0.0).expect("a checked file has a weight above 0")
@@ -141,18 +141,18 @@ mod tests {
         load_variations("variations.toml".as_ref(), &|_| Ok(text.to_owned())).expect("a legal file")
     }
 
-    fn texts(drawn: &Drawn) -> Vec<&str> {
+    fn texts(drawn: &SampleVariation) -> Vec<&str> {
         drawn.groups.iter().flatten().map(|(text, _)| text.as_str()).collect()
     }
 
     /// Values of a key over some samples.
     fn values(key: &str, samples: u32) -> Vec<String> {
         let file = file(TEXT);
-        let of = |sample| Drawn::of(Some(&file), 7, sample);
-        let value = |drawn: &Drawn| {
+        let variation_of = |sample| SampleVariation::new(Some(&file), 7, sample);
+        let value = |drawn: &SampleVariation| {
             texts(drawn).iter().find_map(|text| text.strip_prefix(&format!("{key}=")).map(str::to_owned))
         };
-        (0..samples).map(|sample| value(&of(sample)).expect("it is drawn")).collect()
+        (0..samples).map(|sample| value(&variation_of(sample)).expect("it is drawn")).collect()
     }
 
     fn numbers(key: &str) -> Vec<f64> {
@@ -168,13 +168,13 @@ mod tests {
 
     #[test]
     fn a_sample_is_the_same_alone_and_whatever_else_is_varied() {
-        let whole = Drawn::of(Some(&file(TEXT)), 7, 70_000);
-        assert_eq!(whole, Drawn::of(Some(&file(TEXT)), 7, 70_000));
+        let varied = SampleVariation::new(Some(&file(TEXT)), 7, 70_000);
+        assert_eq!(varied, SampleVariation::new(Some(&file(TEXT)), 7, 70_000));
         let alone = file("format = 1\n[[vary]]\nkey = \"n\"\ntype = \"normal\"\nmean = 5\nstandard_deviation = 2\n");
-        let alone = Drawn::of(Some(&alone), 7, 70_000);
-        assert!(texts(&whole).contains(&texts(&alone)[0]), "{:?} {:?}", texts(&whole), texts(&alone));
-        assert_eq!(whole.seed, alone.seed);
-        assert_ne!(whole, Drawn::of(Some(&file(TEXT)), 8, 70_000));
+        let alone = SampleVariation::new(Some(&alone), 7, 70_000);
+        assert!(texts(&varied).contains(&texts(&alone)[0]), "{:?} {:?}", texts(&varied), texts(&alone));
+        assert_eq!(varied.seed, alone.seed);
+        assert_ne!(varied, SampleVariation::new(Some(&file(TEXT)), 8, 70_000));
     }
 
     // Five standard errors of 4 000 samples.
@@ -198,14 +198,14 @@ mod tests {
     #[test]
     fn choices_come_as_often_as_they_weigh() {
         let count = |values: &[String], value: &str| values.iter().filter(|v| *v == value).count();
-        let found = values("c", 4000);
-        let (x, table) = (count(&found, "\"x\""), count(&found, "{ k = [1, 2] }"));
+        let sampled = values("c", 4000);
+        let (x, table) = (count(&sampled, "\"x\""), count(&sampled, "{ k = [1, 2] }"));
         // A quarter is 1 000: five standard deviations are 137.
         assert!(x + table == 4000 && x.abs_diff(1000) < 137, "{x} {table}");
-        let found = values("i", 4000);
-        assert!(["2", "3", "4"].iter().all(|value| count(&found, value).abs_diff(1333) < 150));
+        let sampled = values("i", 4000);
+        assert!(["2", "3", "4"].iter().all(|value| count(&sampled, value).abs_diff(1333) < 150));
         let file = file(TEXT);
-        let drawn: Vec<_> = (0..4000).map(|sample| Drawn::of(Some(&file), 7, sample)).collect();
+        let drawn: Vec<_> = (0..4000).map(|sample| SampleVariation::new(Some(&file), 7, sample)).collect();
         let fog = drawn.iter().filter(|drawn| texts(drawn).starts_with(&["fog=1", "rain=null"])).count();
         let val = drawn.iter().filter(|drawn| drawn.split == Split::Val).count();
         assert!(fog.abs_diff(2000) < 159 && val.abs_diff(1000) < 137, "{fog} {val}");

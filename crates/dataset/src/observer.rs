@@ -3,7 +3,7 @@
 use etendue::{ImageTile, Message, Observer, Progress};
 
 /// Work of one sample as a part of all.
-pub(crate) struct OfSample<'a> {
+pub(crate) struct SampleObserver<'a> {
     pub(crate) all: &'a dyn Observer,
     /// Number of finished samples, and total.
     pub(crate) done: usize,
@@ -14,12 +14,12 @@ pub(crate) struct OfSample<'a> {
     pub(crate) tells: bool,
 }
 
-impl Observer for OfSample<'_> {
+impl Observer for SampleObserver<'_> {
     fn message(&self, message: Message<'_>) {
         match message {
             Message::Note(_) if self.tells => self.all.message(message),
             Message::Note(_) => {}
-            Message::Warning(told) => self.all.message(Message::Warning(&format!("sample {}: {told}", self.sample))),
+            Message::Warning(warning) => self.all.message(Message::Warning(&format!("sample {}: {warning}", self.sample))),
         }
     }
 

@@ -14,13 +14,13 @@ use etendue_core::{CameraPose, Plane, quantity::Display};
 use glam::DQuat;
 
 use crate::draw::Split;
-use crate::record::{PictureRecord, Pose, objects};
+use crate::record::{ImageRecord, Pose, objects};
 
 /// Image of a sample with its ground truth.
-pub(crate) struct Picture<'a> {
+pub(crate) struct SampleImage<'a> {
     /// Number and split of its sample.
     pub(crate) sample: (u32, Split),
-    pub(crate) record: PictureRecord,
+    pub(crate) record: ImageRecord,
     /// Bytes of the file.
     pub(crate) bytes: Vec<u8>,
     pub(crate) truth: &'a GroundTruth,
@@ -31,14 +31,14 @@ pub(crate) struct Picture<'a> {
     cryptomatte: &'a OnceCell<Vec<u8>>,
 }
 
-impl Picture<'_> {
+impl SampleImage<'_> {
     /// Coverage of objects and materials, as the bytes of a Cryptomatte file.
     pub(crate) fn cryptomatte(&self) -> Result<&[u8], Error> {
         if let Some(known) = self.cryptomatte.get() {
             return Ok(known);
         }
-        let made = self.results.cryptomatte()?;
-        Ok(self.cryptomatte.get_or_init(|| made))
+        let encoded = self.results.cryptomatte()?;
+        Ok(self.cryptomatte.get_or_init(|| encoded))
     }
 
     /// All objects of the world at the image's time.
@@ -58,7 +58,7 @@ pub(crate) fn each(
     number: u32,
     split: Split,
     warn: &dyn Fn(&str),
-    mut take: impl FnMut(&Picture<'_>) -> Result<(), Error>,
+    mut take: impl FnMut(&SampleImage<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let truth = results.ground_truth();
     let (width_px, height_px) = (truth.instance.width(), truth.instance.height());
@@ -70,9 +70,9 @@ pub(crate) fn each(
     let camera = results.name();
     let cryptomatte = OnceCell::new();
     let view = pinhole_view(results.camera()).ok();
-    for (frame, taken) in results.frame_numbers().zip(results.frames()) {
-        let file = results.picture_file(&taken).ok_or_else(|| no_picture(camera))?;
-        let display = &taken.picture.as_ref().ok_or_else(|| no_picture(camera))?.display;
+    for (frame, frame_result) in results.frame_numbers().zip(results.frames()) {
+        let file = results.image_file(&frame_result).ok_or_else(|| no_image(camera))?;
+        let display = &frame_result.picture.as_ref().ok_or_else(|| no_image(camera))?.display;
         if (display.width(), display.height()) != (width_px, height_px) {
             let problem =
                 "its images are a region, or of binned or skipped pixels, but its ground truth is of all pixels";
@@ -81,13 +81,13 @@ pub(crate) fn each(
                 format!("camera {camera}: {problem}; remove these keys"),
             ));
         }
-        if !taken.raw.invalid.is_empty() {
-            let count = taken.raw.invalid.len();
+        if !frame_result.raw.invalid.is_empty() {
+            let count = frame_result.raw.invalid.len();
             warn(&format!("{camera}, frame {frame}: {count} pixels have no valid light; their digital number is 0"));
         }
         let (extension, bytes) = file?;
         let (pose, time) = results.pose(frame);
-        let record = PictureRecord {
+        let record = ImageRecord {
             camera: camera.to_owned(),
             frame,
             time_s: time.seconds(),
@@ -100,7 +100,7 @@ pub(crate) fn each(
             mount: camera_mount(results.camera()).as_ref().map(pose_record),
             objects: objects.clone(),
         };
-        take(&Picture {
+        take(&SampleImage {
             sample: (number, split),
             record,
             bytes,
@@ -114,7 +114,7 @@ pub(crate) fn each(
 }
 
 /// Error for a camera without processing.
-pub(crate) fn no_picture(camera: &str) -> Error {
+pub(crate) fn no_image(camera: &str) -> Error {
     Error::coded(
         ErrorCode::UnavailableOutput,
         format!("camera {camera}: it makes no image; give it a sensor with electronics and [isp]"),
@@ -129,7 +129,7 @@ fn pose_record(pose: &CameraPose) -> Pose {
 /// Run lengths of every identity except 0, for `width` columns.
 fn run_lengths(ids: &[u32], width: usize) -> BTreeMap<u32, Vec<u32>> {
     let height = ids.len().checked_div(width).unwrap_or(0);
-    let mut runs: BTreeMap<u32, Runs> = BTreeMap::new();
+    let mut runs: BTreeMap<u32, RunLengths> = BTreeMap::new();
     for at in 0..ids.len() {
         let id = ids[(at % height) * width + at / height];
         if id > 0 {
@@ -141,13 +141,13 @@ fn run_lengths(ids: &[u32], width: usize) -> BTreeMap<u32, Vec<u32>> {
 
 /// Runs so far.
 #[derive(Default)]
-struct Runs {
+struct RunLengths {
     lengths: Vec<u32>,
     /// One past the last pixel inside.
     end: usize,
 }
 
-impl Runs {
+impl RunLengths {
     /// Adds a pixel inside, after all others.
     fn add(&mut self, at: usize) {
         match self.lengths.last_mut() {
@@ -170,11 +170,11 @@ pub(crate) fn text(runs: &[u32]) -> String {
     let mut text = String::new();
     for (i, run) in runs.iter().enumerate() {
         let before = if i > 2 { i64::from(runs[i - 2]) } else { 0 };
-        let mut left = i64::from(*run) - before;
+        let mut remaining = i64::from(*run) - before;
         loop {
-            let bits = (left & 0x1f) as u8;
-            left >>= 5;
-            let ends = if bits & 0x10 != 0 { left == -1 } else { left == 0 };
+            let bits = (remaining & 0x1f) as u8;
+            remaining >>= 5;
+            let ends = if bits & 0x10 != 0 { remaining == -1 } else { remaining == 0 };
             text.push(char::from(48 + if ends { bits } else { bits | 0x20 }));
             if ends {
                 break;

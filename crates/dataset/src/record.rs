@@ -21,7 +21,7 @@ pub(crate) struct SampleRecord {
     pub(crate) set: Vec<String>,
     /// Hash of the sample's plan.
     pub(crate) plan: String,
-    pub(crate) pictures: Vec<PictureRecord>,
+    pub(crate) pictures: Vec<ImageRecord>,
     /// Digests of the sample's files, by their names in the data set's folder.
     pub(crate) files: BTreeMap<String, FileDigest>,
     /// Hash of everything else.
@@ -45,7 +45,7 @@ impl SampleRecord {
 
 /// Image of a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct PictureRecord {
+pub(crate) struct ImageRecord {
     pub(crate) camera: String,
     pub(crate) frame: u32,
     /// Middle of the exposure, s.
@@ -66,7 +66,7 @@ pub(crate) struct PictureRecord {
     pub(crate) objects: Vec<ObjectRecord>,
 }
 
-impl PictureRecord {
+impl ImageRecord {
     /// Returns the exact middle of the exposure.
     pub(crate) fn exact_time(&self) -> ExactTime {
         self.time.as_ref().and_then(|text| text.parse().ok()).unwrap_or_else(|| self.time_s.into())
@@ -104,18 +104,18 @@ pub(crate) struct ObjectRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SolidRecord {
     pub(crate) size_m: [f64; 3],
-    pub(crate) camera: Stance,
-    pub(crate) world: Stance,
+    pub(crate) camera: BoxPose,
+    pub(crate) world: BoxPose,
 }
 
 /// Pose of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Stance {
+pub(crate) struct BoxPose {
     pub(crate) centre_m: [f64; 3],
     pub(crate) rotation_wxyz: [f64; 4],
 }
 
-impl PictureRecord {
+impl ImageRecord {
     /// Unique part of file names in the set.
     pub(crate) fn stem(&self, sample: u32) -> String {
         format!("{sample:06}_{}_{:04}", self.camera, self.frame)

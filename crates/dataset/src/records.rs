@@ -7,7 +7,7 @@ use etendue::{Error, OutputFolder};
 use etendue_io::read_regular;
 use etendue_scene::limits::DESCRIPTION;
 
-use crate::{picture::Picture, record::SampleRecord, set::Set};
+use crate::{picture::SampleImage, record::SampleRecord, set::Set};
 
 /// Folder of the samples' records.
 const SAMPLES: &str = "samples";
@@ -27,14 +27,14 @@ impl Records {
     /// Returns those in the folder of a data set, which may have no sample yet.
     pub(crate) fn in_folder(root: &Path) -> Result<Self, Error> {
         if root.join(SAMPLES).exists() {
-            Self::of(root)
+            Self::new(root)
         } else {
             Ok(Self { root: root.to_path_buf(), samples: Vec::new() })
         }
     }
 
     /// Returns those in the folder of a data set that has samples.
-    pub(crate) fn of(root: &Path) -> Result<Self, Error> {
+    pub(crate) fn new(root: &Path) -> Result<Self, Error> {
         let entries = std::fs::read_dir(root.join(SAMPLES)).map_err(Error::run)?;
         let mut samples = Vec::new();
         for entry in entries {
@@ -74,19 +74,19 @@ impl Records {
 }
 
 /// Writer of one format.
-pub(crate) trait Writer {
+pub(crate) trait FormatWriter {
     /// Refuses to render samples again in a folder if the files made from them cannot be replaced in part.
     fn check_replaced(&self, _records: &Records, _samples: &Range<u32>, _folder: &OutputFolder) -> Result<(), Error> {
         Ok(())
     }
 
     /// Returns true if a file of a sample, no longer at its path, is part of another file of the format, unchanged.
-    fn holds(&self, _name: &str, _record: &SampleRecord, _records: &Records, _root: &Path) -> bool {
+    fn has_file(&self, _name: &str, _record: &SampleRecord, _records: &Records, _root: &Path) -> bool {
         false
     }
 
     /// Writes the files of one image.
-    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error>;
+    fn write_image(&self, set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error>;
 
     /// Writes the files of one sample, after those of its images.
     fn sample(&self, _set: &Set, _record: &SampleRecord, _folder: &mut OutputFolder) -> Result<(), Error> {
@@ -97,7 +97,7 @@ pub(crate) trait Writer {
     fn finish(&self, set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error>;
 
     /// Removes files that are no longer needed once these have their names.
-    fn tidy(&self, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
+    fn remove_obsolete(&self, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
         Ok(())
     }
 }

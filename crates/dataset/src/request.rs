@@ -58,12 +58,12 @@ impl DatasetRequest {
 pub(crate) type Change = (String, Place);
 
 /// Changes that give all keys of a variation a value.
-pub(crate) fn of_value<'a>(entry: &'a Variation, value: &'a str) -> impl Iterator<Item = Change> + 'a {
+pub(crate) fn value_changes<'a>(entry: &'a Variation, value: &'a str) -> impl Iterator<Item = Change> + 'a {
     entry.key.iter().map(move |key| (format!("{}={value}", key.value), key.place.clone()))
 }
 
 /// Changes of a preset's choice.
-pub(crate) fn of_choice(preset: &Preset, choice: usize) -> Vec<Change> {
+pub(crate) fn choice_changes(preset: &Preset, choice: usize) -> Vec<Change> {
     preset.choices[choice].iter().map(|change| (change.value.clone(), change.place.clone())).collect()
 }
 
@@ -72,27 +72,27 @@ pub(crate) fn of_choice(preset: &Preset, choice: usize) -> Vec<Change> {
 pub(crate) fn check(variations: &Variations, groups: &[Vec<Change>], job: &JobRequest) -> Result<(), Error> {
     // Errors without any change are those of the job alone.
     job.check_changes(&[])?;
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (place, alternatives) in alternatives(variations).iter().enumerate() {
         for alternative in alternatives {
             let mut all = groups.to_vec();
             all[place].clone_from(alternative);
             match job.check_changes(&all.concat()) {
-                Err(Error::Input(found)) => faults.extend(found),
+                Err(Error::Input(more)) => errors.extend(more),
                 other => other?,
             }
         }
     }
-    faults.sort_by(|a, b| (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message)));
-    faults.dedup();
-    if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
+    errors.sort_by(|a, b| (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message)));
+    errors.dedup();
+    if errors.is_empty() { Ok(()) } else { Err(Error::Input(errors)) }
 }
 
 /// Choices of each preset, then the limits of each variation.
 fn alternatives(variations: &Variations) -> Vec<Vec<Vec<Change>>> {
-    let choices = |preset: &Preset| (0..preset.choices.len()).map(|choice| of_choice(preset, choice)).collect();
+    let choices = |preset: &Preset| (0..preset.choices.len()).map(|choice| choice_changes(preset, choice)).collect();
     let ends =
-        |entry: &Variation| ends(&entry.distribution).iter().map(|value| of_value(entry, value).collect()).collect();
+        |entry: &Variation| ends(&entry.distribution).iter().map(|value| value_changes(entry, value).collect()).collect();
     variations.presets.iter().map(choices).chain(variations.vary.iter().map(ends)).collect()
 }
 

@@ -7,7 +7,7 @@ use etendue_scene::Placed;
 use etendue_scene::record::variations::{SetFormat, Variations};
 use serde_json::{Value, json};
 
-use crate::{picture::no_picture, request::DatasetRequest};
+use crate::{picture::no_image, request::DatasetRequest};
 
 /// Common data of all samples.
 pub(crate) struct Set {
@@ -27,7 +27,7 @@ pub(crate) struct Set {
 
 impl Set {
     /// Returns the set of a request and its job without variations. Refuses cameras that a format cannot describe.
-    pub(crate) fn of(
+    pub(crate) fn new(
         request: &DatasetRequest,
         job: &Job,
         variations: Option<Variations>,
@@ -80,7 +80,7 @@ impl Set {
     }
 
     /// Keys of the variations that no format of the run uses, in sentences.
-    pub(crate) fn idle_keys(&self) -> Vec<String> {
+    pub(crate) fn unused_keys(&self) -> Vec<String> {
         let Some(file) = &self.variations else { return Vec::new() };
         let keys = [
             (file.shard_samples.is_some(), "shard_samples", SetFormat::WebDataset),
@@ -115,8 +115,8 @@ impl Set {
 /// Requested formats, each once; else those of the file, else COCO.
 fn formats(request: &DatasetRequest, variations: Option<&Variations>) -> Vec<SetFormat> {
     let stated = variations.map_or(Vec::new(), |v| v.formats.iter().map(|format| format.value).collect());
-    let asked = [&request.formats, &stated].into_iter().find(|list| !list.is_empty()).cloned();
-    let mut formats = asked.unwrap_or_else(|| vec![SetFormat::Coco]);
+    let requested = [&request.formats, &stated].into_iter().find(|list| !list.is_empty()).cloned();
+    let mut formats = requested.unwrap_or_else(|| vec![SetFormat::Coco]);
     formats.sort_unstable();
     formats.dedup();
     formats
@@ -154,8 +154,8 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
     let message = |name: &Placed<String>| {
         format!("{}: the scene has no class \"{}\"; give one of its [classes]: {}", name.place, name.value, known())
     };
-    let faults: Vec<String> = unknown.map(message).collect();
-    if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::UnknownName, faults)) }
+    let messages: Vec<String> = unknown.map(message).collect();
+    if messages.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::UnknownName, messages)) }
 }
 
 /// Maximum length of a camera name in an archive, whose names have 100 characters.
@@ -170,7 +170,7 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
             Err(Error::argument("formats", format!("`formats` {}: camera {}: {why}", name(format), camera.name))
                 .with_code(ErrorCode::UnsupportedOutput))
         };
-        let Some(development) = &camera.body.development else { return Err(no_picture(&camera.name)) };
+        let Some(development) = &camera.body.development else { return Err(no_image(&camera.name)) };
         if let Some(format) = formats.iter().find(|format| needs_png.contains(format))
             && development.format.extension() != "png"
         {
@@ -200,8 +200,8 @@ fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetF
     if name == "world" {
         return Some((with_world, "\"world\" is the name of the cameras' reference frame; rename it".to_owned()));
     }
-    let alike = |other: &&&str| **other != name && topic_name(other) == topic_name(name);
-    let other = names.iter().find(alike).filter(|_| formats.contains(&SetFormat::Mcap))?;
+    let has_same_topic = |other: &&&str| **other != name && topic_name(other) == topic_name(name);
+    let other = names.iter().find(has_same_topic).filter(|_| formats.contains(&SetFormat::Mcap))?;
     Some((SetFormat::Mcap, format!("its topics have the same names as those of {other}; rename it")))
 }
 
@@ -216,16 +216,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_cameras_that_formats_cannot_have_are_told() {
-        let of = |name, names: &[&str], format| {
+    fn names_of_cameras_that_formats_cannot_have_are_reported() {
+        let refusal_of = |name, names: &[&str], format| {
             unfit_name(name, names, &[SetFormat::Coco, format]).map(|(format, _)| format)
         };
-        assert_eq!(of("world", &["world"], SetFormat::Mcap), Some(SetFormat::Mcap));
-        assert_eq!(of("world", &["world"], SetFormat::OpenLabel), Some(SetFormat::OpenLabel));
-        assert_eq!(of("world", &["world"], SetFormat::Kitti), None);
-        assert_eq!(of("a-b", &["a-b", "a_b"], SetFormat::Mcap), Some(SetFormat::Mcap));
-        assert_eq!(of("a-b", &["a-b", "a_b"], SetFormat::OpenLabel), None);
-        assert_eq!(of("a-b", &["a-b", "c"], SetFormat::Mcap), None);
+        assert_eq!(refusal_of("world", &["world"], SetFormat::Mcap), Some(SetFormat::Mcap));
+        assert_eq!(refusal_of("world", &["world"], SetFormat::OpenLabel), Some(SetFormat::OpenLabel));
+        assert_eq!(refusal_of("world", &["world"], SetFormat::Kitti), None);
+        assert_eq!(refusal_of("a-b", &["a-b", "a_b"], SetFormat::Mcap), Some(SetFormat::Mcap));
+        assert_eq!(refusal_of("a-b", &["a-b", "a_b"], SetFormat::OpenLabel), None);
+        assert_eq!(refusal_of("a-b", &["a-b", "c"], SetFormat::Mcap), None);
         assert_eq!([topic_name("0-left"), topic_name("front")], ["camera_0_left", "front"]);
     }
 }

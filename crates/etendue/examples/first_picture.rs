@@ -5,7 +5,7 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, Existing, JobRequest, RenderOptions, Unobserved};
+use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, Unobserved};
 use std::path::{Path, PathBuf};
 
 /// Renders 16 samples per pixel into `out` and returns the files' paths.
@@ -19,13 +19,13 @@ pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let depth = front.ground_truth().depth;
     let electrons = front.electrons().expect("the camera has electronics");
     let nearest_m = depth.samples().iter().copied().fold(f32::INFINITY, f32::min);
-    let most_e = electrons.samples().iter().copied().fold(0.0, f32::max);
-    println!("{} × {} px, nearest surface {nearest_m:.3} m, most electrons {most_e:.0}", depth.width(), depth.height());
+    let max_e = electrons.samples().iter().copied().fold(0.0, f32::max);
+    println!("{} × {} px, nearest surface {nearest_m:.3} m, most electrons {max_e:.0}", depth.width(), depth.height());
     for frame in front.frames() {
         println!("raw: {} bits, black {} DN", frame.raw.bits, frame.raw.black_level_dn);
     }
 
-    results.save(out, Existing::Replace, &Unobserved)
+    results.save(out, ExistingFiles::Replace, &Unobserved)
 }
 
 fn main() -> Result<(), Error> {

@@ -9,17 +9,17 @@ use etendue::chart::design::{Dots, GridSize};
 use etendue::chart::{Chart, ChartRequest, make};
 use etendue::measure::{DistortionRequest, distortion};
 use etendue::report::Report;
-use etendue::{Error, Existing, JobRequest, RenderOptions, Unobserved};
+use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, Unobserved};
 use std::path::Path;
 
 /// Makes the chart, captures and measures it in `out`.
 pub(crate) fn run(out: &Path) -> Result<Report, Error> {
     let size = GridSize { columns: Some(33), rows: None, pitch_mm: None };
     let chart = Chart::Dots(Dots { size, dot_ratio: 0.5 });
-    make(&ChartRequest::new(chart, "automotive"), &out.join("chart"), Existing::Replace)?;
+    make(&ChartRequest::new(chart, "automotive"), &out.join("chart"), ExistingFiles::Replace)?;
 
     let job = JobRequest { spp: Some(4), ..JobRequest::new(out.join("chart/job.toml")) }.open()?;
-    job.save(&RenderOptions::default(), &out.join("photo"), Existing::Replace, &Unobserved)?;
+    job.save(&RenderOptions::default(), &out.join("photo"), ExistingFiles::Replace, &Unobserved)?;
     distortion(&DistortionRequest::new(out.join("photo/camera/picture.0000.png")))
 }
 

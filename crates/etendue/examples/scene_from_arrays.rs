@@ -5,7 +5,7 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, Triangles, Unobserved};
+use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, MeshTriangles, Unobserved};
 
 /// Vertices along each side of the sheet.
 const SIDE: u32 = 65;
@@ -69,7 +69,7 @@ pub(crate) fn run() -> Result<Vec<f32>, Error> {
 
     let mut files = MemoryFiles::new();
     files.add_text("job.toml", JOB);
-    let mesh = Triangles { positions: &positions, triangles: &triangles, ..Triangles::default() };
+    let mesh = MeshTriangles { positions: &positions, triangles: &triangles, ..MeshTriangles::default() };
     files.add_mesh("sheet.obj", &mesh)?;
     let results = JobRequest::new("job.toml").open_in(&files)?.render(&RenderOptions::default(), &Unobserved)?;
     let depth = results.cameras()[0].ground_truth().depth;

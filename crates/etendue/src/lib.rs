@@ -37,13 +37,13 @@
 //! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. Notes and warnings for the caller go to its
 //! [`Observer`].
 
-pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, Unit, Unobserved};
+pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, ProgressUnit, Unobserved};
 pub use etendue_import::{ImportRequest, import};
 pub use etendue_io::escape::{escaped, terminal_json, terminal_text};
-pub use etendue_io::failure::{Error, ErrorCode, ExampleContext, Fault};
-pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
+pub use etendue_io::failure::{Error, ErrorCode, ExampleContext, InputError};
+pub use etendue_io::inspect::{PreviewSelection, inspect, inspect_showing};
 pub use etendue_io::paths::relative_path;
-pub use etendue_io::{CacheUse, Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};
+pub use etendue_io::{CacheUse, ExistingFiles, FileDigest, OutputFolder, TextureMemory, is_decoding};
 pub use etendue_measurement::*;
 pub use etendue_pipeline::boxes::WorldObject;
 pub use etendue_pipeline::motion::{MotionTruth, NeighbourTruth};

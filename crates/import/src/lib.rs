@@ -20,9 +20,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 
-use written::Written;
+use written::ImportFiles;
 
 /// Supported scene files, by extension.
 const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
@@ -54,13 +54,13 @@ fn parameter(text: &str) -> Result<(String, String), String> {
 pub fn import(
     request: &ImportRequest,
     folder: &Path,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     // The folder may be created by this call: paths between files need it.
     let from = std::path::absolute(folder)
         .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", folder.display())))?;
-    let Written { files, report } = read(request, &from)?;
+    let ImportFiles { files, report } = read(request, &from)?;
     let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
     folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
     for (name, bytes) in &files {
@@ -71,15 +71,15 @@ pub fn import(
 }
 
 /// Files of a scene, with paths relative to `folder`.
-fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
+fn read(request: &ImportRequest, folder: &Path) -> Result<ImportFiles, Error> {
     let ImportRequest { file, parameters } = request;
     let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
     let reader = match ending.to_str() {
-        Some("xml") => return mitsuba::imported(file, folder, parameters),
-        Some("glb" | "gltf") => gltf::imported,
-        Some("pbrt") => pbrt::imported,
+        Some("xml") => return mitsuba::convert(file, folder, parameters),
+        Some("glb" | "gltf") => gltf::convert,
+        Some("pbrt") => pbrt::convert,
         #[cfg(feature = "usd")]
-        Some("usd" | "usda" | "usdc" | "usdz") => usd::imported,
+        Some("usd" | "usda" | "usdc" | "usdz") => usd::convert,
         #[cfg(not(feature = "usd"))]
         Some("usd" | "usda" | "usdc" | "usdz") => return Err(without_usd(file)),
         _ => {

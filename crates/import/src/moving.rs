@@ -9,7 +9,7 @@ use etendue_scene::record::{Body, Frame, Mesh, Object, Scene, Transform};
 use etendue_scene::{record::object::Keyframe, record::transform::angles_deg};
 use glam::{DMat3, DQuat, DVec3};
 
-use super::naming::{Names, path_between, rounded};
+use super::naming::{UniqueNames, path_between, rounded};
 
 /// Binary chunk of a GLB file, by its name in `meshes/`.
 const BLOB: &str = "chunk.bin";
@@ -24,12 +24,12 @@ pub(super) fn to_world(v: DVec3) -> DVec3 {
 }
 
 /// Moving nodes in the written scene.
-pub(super) struct Moving {
+pub(super) struct MovingNodes {
     /// Frames and their scales of length, by the numbers of moving nodes.
     frames: Vec<(String, f64)>,
 }
 
-impl Moving {
+impl MovingNodes {
     /// Name of a moving node's frame, and the scale of lengths in the node.
     pub(super) fn frame(&self, mover: usize) -> (&str, f64) {
         let (name, scale) = &self.frames[mover];
@@ -43,33 +43,33 @@ pub(super) fn add_moving(
     motion: &GltfMotion,
     source: &Path,
     folder: &Path,
-    names: &mut Names,
+    names: &mut UniqueNames,
     files: &mut Vec<(String, Vec<u8>)>,
     report: &mut Vec<String>,
-) -> Result<Moving, String> {
-    let shown = motion.movers.iter().filter(|mover| mover.has_mesh).count();
-    motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 }).map_err(|problem| problem.words)?;
-    let mut moving = Moving { frames: Vec::new() };
-    for (number, mover) in motion.movers.iter().enumerate() {
+) -> Result<MovingNodes, String> {
+    let shown = motion.animated_nodes.iter().filter(|mover| mover.has_mesh).count();
+    motion.parts.check_size(if motion.animated_nodes.is_empty() { 0 } else { shown + 1 }).map_err(|problem| problem.words)?;
+    let mut moving = MovingNodes { frames: Vec::new() };
+    for (number, mover) in motion.animated_nodes.iter().enumerate() {
         let name = names.take(&mover.name, "mover");
         let above = mover.parent.map_or(1.0, |parent| moving.frames[parent].1);
         let (turn, scale, _) = mover.to_parent;
-        let way = Way { mover, above, turn };
-        let times = way.times();
-        let mut frame = Frame::new(name.as_str(), way.placement(times.first().copied().unwrap_or(0.0)));
+        let mover_motion = MoverMotion { mover, above, turn };
+        let times = mover_motion.times();
+        let mut frame = Frame::new(name.as_str(), mover_motion.placement(times.first().copied().unwrap_or(0.0)));
         if times.len() > 1 {
             frame = Frame::new(name.as_str(), FramePlacement::default());
             frame.keys =
-                times.iter().map(|time_s| FrameKey::new(ExactTime::from(*time_s), way.placement(*time_s))).collect();
+                times.iter().map(|time_s| FrameKey::new(ExactTime::from(*time_s), mover_motion.placement(*time_s))).collect();
         }
         frame.parent = mover.parent.map(|parent| moving.frames[parent].0.as_str().into());
         scene.frames.push(frame);
-        report.push(format!("node \"{name}\" moves: a frame with {} keys{}", times.len(), way.told(&times)));
-        let whole = above * scale;
+        report.push(format!("node \"{name}\" moves: a frame with {} keys{}", times.len(), mover_motion.approximation_note(&times)));
+        let total_scale = above * scale;
         if mover.has_mesh {
             let own = if mover.scale.is_some() { DVec3::ONE } else { mover.rest.2 };
             let part = format!("meshes/{name}.gltf");
-            let bytes = part_of(motion, Some((number, (whole * own).to_array())), source, folder);
+            let bytes = part_of(motion, Some((number, (total_scale * own).to_array())), source, folder);
             files.push((part.clone(), bytes));
             scene.meshes.push(Mesh::new(name.as_str(), part.as_str()));
             let body = Body::Mesh(name.as_str().into());
@@ -79,9 +79,9 @@ pub(super) fn add_moving(
             scene.objects.push(object);
         }
         // Nothing that moves lies within a non-uniform scale, and lights and cameras are not scaled.
-        moving.frames.push((name, whole * mover.rest.2.x));
+        moving.frames.push((name, total_scale * mover.rest.2.x));
     }
-    if let (Some(blob), false) = (&motion.parts.blob, motion.movers.is_empty()) {
+    if let (Some(blob), false) = (&motion.parts.blob, motion.animated_nodes.is_empty()) {
         files.push((format!("meshes/{BLOB}"), blob.clone()));
     }
     Ok(moving)
@@ -89,12 +89,12 @@ pub(super) fn add_moving(
 
 /// Part as a file in `meshes/`.
 pub(super) fn part_of(motion: &GltfMotion, mover: Option<(usize, [f64; 3])>, source: &Path, folder: &Path) -> Vec<u8> {
-    let beside = source.parent().unwrap_or(Path::new(""));
-    let way = |name: &str| path_between(&folder.join("meshes"), &beside.join(name)).to_string_lossy().into_owned();
-    motion.parts.part(mover, BLOB, &way)
+    let source_folder = source.parent().unwrap_or(Path::new(""));
+    let path_of = |name: &str| path_between(&folder.join("meshes"), &source_folder.join(name)).to_string_lossy().into_owned();
+    motion.parts.part(mover, BLOB, &path_of)
 }
 
-struct Way<'a> {
+struct MoverMotion<'a> {
     mover: &'a GltfMover,
     /// Scale of lengths in the parent.
     above: f64,
@@ -102,11 +102,11 @@ struct Way<'a> {
     turn: DQuat,
 }
 
-impl Way<'_> {
+impl MoverMotion<'_> {
     /// Position and rotation in the frame above, in the file's axes.
     fn at(&self, time_s: f64) -> (DVec3, DQuat) {
         let (translation, rotation, _) = self.mover.rest;
-        let own = self.mover.translation.as_ref().map_or(translation, |t| DVec3::from_array(t.at(time_s, straight)));
+        let own = self.mover.translation.as_ref().map_or(translation, |t| DVec3::from_array(t.at(time_s, linear)));
         let own_turn = self.mover.rotation.as_ref().map_or(rotation, |t| turn_at(t, time_s));
         let (_, scale, moved) = self.mover.to_parent;
         (self.above * (moved + scale * (self.turn * own)), self.turn * own_turn)
@@ -145,11 +145,11 @@ impl Way<'_> {
     }
 
     /// Note on approximations.
-    fn told(&self, times: &[f64]) -> String {
+    fn approximation_note(&self, times: &[f64]) -> String {
         let (translation, rotation) = (&self.mover.translation, &self.mover.rotation);
-        let mut told = String::new();
+        let mut note = String::new();
         if translation.as_ref().is_some_and(GltfTrack::is_step) || rotation.as_ref().is_some_and(GltfTrack::is_step) {
-            told += "; each of its steps takes 1 µs";
+            note += "; each of its steps takes 1 µs";
         }
         if translation.as_ref().is_some_and(GltfTrack::is_cubic) || rotation.as_ref().is_some_and(GltfTrack::is_cubic) {
             let (mut off_m, mut off_deg) = (0.0_f64, 0.0_f64);
@@ -159,18 +159,18 @@ impl Way<'_> {
                 let between = slerp(from.1, to.1, 0.5);
                 off_deg = off_deg.max(angle_deg(middle.1, between));
             }
-            told += &format!(
+            note += &format!(
                 "; its cubic curves are sampled with {CUBIC_KEYS} keys per interval, with an error half-way between keys of at most {off_m:.2e} m and \
                     {off_deg:.2e}°"
             );
         }
-        told
+        note
     }
 }
 
 /// Rotation at a time; that of the previous key where a cubic curve passes through zero.
 fn turn_at(track: &GltfTrack<4>, time_s: f64) -> DQuat {
-    let turn = |time_s: f64| DQuat::from_array(track.at(time_s, turned));
+    let turn = |time_s: f64| DQuat::from_array(track.at(time_s, rotated));
     let own = turn(time_s);
     if own.length() >= GLTF_MIN_TURN {
         return own.normalize();
@@ -199,7 +199,7 @@ fn scale_keys(track: &GltfTrack<3>) -> Vec<Keyframe> {
     times.sort_by(f64::total_cmp);
     times.dedup();
     let key = |time_s: f64| {
-        let scale = to_world(DVec3::from_array(track.at(time_s, straight)));
+        let scale = to_world(DVec3::from_array(track.at(time_s, linear)));
         Keyframe::new(
             ExactTime::from(time_s),
             Transform { scale: Some(scale.to_array().into()), ..Transform::default() },
@@ -208,13 +208,13 @@ fn scale_keys(track: &GltfTrack<3>) -> Vec<Keyframe> {
     times.into_iter().map(key).collect()
 }
 
-fn straight(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
+fn linear(a: [f64; 3], b: [f64; 3], fraction: f64) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + fraction * (b[i] - a[i]))
 }
 
 /// Interpolates the numbers as a track of a file does.
-fn turned(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
-    slerp(DQuat::from_array(a), DQuat::from_array(b), share).to_array()
+fn rotated(a: [f64; 4], b: [f64; 4], fraction: f64) -> [f64; 4] {
+    slerp(DQuat::from_array(a), DQuat::from_array(b), fraction).to_array()
 }
 
 fn angle_deg(a: DQuat, b: DQuat) -> f64 {

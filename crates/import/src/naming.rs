@@ -9,13 +9,13 @@ use glam::DVec3;
 
 /// Names in use, each with the number of the next similar one.
 #[derive(Debug, Default)]
-pub(super) struct Names(HashMap<String, u64>);
+pub(super) struct UniqueNames(HashMap<String, u64>);
 
-impl Names {
+impl UniqueNames {
     /// Returns a unique name similar to `wish`: only its letters, digits, `-` and `_`, or `fallback` if it has none.
-    pub(super) fn take(&mut self, wish: &str, fallback: &str) -> String {
+    pub(super) fn take(&mut self, preferred: &str, fallback: &str) -> String {
         const MAX: usize = 60;
-        let plain: String = wish.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
+        let plain: String = preferred.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
         let plain: String = plain.trim_matches('-').chars().take(MAX).collect();
         let stem = if plain.is_empty() { fallback.to_owned() } else { plain };
         let mut name = stem.clone();
@@ -52,8 +52,8 @@ pub(super) fn path_between(folder: &Path, file: &Path) -> PathBuf {
 /// Path whose existing part has no links.
 fn real(path: &Path) -> PathBuf {
     let mut ancestors = path.ancestors();
-    let found = ancestors.find_map(|part| part.canonicalize().ok().map(|real| (part, real)));
-    match found {
+    let ancestor = ancestors.find_map(|part| part.canonicalize().ok().map(|real| (part, real)));
+    match ancestor {
         Some((part, real)) => path.strip_prefix(part).map_or_else(|_| path.to_owned(), |rest| real.join(rest)),
         None => path.to_owned(),
     }
@@ -65,9 +65,9 @@ mod tests {
 
     #[test]
     fn names_are_each_once() {
-        let mut names = Names::default();
-        let taken = ["Key Light", "key-light", "ü", "", "a/b"].map(|wish| names.take(wish, "light"));
-        assert_eq!(taken, ["Key-Light", "key-light-2", "light", "light-2", "a-b"]);
+        let mut names = UniqueNames::default();
+        let unique = ["Key Light", "key-light", "ü", "", "a/b"].map(|preferred| names.take(preferred, "light"));
+        assert_eq!(unique, ["Key-Light", "key-light-2", "light", "light-2", "a-b"]);
     }
 
     #[test]
@@ -76,8 +76,8 @@ mod tests {
         let root = folder.path();
         std::fs::create_dir_all(root.join("models")).expect("made");
         std::fs::write(root.join("models/car.glb"), "").expect("written");
-        let way = path_between(&root.join("out/new"), &root.join("models/car.glb"));
-        assert_eq!(way, Path::new("../../models/car.glb"));
+        let relative = path_between(&root.join("out/new"), &root.join("models/car.glb"));
+        assert_eq!(relative, Path::new("../../models/car.glb"));
         assert_eq!(path_between(root, &root.join("models/car.glb")), Path::new("models/car.glb"));
     }
 }

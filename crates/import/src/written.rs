@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 use super::naming::rounded;
 
 /// Result of an import.
-pub(super) struct Written {
+pub(super) struct ImportFiles {
     /// Names within the folder, and contents.
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// Conversion report, line by line.
@@ -73,14 +73,14 @@ impl ImportedCamera {
 impl View {
     /// Lens, and height of its sensor, mm.
     fn lens(&self) -> (Table, f64) {
-        let of = |kind: &str| Table::new().with("type", kind);
+        let table = |kind: &str| Table::new().with("type", kind);
         match *self {
             Self::Perspective { yfov_rad } => {
                 let focal_mm = 0.5 * SENSOR_MM / maths::tan(0.5 * yfov_rad);
-                (of("pinhole").with("focal_length_mm", focal_mm).with("f_number", 8.0), SENSOR_MM)
+                (table("pinhole").with("focal_length_mm", focal_mm).with("f_number", 8.0), SENSOR_MM)
             }
             Self::Orthographic { width_m } => {
-                (of("telecentric").with("field_width_m", width_m).with("f_number", 8.0), SENSOR_MM)
+                (table("telecentric").with("field_width_m", width_m).with("f_number", 8.0), SENSOR_MM)
             }
             Self::Lens { yfov_rad, radius_m, focus_m } => {
                 // The sensor is large enough that a lens of this radius is of f/2; smaller if the image would be as far away as the object.
@@ -89,7 +89,7 @@ impl View {
                 let wanted_m = (4.0 * radius_m).min(0.5 * focus_m);
                 let sensor_m = 2.0 * maths::tan(0.5 * yfov_rad) / (1.0 / wanted_m - 1.0 / focus_m);
                 let f_number = 0.5 * focal_m(sensor_m) / radius_m;
-                let lens = of("thin")
+                let lens = table("thin")
                     .with("focal_length_mm", 1000.0 * focal_m(sensor_m))
                     .with("f_number", f_number)
                     .with("focus_distance_m", focus_m);
@@ -100,7 +100,7 @@ impl View {
 }
 
 /// `scene.toml` and `job.toml`, with the report at the head of the scene.
-pub(super) fn written(source: &Path, scene: &Scene, cameras: &[ImportedCamera], report: Vec<String>) -> Written {
+pub(super) fn import_files(source: &Path, scene: &Scene, cameras: &[ImportedCamera], report: Vec<String>) -> ImportFiles {
     let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut head = format!("Converted from {name} by etendue import. Conversion report:");
     for line in &report {
@@ -118,5 +118,5 @@ pub(super) fn written(source: &Path, scene: &Scene, cameras: &[ImportedCamera], 
         ("scene.toml".to_owned(), File::new(scene.to_table()).head(head).to_string().into_bytes()),
         ("job.toml".to_owned(), File::new(job).head(about).to_string().into_bytes()),
     ];
-    Written { files, report }
+    ImportFiles { files, report }
 }

@@ -7,7 +7,7 @@ use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, Te
 use crate::calibration::{ImportedCamera, read_calibration};
 use crate::lens_table::{read_lens_table, read_point_spread};
 use crate::mesh::{read_mesh_frame, read_mesh_in};
-use crate::picture::{PictureHead, head, large_picture, read_picture};
+use crate::picture::{ImageHead, head, large_image, read_image};
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
 use crate::{
@@ -61,7 +61,7 @@ pub fn complete_assets(
         // Large textures are known only after all textures are: meshes name more of them.
         let (textures, others): (Vec<_>, Vec<_>) = inside.into_iter().partition(|r| r.kind == AssetKind::Texture);
         let now = if others.is_empty() { textures } else { others };
-        let large = large_pictures(&mut assets, &now, memory);
+        let large = load_large_images(&mut assets, &now, memory);
         for (request, large) in now.into_iter().zip(large) {
             let loaded = match large {
                 Some(head) => load_large(&mut assets, &request, head),
@@ -77,7 +77,7 @@ pub fn complete_assets(
 }
 
 /// Headers of the textures among `requests` that are too large for memory. If there are any, the assets receive a place for their texels.
-fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &TextureMemory) -> Vec<Option<PictureHead>> {
+fn load_large_images(assets: &mut Assets, requests: &[AssetRequest], memory: &TextureMemory) -> Vec<Option<ImageHead>> {
     // An image with an unreadable header is read as a small one, which gives the error.
     let is_texture = |request: &&AssetRequest| request.kind == AssetKind::Texture;
     let heads: Vec<_> =
@@ -93,9 +93,9 @@ fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &Textu
     heads.into_iter().zip(large).map(|(head, is_large)| head.filter(|_| is_large)).collect()
 }
 
-fn load_large(assets: &mut Assets, request: &AssetRequest, head: PictureHead) -> Result<(), Error> {
-    let picture = large_picture(&request.path, head)?;
-    assets.large_images.insert(request.path.clone(), picture);
+fn load_large(assets: &mut Assets, request: &AssetRequest, head: ImageHead) -> Result<(), Error> {
+    let image = large_image(&request.path, head)?;
+    assets.large_images.insert(request.path.clone(), image);
     Ok(())
 }
 
@@ -104,11 +104,11 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
     match &request.kind {
         AssetKind::Mesh => {
             let mut mesh = read_mesh_in(path, sandbox)?;
-            assets.images.extend(mesh.pictures.drain(..));
+            assets.images.extend(mesh.embedded_images.drain(..));
             assets.meshes.insert(key, mesh);
         }
         AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
-        AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_picture(path)?)),
+        AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_image(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry_in(path, sandbox)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),

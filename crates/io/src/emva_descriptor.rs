@@ -71,8 +71,8 @@ pub fn parse_emva_descriptor(text: &str, file: &Path) -> Result<EmvaDescriptor, 
             [word, ..] if word.starts_with('#') => {}
             ["v", _] => {}
             ["n", bits, width, height] => {
-                let whole = |word: &str| word.parse::<u32>().ok().filter(|n| *n > 0);
-                let all = whole(bits).zip(whole(width)).zip(whole(height));
+                let positive = |word: &str| word.parse::<u32>().ok().filter(|n| *n > 0);
+                let all = positive(bits).zip(positive(width)).zip(positive(height));
                 let ((bits, width), height) = all.ok_or_else(|| wrong("n BITS WIDTH HEIGHT, whole numbers"))?;
                 if format.replace((bits, width as usize, height as usize)).is_some() {
                     return Err(wrong("only one line 'n BITS WIDTH HEIGHT'"));

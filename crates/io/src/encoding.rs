@@ -36,7 +36,7 @@ pub enum Encoding {
 
 /// Encoding with its source, in words.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stated {
+pub struct SourcedEncoding {
     /// The encoding.
     pub encoding: Encoding,
     /// Source of the encoding.
@@ -45,7 +45,7 @@ pub struct Stated {
     pub guessed: bool,
 }
 
-impl Stated {
+impl SourcedEncoding {
     /// Returns an encoding with its source.
     #[must_use]
     pub fn new(encoding: Encoding, reason: impl Into<String>) -> Self {
@@ -88,10 +88,10 @@ impl Encoding {
 
     /// Parses the result of [`to_json`](Self::to_json); `None` for anything else.
     #[must_use]
-    pub fn from_json(said: &Value) -> Option<Self> {
-        let number = |key: &str| said[key].as_f64();
-        let points = |key: &str| serde_json::from_value::<Vec<(f64, f64)>>(said[key].clone()).ok();
-        match said.as_str() {
+    pub fn from_json(stated: &Value) -> Option<Self> {
+        let number = |key: &str| stated[key].as_f64();
+        let points = |key: &str| serde_json::from_value::<Vec<(f64, f64)>>(stated[key].clone()).ok();
+        match stated.as_str() {
             Some("linear") => return Some(Self::Linear),
             Some("srgb") => return Some(Self::Srgb),
             _ => {}

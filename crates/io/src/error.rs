@@ -82,7 +82,7 @@ impl Error {
 
     /// Returns true if the path is at fault, not the content of the file.
     #[must_use]
-    pub fn is_of_path(&self) -> bool {
+    pub fn is_path_error(&self) -> bool {
         self.is_path
     }
 

@@ -41,15 +41,15 @@ pub fn read_exif(file: &Path) -> Result<Option<Exif>, Error> {
 #[must_use]
 pub fn exif_of(bytes: &[u8]) -> Option<Exif> {
     let data = match bytes {
-        [0xff, 0xd8, ..] => of_jpeg(bytes)?,
+        [0xff, 0xd8, ..] => from_jpeg(bytes)?,
         [0x89, b'P', b'N', b'G', ..] => png::exif(bytes)?,
         _ => bytes,
     };
-    Tiff::of(data).map(Tiff::exif)
+    Tiff::new(data).map(Tiff::exif)
 }
 
 /// TIFF data in the APP1 segment.
-fn of_jpeg(bytes: &[u8]) -> Option<&[u8]> {
+fn from_jpeg(bytes: &[u8]) -> Option<&[u8]> {
     const APP1: u8 = 0xe1;
     const SCAN: u8 = 0xda;
     let mut rest = bytes.get(2..)?;
@@ -79,7 +79,7 @@ struct Entry<'a> {
 }
 
 impl<'a> Tiff<'a> {
-    fn of(bytes: &'a [u8]) -> Option<Self> {
+    fn new(bytes: &'a [u8]) -> Option<Self> {
         match bytes {
             [b'I', b'I', 42, 0, ..] => Some(Self { bytes, big: false }),
             [b'M', b'M', 0, 42, ..] => Some(Self { bytes, big: true }),
@@ -210,9 +210,9 @@ mod tests {
 
     #[test]
     fn cut_files_state_less_and_do_not_fail() {
-        let whole = tiff(true);
-        for length in 0..whole.len() {
-            assert!(exif_of(&whole[..length]).is_none_or(|exif| exif.exposure_s.is_none()), "{length}");
+        let complete = tiff(true);
+        for length in 0..complete.len() {
+            assert!(exif_of(&complete[..length]).is_none_or(|exif| exif.exposure_s.is_none()), "{length}");
         }
         assert_eq!(exif_of(b"\xff\xd8\xff\xda\0\x02"), None);
         assert_eq!(exif_of(b"no picture"), None);

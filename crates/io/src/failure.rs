@@ -12,27 +12,27 @@ pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 pub enum Error {
     /// The input or the arguments cannot be used: all errors, with file, line, key and argument if they have them. Messages name arguments by their fields in
     /// backticks. (Exit status 2 of the program.)
-    Input(Vec<Fault>),
+    Input(Vec<InputError>),
     /// The input is valid but the run failed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
     Run(String),
 }
 
 impl Error {
     /// Returns the error of one unusable input.
-    pub fn input(error: impl Into<Fault>) -> Self {
+    pub fn input(error: impl Into<InputError>) -> Self {
         Self::Input(vec![error.into()])
     }
 
     /// Returns the error of an unusable argument, by the name of its field, which the message has in backticks.
     pub fn argument(field: &str, message: impl Into<String>) -> Self {
-        Self::Input(vec![Fault::argument(field, message)])
+        Self::Input(vec![InputError::argument(field, message)])
     }
 
     /// Sets the code of all errors.
     #[must_use]
     pub fn with_code(self, code: ErrorCode) -> Self {
         match self {
-            Self::Input(faults) => Self::Input(faults.into_iter().map(|fault| Fault { code, ..fault }).collect()),
+            Self::Input(errors) => Self::Input(errors.into_iter().map(|error| InputError { code, ..error }).collect()),
             run => run,
         }
     }
@@ -40,25 +40,25 @@ impl Error {
     /// Returns the same errors as those of an argument.
     #[must_use]
     pub fn with_field(self, field: &str) -> Self {
-        let of_field = |fault: Fault| Fault { field: Some(field.to_owned()), ..fault };
+        let of_field = |error: InputError| InputError { field: Some(field.to_owned()), ..error };
         match self {
-            Self::Input(faults) => Self::Input(faults.into_iter().map(of_field).collect()),
+            Self::Input(errors) => Self::Input(errors.into_iter().map(of_field).collect()),
             run => run,
         }
     }
 
     /// Returns the error of one unusable input: its code, and a message that states the place.
     pub fn coded(code: ErrorCode, message: impl Into<String>) -> Self {
-        Self::Input(vec![Fault::new(code, message)])
+        Self::Input(vec![InputError::new(code, message)])
     }
 
     /// Returns the errors of several unusable inputs of one kind.
     pub fn all_coded<M: Into<String>>(code: ErrorCode, messages: impl IntoIterator<Item = M>) -> Self {
-        Self::Input(messages.into_iter().map(|message| Fault::new(code, message)).collect())
+        Self::Input(messages.into_iter().map(|message| InputError::new(code, message)).collect())
     }
 
     /// Returns the errors of several unusable inputs.
-    pub fn inputs<E: Into<Fault>>(errors: impl IntoIterator<Item = E>) -> Self {
+    pub fn inputs<E: Into<InputError>>(errors: impl IntoIterator<Item = E>) -> Self {
         Self::Input(errors.into_iter().map(Into::into).collect())
     }
 
@@ -93,7 +93,7 @@ impl Display for Error {
 
 /// One error of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct InputError {
     /// Error code, which `explain` explains.
     pub code: ErrorCode,
     /// Place, cause, expected form and remedy, in one sentence.
@@ -114,7 +114,7 @@ pub struct Fault {
     pub field: Option<String>,
 }
 
-impl Fault {
+impl InputError {
     /// Returns an error without a place other than in its message.
     #[must_use]
     pub fn new(code: ErrorCode, message: impl Into<String>) -> Self {
@@ -130,40 +130,40 @@ impl Fault {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
 /// Returns the error with a key of a description as its place.
-fn at(code: ErrorCode, message: String, place: &etendue_scene::Place) -> Fault {
+fn at(code: ErrorCode, message: String, place: &etendue_scene::Place) -> InputError {
     let (line, column) = place.line_column().unzip();
-    let file = Some(place.stating_file().to_path_buf()).filter(|_| place.is_stated());
+    let file = Some(place.stating_file().to_path_buf()).filter(|_| place.has_source());
     let key = Some(place.key().into_owned()).filter(|key| !key.is_empty());
-    Fault { file, line, column, key, ..Fault::new(code, message) }
+    InputError { file, line, column, key, ..InputError::new(code, message) }
 }
 
-impl From<&etendue_scene::Fault> for Fault {
-    fn from(fault: &etendue_scene::Fault) -> Self {
-        let remedy = Some(fault.remedy.clone()).filter(|remedy| !remedy.is_empty());
-        Self { problem: fault.problem.clone(), remedy, ..at(fault.code, fault.to_string(), &fault.place) }
+impl From<&etendue_scene::DescriptionError> for InputError {
+    fn from(error: &etendue_scene::DescriptionError) -> Self {
+        let remedy = Some(error.remedy.clone()).filter(|remedy| !remedy.is_empty());
+        Self { problem: error.problem.clone(), remedy, ..at(error.code, error.to_string(), &error.place) }
     }
 }
 
-impl From<etendue_scene::Fault> for Fault {
-    fn from(fault: etendue_scene::Fault) -> Self {
-        Self::from(&fault)
+impl From<etendue_scene::DescriptionError> for InputError {
+    fn from(error: etendue_scene::DescriptionError) -> Self {
+        Self::from(&error)
     }
 }
 
 /// An error of a path is placed where the path is named; one of a file's content in the file, with the key that names it.
-impl From<crate::Error> for Fault {
+impl From<crate::Error> for InputError {
     fn from(error: crate::Error) -> Self {
         let named = error.place().map(|place| at(error.code(), error.to_string(), place));
         let problem = error.what().to_owned();
         match named {
-            Some(named) if error.is_of_path() => Self { problem, ..named },
+            Some(named) if error.is_path_error() => Self { problem, ..named },
             named => Self {
                 file: Some(error.file().to_path_buf()),
                 line: error.line().and_then(|line| u32::try_from(line).ok()),
@@ -176,13 +176,13 @@ impl From<crate::Error> for Fault {
 }
 
 /// Error of a file that the caller reads.
-impl From<std::io::Error> for Fault {
+impl From<std::io::Error> for InputError {
     fn from(error: std::io::Error) -> Self {
         Self::new(code_of(&error), error.to_string())
     }
 }
 
-impl From<Problem> for Fault {
+impl From<Problem> for InputError {
     fn from(problem: Problem) -> Self {
         Self::new(problem.code, problem.words)
     }
@@ -192,7 +192,7 @@ impl From<Problem> for Fault {
 ///
 /// # Errors
 /// The number is out of the range.
-pub fn check_whole<N: PartialOrd + Display>(field: &str, value: N, range: RangeInclusive<N>) -> Result<(), Error> {
+pub fn check_integer<N: PartialOrd + Display>(field: &str, value: N, range: RangeInclusive<N>) -> Result<(), Error> {
     if range.contains(&value) {
         return Ok(());
     }
@@ -236,20 +236,20 @@ mod tests {
     }
 
     #[test]
-    fn an_argument_s_fault_is_told_by_its_field() {
-        let Error::Input(faults) = Error::argument("time_s", "`time_s` 3: a time of 10 s or more is kept") else {
+    fn an_argument_s_error_names_its_field() {
+        let Error::Input(errors) = Error::argument("time_s", "`time_s` 3: a time of 10 s or more is kept") else {
             panic!()
         };
-        assert_eq!((faults[0].field.as_deref(), faults[0].key.as_deref()), (Some("time_s"), None));
+        assert_eq!((errors[0].field.as_deref(), errors[0].key.as_deref()), (Some("time_s"), None));
         let plain = Error::coded(ErrorCode::InvalidArgument, "job.toml: `time_s`");
         assert_eq!(plain.with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
-        assert_eq!(Fault::new(ErrorCode::WrongCount, "`corners`: expected four of them").field, None);
+        assert_eq!(InputError::new(ErrorCode::WrongCount, "`corners`: expected four of them").field, None);
     }
 
     #[test]
     fn numbers_out_of_their_range_are_refused_by_their_field() {
-        assert_eq!(check_whole("rings", 4, 4..=1000), Ok(()));
-        let message = check_whole("rings", 3, 4..=1000).map_err(|error| error.to_string());
+        assert_eq!(check_integer("rings", 4, 4..=1000), Ok(()));
+        let message = check_integer("rings", 3, 4..=1000).map_err(|error| error.to_string());
         assert_eq!(
             message,
             Err("error[out-of-range]: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned())

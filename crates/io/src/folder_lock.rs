@@ -8,7 +8,7 @@ use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::{Error, ErrorCode, paths::Missed, run_mark};
+use crate::{Error, ErrorCode, paths::FolderError, run_mark};
 
 /// A locked folder; free again when it is dropped.
 #[derive(Debug)]
@@ -20,31 +20,31 @@ pub(crate) struct FolderLock {
 
 impl FolderLock {
     /// Locks the whole folder exclusively.
-    pub(crate) fn alone(root: &Path) -> Result<Self, Missed> {
-        Self::of(root, root, File::try_lock)
+    pub(crate) fn exclusive(root: &Path) -> Result<Self, FolderError> {
+        Self::new(root, root, File::try_lock)
     }
 
     /// Locks the folder together with other runs that write into parts of it.
-    pub(crate) fn shared(root: &Path) -> Result<Self, Missed> {
-        Self::of(root, root, File::try_lock_shared)
+    pub(crate) fn shared(root: &Path) -> Result<Self, FolderError> {
+        Self::new(root, root, File::try_lock_shared)
     }
 
     /// Locks a part of a folder exclusively. Marks are in the folder.
-    pub(crate) fn part(root: &Path, part: &Path) -> Result<Self, Missed> {
-        Self::of(root, part, File::try_lock)
+    pub(crate) fn part(root: &Path, part: &Path) -> Result<Self, FolderError> {
+        Self::new(root, part, File::try_lock)
     }
 
-    fn of(root: &Path, folder: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> Result<Self, Missed> {
-        let held = |opened| Ok(Self { path: here(folder).to_path_buf(), folder: opened });
-        let opened = match File::open(here(folder)) {
+    fn new(root: &Path, folder: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> Result<Self, FolderError> {
+        let held = |opened| Ok(Self { path: or_current(folder).to_path_buf(), folder: opened });
+        let opened = match File::open(or_current(folder)) {
             Ok(opened) => opened,
-            Err(cause) if cause.kind() == ErrorKind::NotFound => return Err(Missed::gone(folder)),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => return Err(FolderError::removed(folder)),
             Err(_) => return held(None),
         };
         match lock(&opened) {
             Ok(()) => held(Some(opened)),
             Err(TryLockError::WouldBlock) => {
-                Err(Error::coded(ErrorCode::FolderInUse, here(folder), taken(root)).into())
+                Err(Error::coded(ErrorCode::FolderInUse, or_current(folder), in_use_message(root)).into())
             }
             Err(TryLockError::Error(_)) => held(None),
         }
@@ -52,7 +52,7 @@ impl FolderLock {
 
     /// Returns true if the locked folder still has its name. A run that ends without results removes a folder that it made, and another run may have made it
     /// again before this one locked it.
-    pub(crate) fn is_of_its_name(&self) -> bool {
+    pub(crate) fn is_still_named(&self) -> bool {
         self.folder.as_ref().is_none_or(|folder| is_same(folder, &self.path))
     }
 }
@@ -71,12 +71,12 @@ fn is_same(_: &File, _: &Path) -> bool {
 }
 
 /// The working directory has an empty path.
-fn here(folder: &Path) -> &Path {
+fn or_current(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-fn taken(root: &Path) -> String {
-    let who = match run_mark::running(here(root)) {
+fn in_use_message(root: &Path) -> String {
+    let who = match run_mark::running_process(or_current(root)) {
         Some(process) if process == std::process::id() => "another run of this process".to_owned(),
         Some(process) => format!("another run (process {process})"),
         None => "another run".to_owned(),
@@ -89,34 +89,34 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_locked_beside_each_other_and_not_beside_the_whole() {
+    fn parts_can_be_locked_together_but_not_with_the_folder() {
         let place = tempfile::tempdir().expect("temporary folder");
         let root = place.path();
         let parts = ["a", "b"].map(|name| root.join(name));
         parts.iter().for_each(|part| std::fs::create_dir(part).expect("folder"));
         let held = parts.each_ref().map(|part| (FolderLock::shared(root), FolderLock::part(root, part)));
-        assert!(held.iter().all(|(whole, part)| whole.is_ok() && part.is_ok()));
+        assert!(held.iter().all(|(root_lock, part)| root_lock.is_ok() && part.is_ok()));
         let message = FolderLock::part(root, &parts[0]).expect_err("taken").error.to_string();
         assert!(message.contains("another run writes into this folder"), "{message}");
-        FolderLock::alone(root).expect_err("parts are taken");
+        FolderLock::exclusive(root).expect_err("parts are taken");
         drop(held);
-        let whole = FolderLock::alone(root).expect("free");
+        let exclusive_lock = FolderLock::exclusive(root).expect("free");
         FolderLock::shared(root).expect_err("the whole is taken");
-        drop(whole);
+        drop(exclusive_lock);
         FolderLock::shared(root).expect("free");
     }
 
     #[test]
-    fn a_lock_of_a_folder_that_was_removed_and_made_anew_is_not_of_its_name() {
+    fn a_lock_of_a_folder_that_was_recreated_does_not_have_its_name() {
         let place = tempfile::tempdir().expect("temporary folder");
         let root = place.path().join("out");
         std::fs::create_dir(&root).expect("folder");
-        let lock = FolderLock::alone(&root).expect("free");
-        assert!(lock.is_of_its_name());
+        let lock = FolderLock::exclusive(&root).expect("free");
+        assert!(lock.is_still_named());
         std::fs::remove_dir(&root).expect("removed");
-        assert!(!lock.is_of_its_name());
+        assert!(!lock.is_still_named());
         std::fs::create_dir(&root).expect("folder");
-        assert!(!lock.is_of_its_name());
-        assert!(FolderLock::alone(&root).expect("another folder").is_of_its_name());
+        assert!(!lock.is_still_named());
+        assert!(FolderLock::exclusive(&root).expect("another folder").is_still_named());
     }
 }

@@ -11,16 +11,16 @@ pub type ContentHash = [u8; 32];
 
 /// The hash of `bytes`.
 #[must_use]
-pub fn of_bytes(bytes: &[u8]) -> ContentHash {
+pub fn hash_bytes(bytes: &[u8]) -> ContentHash {
     Sha256::digest(bytes).into()
 }
 
 /// Hash of several files that make one asset (a mesh and its material library), in order: the hash of their hashes, so moving a byte from one file to the next
 /// changes it.
 #[must_use]
-pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> ContentHash {
-    let hashes: Vec<u8> = parts.into_iter().flat_map(of_bytes).collect();
-    of_bytes(&hashes)
+pub fn hash_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> ContentHash {
+    let hashes: Vec<u8> = parts.into_iter().flat_map(hash_bytes).collect();
+    hash_bytes(&hashes)
 }
 
 /// Bytes in hexadecimal digits, lower case.
@@ -74,14 +74,14 @@ impl FileDigest {
     /// The digest of bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
-        Self { bytes: bytes.len() as u64, sha256: hex(&of_bytes(bytes)) }
+        Self { bytes: bytes.len() as u64, sha256: hex(&hash_bytes(bytes)) }
     }
 
     /// Returns true if `path` is a regular file of this content; a link is not.
     #[must_use]
     pub fn matches(&self, path: &Path) -> bool {
-        let is_of_size = path.symlink_metadata().is_ok_and(|found| found.is_file() && found.len() == self.bytes);
-        is_of_size && Self::new(path).is_ok_and(|found| found == *self)
+        let is_of_size = path.symlink_metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == self.bytes);
+        is_of_size && Self::new(path).is_ok_and(|digest| digest == *self)
     }
 }
 
@@ -93,12 +93,12 @@ mod tests {
     fn the_hash_of_abc_is_the_standards_example() {
         // FIPS 180-4, appendix B.1.
         let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(hex(&of_bytes(b"abc")), expected);
+        assert_eq!(hex(&hash_bytes(b"abc")), expected);
     }
 
     #[test]
     fn parts_are_kept_apart() {
-        assert_ne!(of_parts([&b"ab"[..], b"c"]), of_parts([&b"a"[..], b"bc"]));
+        assert_ne!(hash_parts([&b"ab"[..], b"c"]), hash_parts([&b"a"[..], b"bc"]));
     }
 
     #[test]

@@ -6,15 +6,15 @@ use image::{ExtendedColorType, ImageEncoder, codecs::jpeg::JpegEncoder};
 use crate::exr::EncodeError;
 
 /// Encodes a display image, rounded to 8 bits, at a quality of 1 to 100. Values outside 0–1 are clamped; NaN is black.
-pub fn encode_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, EncodeError> {
-    let (width, height) = (picture.width(), picture.height());
+pub fn encode_jpeg(image: &Plane<Display>, quality: u8) -> Result<Vec<u8>, EncodeError> {
+    let (width, height) = (image.width(), image.height());
     if width == 0 || height == 0 {
         return Err(EncodeError::Empty { width, height });
     }
     let (Ok(columns), Ok(rows)) = (u16::try_from(width), u16::try_from(height)) else {
         return Err(EncodeError::Encoder(format!("{width} × {height} pixels are too many for JPEG")));
     };
-    let bytes: Vec<u8> = picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8).collect();
+    let bytes: Vec<u8> = image.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8).collect();
     let mut file = Vec::new();
     JpegEncoder::new_with_quality(&mut file, quality)
         .write_image(&bytes, columns.into(), rows.into(), ExtendedColorType::Rgb8)

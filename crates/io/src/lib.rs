@@ -72,7 +72,7 @@ pub use etendue_scene::{ErrorCode, Problem};
 pub use assets::{complete_assets, load_assets};
 pub use error::{Error, is_decoding};
 pub use hash::FileDigest;
-pub use output::{Existing, OutputFolder};
+pub use output::{ExistingFiles, OutputFolder};
 pub use provenance::Provenance;
 pub use sandbox::Sandbox;
 pub use scratch::ScratchFolder;

@@ -16,7 +16,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 use std::{collections::BTreeMap, sync::Arc};
 
-use crate::paths::{self, MadeFolders, Missed};
+use crate::paths::{self, CreatedFolders, FolderError};
 use crate::{Error, ErrorCode, folder_lock::FolderLock, hash::FileDigest, run_mark::RunMark};
 
 /// Maximum attempts to create a folder that another run keeps removing because it is empty.
@@ -24,7 +24,7 @@ const TRIES: usize = 100;
 
 /// Treatment of existing files with the names to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Existing {
+pub enum ExistingFiles {
     /// Refuse: an earlier result is never lost.
     Refuse,
     /// Replace them when the run commits.
@@ -37,9 +37,9 @@ pub enum Existing {
 #[derive(Debug)]
 pub struct OutputFolder {
     root: PathBuf,
-    existing: Existing,
-    made: MadeFolders,
-    pending: Vec<Pending>,
+    existing: ExistingFiles,
+    created: CreatedFolders,
+    pending: Vec<PendingFile>,
     /// Mark of the run, from opening to the end.
     mark: Option<RunMark>,
     /// Locks of the folder and its part; several folders of one run share them.
@@ -47,7 +47,7 @@ pub struct OutputFolder {
 }
 
 #[derive(Debug)]
-struct Pending {
+struct PendingFile {
     temporary: PathBuf,
     name: PathBuf,
 }
@@ -55,66 +55,66 @@ struct Pending {
 impl OutputFolder {
     /// Opens `root` exclusively for one run and creates it if missing. Tests that it is writable, so that a long run cannot fail at its end for lack of
     /// permission. Refused while another run writes into it.
-    pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
-        Self::opened(root, existing, |_| Ok(vec![FolderLock::alone(root)?]))
+    pub fn open(root: &Path, existing: ExistingFiles) -> Result<Self, Error> {
+        Self::open_with(root, existing, |_| Ok(vec![FolderLock::exclusive(root)?]))
     }
 
     /// The same for a run whose files are all in the folder `part` of `root`: other runs may write to other parts.
-    pub fn open_part(root: &Path, part: &str, existing: Existing) -> Result<Self, Error> {
-        Self::opened(root, existing, |folder| {
-            let whole = FolderLock::shared(root)?;
+    pub fn open_part(root: &Path, part: &str, existing: ExistingFiles) -> Result<Self, Error> {
+        Self::open_with(root, existing, |folder| {
+            let root_lock = FolderLock::shared(root)?;
             let part = folder.resolve(part)?;
             paths::check_folders(root, &part)?;
             paths::check_folder(&part)?;
-            folder.made.make(&part)?;
-            Ok(vec![whole, FolderLock::part(root, &part)?])
+            folder.created.make(&part)?;
+            Ok(vec![root_lock, FolderLock::part(root, &part)?])
         })
     }
 
     /// The same for single files, each complete by itself, in a folder that another run may use.
-    pub fn open_beside(root: &Path, existing: Existing) -> Result<Self, Error> {
-        Self::opened(root, existing, |_| Ok(Vec::new()))
+    pub fn open_beside(root: &Path, existing: ExistingFiles) -> Result<Self, Error> {
+        Self::open_with(root, existing, |_| Ok(Vec::new()))
     }
 
     /// Returns the same folder again, for files of the same run that are committed at other times.
-    pub fn again(&self, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self::opened(&self.root, existing, |_| Ok(Vec::new()))?;
+    pub fn reopened(&self, existing: ExistingFiles) -> Result<Self, Error> {
+        let mut folder = Self::open_with(&self.root, existing, |_| Ok(Vec::new()))?;
         folder.locks = Arc::clone(&self.locks);
         Ok(folder)
     }
 
     /// Creates, locks and marks the folder. Until it is marked, a run that created it and ends without results may remove it; then it is created again.
-    fn opened(
+    fn open_with(
         root: &Path,
-        existing: Existing,
-        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, Missed>,
+        existing: ExistingFiles,
+        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, FolderError>,
     ) -> Result<Self, Error> {
-        let mut opened = Self::attempted(root, existing, &lock);
+        let mut opened = Self::try_open(root, existing, &lock);
         for _ in 1..TRIES {
             match opened {
-                Err(Missed { is_gone: true, .. }) => opened = Self::attempted(root, existing, &lock),
+                Err(FolderError { is_gone: true, .. }) => opened = Self::try_open(root, existing, &lock),
                 _ => break,
             }
         }
         opened.map_err(|missed| missed.error)
     }
 
-    fn attempted(
+    fn try_open(
         root: &Path,
-        existing: Existing,
-        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, Missed>,
-    ) -> Result<Self, Missed> {
-        let (made, pending, locks) = (MadeFolders::default(), Vec::new(), Arc::default());
-        let mut folder = Self { root: root.to_path_buf(), existing, made, pending, mark: None, locks };
-        folder.made.make(root)?;
+        existing: ExistingFiles,
+        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, FolderError>,
+    ) -> Result<Self, FolderError> {
+        let (created, pending, locks) = (CreatedFolders::default(), Vec::new(), Arc::default());
+        let mut folder = Self { root: root.to_path_buf(), existing, created: made: created, pending, mark: None, locks };
+        folder.created.make(root)?;
         folder.locks = Arc::new(lock(&mut folder)?);
         let mark =
-            RunMark::set(root).map_err(|cause| Missed::of(root, "this output folder cannot be written to", &cause))?;
+            RunMark::set(root).map_err(|cause| FolderError::from_io(root, "this output folder cannot be written to", &cause))?;
         folder.mark = Some(mark);
         // With the mark in it, the folder stays: the locked folder must still have the name.
-        match folder.locks.iter().all(FolderLock::is_of_its_name) {
+        match folder.locks.iter().all(FolderLock::is_still_named) {
             true => Ok(folder),
-            false => Err(Missed::gone(root)),
+            false => Err(FolderError::removed(root)),
         }
     }
 
@@ -131,8 +131,8 @@ impl OutputFolder {
 
     /// From now on, existing files of these names belong to the run, which replaces them.
     #[must_use]
-    pub fn refining(mut self) -> Self {
-        self.existing = Existing::Replace;
+    pub fn replacing_own(mut self) -> Self {
+        self.existing = ExistingFiles::Replace;
         self
     }
 
@@ -175,19 +175,19 @@ impl OutputFolder {
             ));
         }
         if let Some(parent) = target.parent() {
-            self.made.make(parent).map_err(|missed| missed.error)?;
+            self.created.make(parent).map_err(|missed| missed.error)?;
         }
         let unwritten = |cause: io::Error| {
             Error::coded(ErrorCode::UnwritableOutput, &target, format!("cannot be written: {cause}"))
         };
         let mark = self.mark.as_mut().expect("a folder is marked until it is dropped");
         let temporary = mark.temporary_of(&target).map_err(unwritten)?;
-        self.pending.push(Pending { temporary: temporary.clone(), name: target.clone() });
+        self.pending.push(PendingFile { temporary: temporary.clone(), name: target.clone() });
         write_flushed(&temporary, write).map_err(unwritten)
     }
 
     /// Path at which a file of the run can be read once it is written: the temporary name before the final one.
-    pub fn readable(&self, name: &str) -> Result<PathBuf, Error> {
+    pub fn readable_path(&self, name: &str) -> Result<PathBuf, Error> {
         let target = self.resolve(name)?;
         let pending = self.pending.iter().find(|file| file.name == target);
         Ok(pending.map_or(target, |file| file.temporary.clone()))
@@ -223,19 +223,19 @@ impl OutputFolder {
         while !self.pending.is_empty() {
             let file = &self.pending[0];
             fs::rename(&file.temporary, &file.name).map_err(|cause| {
-                let kept = match names.len() {
+                let note = match names.len() {
                     0 => String::new(),
                     n => format!(" (the {n} files before it have their final names and are complete)"),
                 };
                 Error::coded(
                     ErrorCode::UnwritableOutput,
                     &file.name,
-                    format!("cannot be renamed to its final name: {cause}{kept}"),
+                    format!("cannot be renamed to its final name: {cause}{note}"),
                 )
             })?;
             names.push(self.pending.remove(0).name);
         }
-        self.made.keep();
+        self.created.keep();
         Ok(names)
     }
 
@@ -269,7 +269,7 @@ impl OutputFolder {
                 "a folder has the name of a result; remove it or choose another output folder",
             ));
         }
-        if self.existing == Existing::Refuse {
+        if self.existing == ExistingFiles::Refuse {
             return Err(Error::coded(
                 ErrorCode::OutputExists,
                 target,
@@ -287,7 +287,7 @@ impl Drop for OutputFolder {
             let _ = paths::remove_file(&self.root, &file.temporary);
         }
         self.mark = None;
-        self.made.remove();
+        self.created.remove();
     }
 }
 

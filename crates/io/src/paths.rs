@@ -84,28 +84,28 @@ pub(crate) fn files_in(root: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error
 
 /// Failure to create a folder.
 #[derive(Debug)]
-pub(crate) struct Missed {
+pub(crate) struct FolderError {
     /// Error for the user if there is no other attempt.
     pub(crate) error: Error,
     /// True if the folder, or its parent, was removed meanwhile: another attempt may succeed.
     pub(crate) is_gone: bool,
 }
 
-impl Missed {
+impl FolderError {
     /// Returns the failure of a system call on a path.
-    pub(crate) fn of(path: &Path, told: &str, cause: &io::Error) -> Self {
+    pub(crate) fn from_io(path: &Path, problem: &str, cause: &io::Error) -> Self {
         let is_gone = cause.kind() == io::ErrorKind::NotFound;
-        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, format!("{told}: {cause}")), is_gone }
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, format!("{problem}: {cause}")), is_gone }
     }
 
     /// Returns the failure of a folder that no longer has its name.
-    pub(crate) fn gone(path: &Path) -> Self {
-        let told = "this output folder is repeatedly removed while it is created; choose another one";
-        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, told), is_gone: true }
+    pub(crate) fn removed(path: &Path) -> Self {
+        let message = "this output folder is repeatedly removed while it is created; choose another one";
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, message), is_gone: true }
     }
 }
 
-impl From<Error> for Missed {
+impl From<Error> for FolderError {
     fn from(error: Error) -> Self {
         Self { error, is_gone: false }
     }
@@ -113,18 +113,18 @@ impl From<Error> for Missed {
 
 /// Folders that a run created.
 #[derive(Debug, Default)]
-pub(crate) struct MadeFolders(Vec<PathBuf>);
+pub(crate) struct CreatedFolders(Vec<PathBuf>);
 
-impl MadeFolders {
+impl CreatedFolders {
     /// Creates a folder and its missing parents.
-    pub(crate) fn make(&mut self, folder: &Path) -> Result<(), Missed> {
+    pub(crate) fn make(&mut self, folder: &Path) -> Result<(), FolderError> {
         let missing: Vec<&Path> = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists()).collect();
         for path in missing.into_iter().rev() {
             match fs::create_dir(path) {
                 Ok(()) => self.0.push(path.to_path_buf()),
                 // Another run created it at this moment, or it is a dangling link: distinguished below.
                 Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(cause) => return Err(Missed::of(path, "this output folder cannot be created", &cause)),
+                Err(cause) => return Err(FolderError::from_io(path, "this output folder cannot be created", &cause)),
             }
         }
         if folder.as_os_str().is_empty() || folder.is_dir() {
@@ -132,7 +132,7 @@ impl MadeFolders {
         }
         match fs::symlink_metadata(folder) {
             Ok(_) => Err(no_folder(folder).into()),
-            Err(_) => Err(Missed::gone(folder)),
+            Err(_) => Err(FolderError::removed(folder)),
         }
     }
 
@@ -164,9 +164,9 @@ mod tests {
 
     #[test]
     fn paths_lead_from_the_folder_to_the_file() {
-        let way = |folder: &str, file: &str| relative_path(Path::new(folder), Path::new(file));
-        assert_eq!(way("/a/b/c", "/a/d/e.toml"), Path::new("../../d/e.toml"));
-        assert_eq!(way("/a", "/a/e.toml"), Path::new("e.toml"));
+        let path = |folder: &str, file: &str| relative_path(Path::new(folder), Path::new(file));
+        assert_eq!(path("/a/b/c", "/a/d/e.toml"), Path::new("../../d/e.toml"));
+        assert_eq!(path("/a", "/a/e.toml"), Path::new("e.toml"));
     }
 
     #[cfg(unix)]

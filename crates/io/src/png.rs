@@ -16,7 +16,7 @@ use etendue_core::quantity::{DigitalNumber, Display, Length};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
-use crate::{encoding::Stated, exr::EncodeError, photograph::Encoding};
+use crate::{encoding::SourcedEncoding, exr::EncodeError, photograph::Encoding};
 
 /// The gAMA chunk of numbers proportional to light.
 const GAMMA_1: u32 = 100_000;
@@ -49,17 +49,17 @@ pub fn encode_depth16(depth: &Plane<Length>, per_metre: f64) -> Result<Vec<u8>, 
 
 /// Encodes a display image, rounded to 8 bits. Values outside 0–1 are clamped, as in a display; NaN is black. The file states the encoding `encoded` as far as
 /// a chunk can; for curves that no chunk can state it states sRGB, for the display.
-pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
-    let mut bytes = Vec::with_capacity(3 * picture.samples().len());
-    bytes.extend(picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8));
-    let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb8)?;
+pub fn encode_display(image: &Plane<Display>, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
+    let mut bytes = Vec::with_capacity(3 * image.samples().len());
+    bytes.extend(image.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8));
+    let file = encode(image.width(), image.height(), &bytes, ExtendedColorType::Rgb8)?;
     Ok(with_statement(file, encoded))
 }
 
 /// Encodes a display image of 10 to 16 bits in a 16-bit file. Values outside 0–1 are clamped; NaN is black. The number q of b bits is stored as q 2^(16−b) +
 /// ⌊q/2^(2b−16)⌋, so that black is 0 and white 65 535, and a reader that keeps the upper b bits (the sBIT chunk states b; PNG specification, 11.3.2.4) recovers
 /// q. `encoded` as for [`encode_display`].
-pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
+pub fn encode_display16(image: &Plane<Display>, bits: u32, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     if !(9..=16).contains(&bits) {
         return Err(EncodeError::Encoder(format!("an image of {bits} bits does not fit into a 16-bit PNG")));
     }
@@ -69,8 +69,8 @@ pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding)
         let q = q.min((1 << bits) - 1);
         ((q << (16 - bits)) | (q >> (2 * bits - 16))) as u16
     };
-    let bytes: Vec<u8> = picture.samples().iter().flatten().flat_map(|v| stored(v).to_ne_bytes()).collect();
-    let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb16)?;
+    let bytes: Vec<u8> = image.samples().iter().flatten().flat_map(|v| stored(v).to_ne_bytes()).collect();
+    let file = encode(image.width(), image.height(), &bytes, ExtendedColorType::Rgb16)?;
     Ok(with_chunk(with_statement(file, encoded), *b"sBIT", &[bits as u8; 3]))
 }
 
@@ -119,7 +119,7 @@ fn encode(width: usize, height: usize, bytes: &[u8], kind: ExtendedColorType) ->
 
 /// Inserts the chunks that state an encoding after the header.
 fn with_statement(file: Vec<u8>, encoded: &Encoding) -> Vec<u8> {
-    let chunks = stating(encoded);
+    let chunks = encoding_chunks(encoded);
     chunks.into_iter().rev().fold(file, |file, (name, data)| with_chunk(file, name, &data))
 }
 
@@ -146,29 +146,29 @@ const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 /// Encoding that a PNG states, and the names of unsupported statements.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct Said {
-    pub stated: Option<Stated>,
+pub(crate) struct StatedEncoding {
+    pub stated: Option<SourcedEncoding>,
     pub not_understood: Option<String>,
 }
 
 /// Reader of a chunk's data; the error names unsupported content.
-type Reader = fn(&[u8]) -> Result<Stated, String>;
+type ChunkReader = fn(&[u8]) -> Result<SourcedEncoding, String>;
 
 /// The supported chunk of highest precedence; nothing for files that are no PNG.
-pub(crate) fn said(file: &[u8]) -> Said {
+pub(crate) fn stated_encoding(file: &[u8]) -> StatedEncoding {
     let chunks = chunks(file);
-    let data = |name: &[u8; 4]| chunks.iter().find(|(found, _)| found == name).map(|(_, data)| *data);
-    let readers: [(&[u8; 4], Reader); 4] =
-        [(b"cICP", of_cicp), (b"iCCP", of_profile), (b"sRGB", |_| Ok(of_srgb())), (b"gAMA", of_gamma)];
-    let mut said = Said::default();
+    let data = |name: &[u8; 4]| chunks.iter().find(|(chunk_name, _)| chunk_name == name).map(|(_, data)| *data);
+    let readers: [(&[u8; 4], ChunkReader); 4] =
+        [(b"cICP", from_cicp), (b"iCCP", from_profile), (b"sRGB", |_| Ok(from_srgb())), (b"gAMA", from_gamma)];
+    let mut result = StatedEncoding::default();
     for (name, reader) in readers {
         match data(name).map(reader) {
             None => {}
-            Some(Ok(stated)) => return Said { stated: Some(stated), ..said },
-            Some(Err(name)) => said.not_understood = said.not_understood.or(Some(name)),
+            Some(Ok(stated)) => return StatedEncoding { stated: Some(stated), ..result },
+            Some(Err(name)) => result.not_understood = result.not_understood.or(Some(name)),
         }
     }
-    said
+    result
 }
 
 /// Text under the keyword Title, if a PNG has one before its image data.
@@ -185,20 +185,20 @@ pub(crate) fn exif(file: &[u8]) -> Option<&[u8]> {
 
 /// Names and data of the chunks before the image data.
 fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
-    let mut found = Vec::new();
-    let Some(mut rest) = file.strip_prefix(SIGNATURE) else { return found };
+    let mut parsed = Vec::new();
+    let Some(mut rest) = file.strip_prefix(SIGNATURE) else { return parsed };
     while let Some((head, after)) = rest.split_first_chunk::<8>() {
         let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
         let name = [head[4], head[5], head[6], head[7]];
         let Some(data) = after.get(..length).filter(|_| &name != b"IDAT") else { break };
-        found.push((name, data));
+        parsed.push((name, data));
         rest = after.get(length + 4..).unwrap_or_default();
     }
-    found
+    parsed
 }
 
 /// Coding-independent code points (ITU-T H.273, table 3): transfer characteristics used for images.
-fn of_cicp(data: &[u8]) -> Result<Stated, String> {
+fn from_cicp(data: &[u8]) -> Result<SourcedEncoding, String> {
     if data.get(3) == Some(&0) {
         return Err("its narrow-range cICP chunk".to_owned());
     }
@@ -210,35 +210,35 @@ fn of_cicp(data: &[u8]) -> Result<Stated, String> {
         Some(13) => (Encoding::Srgb, "sRGB"),
         other => return Err(format!("its cICP chunk of transfer characteristics {}", other.copied().unwrap_or(0))),
     };
-    Ok(Stated::new(encoding, format!("its cICP chunk states {name}")))
+    Ok(SourcedEncoding::new(encoding, format!("its cICP chunk states {name}")))
 }
 
 /// An embedded profile, by its name.
-fn of_profile(data: &[u8]) -> Result<Stated, String> {
+fn from_profile(data: &[u8]) -> Result<SourcedEncoding, String> {
     let name: String = data.iter().take_while(|b| **b != 0).map(|b| char::from(*b)).collect();
     let message = format!("its colour profile \"{name}\"");
     let plain = name.to_ascii_lowercase();
     let other = ["lin", "g10", "g18", "g22"].iter().any(|word| plain.contains(word));
-    if plain.contains("srgb") && !other { Ok(Stated::new(Encoding::Srgb, message)) } else { Err(message) }
+    if plain.contains("srgb") && !other { Ok(SourcedEncoding::new(Encoding::Srgb, message)) } else { Err(message) }
 }
 
-fn of_srgb() -> Stated {
-    Stated::new(Encoding::Srgb, "its sRGB chunk")
+fn from_srgb() -> SourcedEncoding {
+    SourcedEncoding::new(Encoding::Srgb, "its sRGB chunk")
 }
 
-fn of_gamma(data: &[u8]) -> Result<Stated, String> {
+fn from_gamma(data: &[u8]) -> Result<SourcedEncoding, String> {
     let stored = data.first_chunk::<4>().map_or(0, |bytes| u32::from_be_bytes(*bytes));
     let encoding = match stored {
         0 => return Err("its gAMA chunk of 0".to_owned()),
         100_000 => Encoding::Linear,
         other => Encoding::Gamma(UNIT / f64::from(other)),
     };
-    Ok(Stated::new(encoding, format!("its gAMA chunk states {}", f64::from(stored) / UNIT)))
+    Ok(SourcedEncoding::new(encoding, format!("its gAMA chunk states {}", f64::from(stored) / UNIT)))
 }
 
 /// Chunks that state an encoding: sRGB, or gAMA with the primaries of sRGB (cHRM). No chunk can state a curve of points or an S-curve: such an image is meant
 /// for an sRGB display and states that; its side-car states the curve.
-fn stating(encoding: &Encoding) -> Vec<([u8; 4], Vec<u8>)> {
+fn encoding_chunks(encoding: &Encoding) -> Vec<([u8; 4], Vec<u8>)> {
     let power = match encoding {
         Encoding::Linear => 1.0,
         Encoding::Gamma(gamma) => 1.0 / gamma,
@@ -304,9 +304,9 @@ mod tests {
             assert_eq!((&file[37..41], &file[41..44]), (&b"sBIT"[..], &[bits as u8; 3][..]));
             let read = image::load_from_memory(&file).expect("PNG with correct checksums").into_rgb16();
             let white = ((1_u32 << bits) - 1) as f32;
-            let kept: Vec<u16> = read.into_raw().iter().map(|v| v >> (16 - bits)).collect();
-            let want: Vec<u16> = values.iter().map(|v| (v.clamp(0.0, 1.0) * white).round() as u16).collect();
-            assert_eq!(kept, want, "{bits}");
+            let actual: Vec<u16> = read.into_raw().iter().map(|v| v >> (16 - bits)).collect();
+            let expected: Vec<u16> = values.iter().map(|v| (v.clamp(0.0, 1.0) * white).round() as u16).collect();
+            assert_eq!(actual, expected, "{bits}");
         }
         assert!([8, 17].iter().all(|bits| encode_display16(&plane, *bits, &Encoding::Srgb).is_err()));
     }
@@ -326,7 +326,7 @@ mod tests {
     }
 
     fn encoding(chunks: &[(&[u8; 4], &[u8])]) -> Option<Encoding> {
-        said(&png(chunks)).stated.map(|stated| stated.encoding)
+        stated_encoding(&png(chunks)).stated.map(|stated| stated.encoding)
     }
 
     #[test]
@@ -347,22 +347,22 @@ mod tests {
     #[test]
     fn what_is_not_understood_is_named_and_the_next_is_taken() {
         let profile: (&[u8; 4], &[u8]) = (b"iCCP", b"Adobe RGB (1998)\0\0");
-        let found = said(&png(&[profile]));
-        assert_eq!(found.not_understood.as_deref(), Some("its colour profile \"Adobe RGB (1998)\""));
-        assert_eq!(found.stated, None);
+        let actual = stated_encoding(&png(&[profile]));
+        assert_eq!(actual.not_understood.as_deref(), Some("its colour profile \"Adobe RGB (1998)\""));
+        assert_eq!(actual.stated, None);
         assert_eq!(
             encoding(&[profile, (b"gAMA", &45_455_u32.to_be_bytes())]),
             Some(Encoding::Gamma(100_000.0 / 45_455.0))
         );
-        assert!(said(&png(&[(b"cICP", &[9, 16, 0, 1])])).not_understood.is_some_and(|name| name.ends_with(" 16")));
-        assert!(said(&png(&[(b"gAMA", &[0; 4])])).not_understood.is_some());
+        assert!(stated_encoding(&png(&[(b"cICP", &[9, 16, 0, 1])])).not_understood.is_some_and(|name| name.ends_with(" 16")));
+        assert!(stated_encoding(&png(&[(b"gAMA", &[0; 4])])).not_understood.is_some());
     }
 
     #[test]
     fn strange_files_say_nothing() {
-        assert_eq!(said(b"II\x2a\0"), Said::default());
-        let whole = png(&[(b"sRGB", &[0])]);
-        assert!((0..whole.len()).all(|length| said(&whole[..length]).not_understood.is_none()));
+        assert_eq!(stated_encoding(b"II\x2a\0"), StatedEncoding::default());
+        let complete = png(&[(b"sRGB", &[0])]);
+        assert!((0..complete.len()).all(|length| stated_encoding(&complete[..length]).not_understood.is_none()));
     }
 
     #[test]
@@ -373,9 +373,9 @@ mod tests {
             (Encoding::Gamma(2.5), Encoding::Gamma(2.5)),
             (Encoding::Contrast { contrast: 2.0, midpoint: 0.5 }, Encoding::Srgb),
         ] {
-            let chunks = stating(&encoding);
+            let chunks = encoding_chunks(&encoding);
             let chunks: Vec<(&[u8; 4], &[u8])> = chunks.iter().map(|(name, data)| (name, &data[..])).collect();
-            assert_eq!(super::said(&png(&chunks)).stated.map(|s| s.encoding), Some(read));
+            assert_eq!(super::stated_encoding(&png(&chunks)).stated.map(|s| s.encoding), Some(read));
         }
     }
 }

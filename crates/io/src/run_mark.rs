@@ -68,7 +68,7 @@ impl Drop for RunMark {
 }
 
 /// Process number of a running process that has marked `root`, if known.
-pub(crate) fn running(root: &Path) -> Option<u32> {
+pub(crate) fn running_process(root: &Path) -> Option<u32> {
     marks(root).into_iter().find_map(|(path, run)| {
         let is_held = matches!(File::open(path).ok()?.try_lock(), Err(TryLockError::WouldBlock));
         is_held.then(|| run.split_once('-')?.0.parse().ok()).flatten()

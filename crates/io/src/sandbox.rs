@@ -29,14 +29,14 @@ impl Sandbox {
     ///
     /// # Errors
     /// A folder does not exist.
-    pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Error> {
+    pub fn for_job(job: &Path, further: &[PathBuf]) -> Result<Self, Error> {
         let folder = job.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let own = folder
             .canonicalize()
             .map_err(|cause| Error::coded(code_of(&cause), format!("{}: {cause}", job.display())))?;
         let allowed = further.iter().map(|folder| {
-            let found = folder.canonicalize().ok().filter(|folder| folder.is_dir());
-            found.ok_or_else(|| {
+            let canonical = folder.canonicalize().ok().filter(|folder| folder.is_dir());
+            canonical.ok_or_else(|| {
                 let message = format!("`allow_outside` {}: no such folder", folder.display());
                 Error::argument("allow_outside", message).with_code(ErrorCode::MissingFile)
             })
@@ -47,13 +47,13 @@ impl Sandbox {
 
     /// Returns the same sandbox, which also records the requested files.
     #[must_use]
-    pub fn noting(self) -> Self {
+    pub fn recording(self) -> Self {
         Self { looked_for: Some(Arc::default()), ..self }
     }
 
     /// Requested files, by the requested paths; some need not exist. Empty unless the sandbox [records](Self::noting) them.
     #[must_use]
-    pub fn looked_for(&self) -> Vec<PathBuf> {
+    pub fn requested_files(&self) -> Vec<PathBuf> {
         let noted = self.looked_for.as_ref();
         noted.map_or_else(Vec::new, |noted| {
             noted.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
@@ -97,7 +97,7 @@ fn end_of(path: &Path) -> io::Result<PathBuf> {
             Component::CurDir => {}
             Component::Normal(_) | Component::RootDir | Component::Prefix(_) => {
                 end.push(part);
-                if end.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
+                if end.symlink_metadata().is_ok_and(|metadata| metadata.is_symlink()) {
                     end = end.canonicalize()?;
                 }
             }
@@ -123,7 +123,7 @@ mod tests {
         symlink("../linked", root.join("job/folder")).expect("link");
         symlink("meshes", root.join("job/inner")).expect("link");
         symlink(root.join("nowhere"), root.join("job/dangling")).expect("link");
-        let sandbox = Sandbox::about(&root.join("job/job.toml"), &[root.join("library")]).expect("there");
+        let sandbox = Sandbox::for_job(&root.join("job/job.toml"), &[root.join("library")]).expect("there");
         for inside in [
             "job/a.obj",
             "job/meshes/../a.obj",
@@ -152,10 +152,10 @@ mod tests {
         sandbox.check(Path::new("/etc/passwd")).expect_err("absolute");
         sandbox.check(Path::new("a.obj")).expect_err("relative to where the program runs");
         assert_eq!(Sandbox::NONE.check(Path::new("/etc/passwd")), Ok(()));
-        let noting = sandbox.noting();
+        let noting = sandbox.recording();
         let copy = noting.clone();
         ["job/a.csv", "job/x/../a.obj"].iter().for_each(|path| drop(copy.check(&root.join(path))));
-        assert_eq!(noting.looked_for(), [root.join("job/x/../a.obj")], "what leads out is not looked for");
-        assert!(Sandbox::about(&root.join("job/job.toml"), &[root.join("none")]).is_err());
+        assert_eq!(noting.requested_files(), [root.join("job/x/../a.obj")], "what leads out is not looked for");
+        assert!(Sandbox::for_job(&root.join("job/job.toml"), &[root.join("none")]).is_err());
     }
 }

@@ -18,12 +18,12 @@ pub fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error>
 }
 
 /// Reads the bytes of a file of our own with at most `most` bytes, whatever the general limit.
-pub(crate) fn read_expected_bytes(file: &Path, what: &str, most: u64) -> Result<Vec<u8>, Error> {
-    let check = |bytes: u64| match bytes <= most {
+pub(crate) fn read_expected_bytes(file: &Path, what: &str, max: u64) -> Result<Vec<u8>, Error> {
+    let check = |bytes: u64| match bytes <= max {
         true => Ok(()),
-        false => Err(format!("the file has {bytes} bytes; expected at most {most}: render it again").into()),
+        false => Err(format!("the file has {bytes} bytes; expected at most {max}: render it again").into()),
     };
-    explained(file, what, read_checked(file, most, check))
+    explained(file, what, read_checked(file, max, check))
 }
 
 fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, Error> {
@@ -55,10 +55,10 @@ fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<
 /// As reading a file. If it is no regular file: kind [`ErrorKind::InvalidInput`] with a text for the user. If it is larger than its limit: kind
 /// [`ErrorKind::FileTooLarge`] with a text for the user.
 pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
-    read_checked(file, limit.most_bytes(), |bytes| limit.check_size(bytes))
+    read_checked(file, limit.max_bytes(), |bytes| limit.check_size(bytes))
 }
 
-fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), Problem>) -> std::io::Result<Vec<u8>> {
+fn read_checked(file: &Path, max: u64, check_size: impl Fn(u64) -> Result<(), Problem>) -> std::io::Result<Vec<u8>> {
     let metadata = std::fs::metadata(file)?;
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
@@ -69,7 +69,7 @@ fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), P
     check_size(metadata.len()).map_err(too_large)?;
     // A file of /proc has no size, and a file may grow.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
-    File::open(file)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    File::open(file)?.take(max.saturating_add(1)).read_to_end(&mut bytes)?;
     check_size(bytes.len() as u64).map_err(too_large)?;
     Ok(bytes)
 }
@@ -131,8 +131,8 @@ mod tests {
     fn what_is_no_regular_file_is_refused_unopened() {
         let place = tempfile::tempdir().expect("temporary folder");
         let pipe = place.path().join("pipe.obj");
-        let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
-        assert!(made.success());
+        let created = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
+        assert!(created.success());
         let message = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
         assert!(
             message.ends_with(

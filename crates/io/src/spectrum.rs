@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{SpectrumAsset, Values};
-use etendue_spectra::{Outside, Spectrum, SpectrumError};
+use etendue_scene::asset::{SpectrumAsset, SpectrumValues};
+use etendue_spectra::{Extrapolation, Spectrum, SpectrumError};
 
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
 
 /// A line, counted from 1, and its wavelength (nm) and value.
-type Row = (usize, (f64, f64));
+type SpectrumRow = (usize, (f64, f64));
 
 /// Reads a spectrum. The grammar and the checks are those of [`Spectrum::from_csv`].
 pub fn read_spectrum(file: &Path) -> Result<SpectrumAsset, Error> {
@@ -18,7 +18,7 @@ pub fn read_spectrum(file: &Path) -> Result<SpectrumAsset, Error> {
 }
 
 /// Reads a spectrum whose values are all `values`.
-pub fn read_spectrum_of(file: &Path, values: Values) -> Result<SpectrumAsset, Error> {
+pub fn read_spectrum_of(file: &Path, values: SpectrumValues) -> Result<SpectrumAsset, Error> {
     let (rows, hash) = read(file)?;
     match rows.iter().find(|(_, (_, value))| !values.admit(*value)) {
         Some((line, (nm, value))) => {
@@ -28,23 +28,23 @@ pub fn read_spectrum_of(file: &Path, values: Values) -> Result<SpectrumAsset, Er
     }
 }
 
-fn read(file: &Path) -> Result<(Vec<Row>, [u8; 32]), Error> {
+fn read(file: &Path) -> Result<(Vec<SpectrumRow>, [u8; 32]), Error> {
     let bytes = read_bytes(file, "spectrum")?;
     let text = decode_text(file, &bytes)?;
-    Spectrum::from_csv(text, Outside::Hold).map_err(|cause| fault(file, &cause))?;
+    Spectrum::from_csv(text, Extrapolation::Hold).map_err(|cause| spectrum_error(file, &cause))?;
     let rows = text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, point(line)?)));
-    Ok((rows.collect(), hash::of_bytes(&bytes)))
+    Ok((rows.collect(), hash::hash_bytes(&bytes)))
 }
 
-fn asset(rows: &[Row], hash: [u8; 32]) -> SpectrumAsset {
+fn asset(rows: &[SpectrumRow], hash: [u8; 32]) -> SpectrumAsset {
     SpectrumAsset { points: rows.iter().map(|(_, point)| *point).collect(), hash }
 }
 
 /// Error at its line, in the form of all other files.
-fn fault(file: &Path, cause: &SpectrumError) -> Error {
+fn spectrum_error(file: &Path, cause: &SpectrumError) -> Error {
     let text = cause.to_string();
-    let told = text.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
-    match told.and_then(|(line, what)| Some((line.parse().ok()?, what))) {
+    let located = text.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
+    match located.and_then(|(line, what)| Some((line.parse().ok()?, what))) {
         Some((line, what)) => Error::at(file, line, what),
         None => Error::new(file, text),
     }

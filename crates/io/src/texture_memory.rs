@@ -62,35 +62,35 @@ pub(crate) fn check(file: &Path, samples: u128, packed: usize) -> Result<(), Err
 
 /// Refuses bytes that are too many for a file of `packed` bytes.
 pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(), Error> {
-    let most = most(packed);
-    if bytes <= most {
+    let limit = max_bytes(packed);
+    if bytes <= limit {
         return Ok(());
     }
     let message = format!(
         "decompresses to {} MiB; at most {} MiB are allowed for a file of its size: make the image smaller, {}",
         mebibytes(bytes),
-        mebibytes(most),
+        mebibytes(limit),
         PICTURE.remedy_bytes(bytes)
     );
     Err(Error::coded(ErrorCode::TooLarge, file, message))
 }
 
 /// Maximum decompressed bytes of a file of `packed` bytes.
-pub(crate) fn most(packed: usize) -> u128 {
-    u128::from(PICTURE.most_bytes()).max(TIMES_PACKED * packed as u128)
+pub(crate) fn max_bytes(packed: usize) -> u128 {
+    u128::from(PICTURE.max_bytes()).max(TIMES_PACKED * packed as u128)
 }
 
 /// Refuses 32-bit samples of more than `most` bytes, if their expected number is known.
-pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(), Error> {
+pub(crate) fn check_within(file: &Path, samples: u128, limit: u128) -> Result<(), Error> {
     let bytes = in_bytes(samples);
-    if bytes <= most {
+    if bytes <= limit {
         return Ok(());
     }
-    let (found, expected) = (mebibytes(bytes), mebibytes(most));
+    let (actual, expected) = (mebibytes(bytes), mebibytes(limit));
     Err(Error::coded(
         ErrorCode::TooLarge,
         file,
-        format!("decompresses to {found} MiB; expected {expected} MiB: render it again"),
+        format!("decompresses to {actual} MiB; expected {expected} MiB: render it again"),
     ))
 }
 

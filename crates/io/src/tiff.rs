@@ -17,12 +17,12 @@ use crate::exr::EncodeError;
 pub fn encode_raw_tiff(raw: &Plane<DigitalNumber>, bits: u32) -> Result<Vec<u8>, EncodeError> {
     const BLACK_IS_ZERO: u16 = 1;
     let mut directory = Directory::default();
-    picture(&mut directory, raw, bits, BLACK_IS_ZERO)?;
+    set_image_tags(&mut directory, raw, bits, BLACK_IS_ZERO)?;
     Ok(directory.file(&sample_bytes(raw, bits)))
 }
 
 /// Directory entries common to all images of digital numbers.
-fn picture(
+fn set_image_tags(
     directory: &mut Directory,
     raw: &Plane<DigitalNumber>,
     bits: u32,
@@ -37,19 +37,19 @@ fn picture(
     else {
         return Err(EncodeError::Encoder(format!("{width} × {height} pixels are too many for TIFF")));
     };
-    directory.set(254, Value::Long(vec![0])); // the full image
-    directory.set(256, Value::Long(vec![columns]));
-    directory.set(257, Value::Long(vec![rows]));
-    directory.set(258, Value::Short(vec![stored_bits(bits)]));
-    directory.set(259, Value::Short(vec![1])); // not compressed
-    directory.set(262, Value::Short(vec![photometric]));
-    directory.set(273, Value::StripOffset);
-    directory.set(274, Value::Short(vec![1])); // the first row is the top one
-    directory.set(277, Value::Short(vec![1])); // one sample per pixel
-    directory.set(278, Value::Long(vec![rows]));
-    directory.set(279, Value::Long(vec![length]));
-    directory.set(284, Value::Short(vec![1])); // interleaved samples
-    directory.set(339, Value::Short(vec![1])); // unsigned integers
+    directory.set(254, TagValue::Long(vec![0])); // the full image
+    directory.set(256, TagValue::Long(vec![columns]));
+    directory.set(257, TagValue::Long(vec![rows]));
+    directory.set(258, TagValue::Short(vec![stored_bits(bits)]));
+    directory.set(259, TagValue::Short(vec![1])); // not compressed
+    directory.set(262, TagValue::Short(vec![photometric]));
+    directory.set(273, TagValue::StripOffset);
+    directory.set(274, TagValue::Short(vec![1])); // the first row is the top one
+    directory.set(277, TagValue::Short(vec![1])); // one sample per pixel
+    directory.set(278, TagValue::Long(vec![rows]));
+    directory.set(279, TagValue::Long(vec![length]));
+    directory.set(284, TagValue::Short(vec![1])); // interleaved samples
+    directory.set(339, TagValue::Short(vec![1])); // unsigned integers
     Ok(())
 }
 
@@ -68,7 +68,7 @@ fn sample_bytes(raw: &Plane<DigitalNumber>, bits: u32) -> Vec<u8> {
 
 /// A tag's value.
 #[derive(Clone, Debug)]
-enum Value {
+enum TagValue {
     Byte(Vec<u8>),
     Text(String),
     Short(Vec<u16>),
@@ -82,11 +82,11 @@ enum Value {
 /// Tags and their values.
 #[derive(Clone, Debug, Default)]
 struct Directory {
-    tags: BTreeMap<u16, Value>,
+    tags: BTreeMap<u16, TagValue>,
 }
 
 impl Directory {
-    fn set(&mut self, tag: u16, value: Value) {
+    fn set(&mut self, tag: u16, value: TagValue) {
         self.tags.insert(tag, value);
     }
 
@@ -138,7 +138,7 @@ impl Encoded {
     }
 }
 
-impl Value {
+impl TagValue {
     fn encoded(&self) -> Encoded {
         let with = |kind, count: usize, bytes| Encoded { kind, count: count as u32, bytes: Some(bytes) };
         match self {
@@ -186,18 +186,18 @@ pub fn encode_dng(raw: &Plane<DigitalNumber>, facts: &DngFacts) -> Result<Vec<u8
     const LINEAR: u16 = 34_892;
     let mut directory = Directory::default();
     let photometric = if facts.tile.is_some() { FILTER_ARRAY } else { LINEAR };
-    picture(&mut directory, raw, facts.bits, photometric)?;
-    directory.set(271, Value::Text("Etendue".to_owned()));
-    directory.set(272, Value::Text(ascii(&facts.camera)));
-    directory.set(305, Value::Text(ascii(&facts.software)));
-    directory.set(50_706, Value::Byte(vec![1, 4, 0, 0])); // version
-    directory.set(50_707, Value::Byte(vec![1, 1, 0, 0])); // oldest version that can read it
-    directory.set(50_708, Value::Text(format!("Etendue {}", ascii(&facts.camera))));
+    set_image_tags(&mut directory, raw, facts.bits, photometric)?;
+    directory.set(271, TagValue::Text("Etendue".to_owned()));
+    directory.set(272, TagValue::Text(ascii(&facts.camera)));
+    directory.set(305, TagValue::Text(ascii(&facts.software)));
+    directory.set(50_706, TagValue::Byte(vec![1, 4, 0, 0])); // version
+    directory.set(50_707, TagValue::Byte(vec![1, 1, 0, 0])); // oldest version that can read it
+    directory.set(50_708, TagValue::Text(format!("Etendue {}", ascii(&facts.camera))));
     let [x, y, width, height] = facts.active;
-    directory.set(50_829, Value::Long(vec![y, x, y + height, x + width]));
-    directory.set(50_713, Value::Short(vec![1, 1])); // one black level for all
-    directory.set(50_714, Value::Rational(vec![rational(facts.black_level_dn)]));
-    directory.set(50_717, Value::Long(vec![facts.white_level_dn.floor() as u32]));
+    directory.set(50_829, TagValue::Long(vec![y, x, y + height, x + width]));
+    directory.set(50_713, TagValue::Short(vec![1, 1])); // one black level for all
+    directory.set(50_714, TagValue::Rational(vec![rational(facts.black_level_dn)]));
+    directory.set(50_717, TagValue::Long(vec![facts.white_level_dn.floor() as u32]));
     if let Some((columns, colours)) = &facts.tile {
         colour(&mut directory, *columns, colours, facts);
     }
@@ -207,14 +207,14 @@ pub fn encode_dng(raw: &Plane<DigitalNumber>, facts: &DngFacts) -> Result<Vec<u8
 fn colour(directory: &mut Directory, columns: u16, colours: &[u8], facts: &DngFacts) {
     const D65: u16 = 21;
     let rows = (colours.len() / usize::from(columns)) as u16;
-    directory.set(33_421, Value::Short(vec![rows, columns]));
-    directory.set(33_422, Value::Byte(colours.to_vec()));
-    directory.set(50_710, Value::Byte(vec![0, 1, 2])); // planes are red, green, blue
-    directory.set(50_711, Value::Short(vec![1])); // a rectangular layout
+    directory.set(33_421, TagValue::Short(vec![rows, columns]));
+    directory.set(33_422, TagValue::Byte(colours.to_vec()));
+    directory.set(50_710, TagValue::Byte(vec![0, 1, 2])); // planes are red, green, blue
+    directory.set(50_711, TagValue::Short(vec![1])); // a rectangular layout
     let matrix = facts.xyz_to_camera.as_flattened().iter().map(|v| signed_rational(*v));
-    directory.set(50_721, Value::SignedRational(matrix.collect()));
-    directory.set(50_728, Value::Rational(facts.neutral.iter().map(|v| rational(*v)).collect()));
-    directory.set(50_778, Value::Short(vec![D65]));
+    directory.set(50_721, TagValue::SignedRational(matrix.collect()));
+    directory.set(50_728, TagValue::Rational(facts.neutral.iter().map(|v| rational(*v)).collect()));
+    directory.set(50_778, TagValue::Short(vec![D65]));
 }
 
 /// DNG texts are ASCII.
@@ -244,8 +244,8 @@ mod tests {
         let word = |i: usize| u32::from_le_bytes(file[i..i + 4].try_into().expect("four bytes"));
         let entries = usize::from(u16::from_le_bytes([file[8], file[9]]));
         let entry = |tag: u16| {
-            let found = (0..entries).map(|i| 10 + 12 * i).find(|i| file[*i..*i + 2] == tag.to_le_bytes());
-            word(found.expect("the tag") + 8)
+            let entry_start = (0..entries).map(|i| 10 + 12 * i).find(|i| file[*i..*i + 2] == tag.to_le_bytes());
+            word(entry_start.expect("the tag") + 8)
         };
         assert_eq!((entry(256), entry(257), entry(258), entry(279)), (3, 2, 32, 24));
         let start = entry(273) as usize;

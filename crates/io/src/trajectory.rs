@@ -47,10 +47,10 @@ pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
         }
     }
     let rows = rows.into_iter().map(|(_, row)| row).collect();
-    Ok(TrajectoryAsset { rows, unread, hash: hash::of_bytes(&bytes) })
+    Ok(TrajectoryAsset { rows, unread, hash: hash::hash_bytes(&bytes) })
 }
 
-const PLACE: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
+const POSITION: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
 
@@ -58,15 +58,15 @@ const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
 const LENGTH_ERROR: f64 = 0.01;
 
 /// Rows with their lines, and the unread names.
-type Read = (Vec<(usize, TrajectoryRow)>, Vec<String>);
+type ParsedTrajectory = (Vec<(usize, TrajectoryRow)>, Vec<String>);
 
 /// Columns of the values of a row.
-struct Columns {
+struct TrajectoryColumns {
     place: [usize; 4],
-    rotation: Rotation,
+    rotation: RotationColumns,
 }
 
-enum Rotation {
+enum RotationColumns {
     None,
     Quaternion([usize; 4]),
     Angles([usize; 3]),
@@ -74,21 +74,21 @@ enum Rotation {
 
 /// Returns true if a name is a known column.
 fn is_known(name: &str) -> bool {
-    PLACE.contains(&name) || QUATERNION.contains(&name) || ANGLES.contains(&name)
+    POSITION.contains(&name) || QUATERNION.contains(&name) || ANGLES.contains(&name)
 }
 
-impl Columns {
+impl TrajectoryColumns {
     /// Finds the columns by their names.
-    fn of(names: &[&str]) -> Result<Self, String> {
+    fn new(names: &[&str]) -> Result<Self, String> {
         if let Some(twice) = names.iter().enumerate().find(|(i, name)| is_known(name) && names[..*i].contains(name)) {
             return Err(format!("two columns are named \"{}\"; remove one", twice.1));
         }
-        let place = found(names, PLACE).ok_or_else(|| missing(names, &PLACE))?;
-        let given = |wanted: &[&str]| wanted.iter().any(|name| names.contains(name));
-        let rotation = match (given(&QUATERNION), given(&ANGLES)) {
-            (false, false) => Rotation::None,
-            (true, false) => Rotation::Quaternion(found(names, QUATERNION).ok_or_else(|| missing(names, &QUATERNION))?),
-            (false, true) => Rotation::Angles(found(names, ANGLES).ok_or_else(|| missing(names, &ANGLES))?),
+        let place = find_columns(names, POSITION).ok_or_else(|| missing_columns(names, &POSITION))?;
+        let has_any = |wanted: &[&str]| wanted.iter().any(|name| names.contains(name));
+        let rotation = match (has_any(&QUATERNION), has_any(&ANGLES)) {
+            (false, false) => RotationColumns::None,
+            (true, false) => RotationColumns::Quaternion(find_columns(names, QUATERNION).ok_or_else(|| missing_columns(names, &QUATERNION))?),
+            (false, true) => RotationColumns::Angles(find_columns(names, ANGLES).ok_or_else(|| missing_columns(names, &ANGLES))?),
             (true, true) => {
                 let both = [QUATERNION.join(", "), ANGLES.join(", ")];
                 return Err(format!("rotations are given twice, as {} and as {}; remove one", both[0], both[1]));
@@ -105,11 +105,11 @@ impl Columns {
     ) -> Result<TrajectoryRow, String> {
         let [time, x, y, z] = self.place;
         let rotation = match self.rotation {
-            Rotation::None => DQuat::IDENTITY,
-            Rotation::Angles([yaw, pitch, roll]) => {
+            RotationColumns::None => DQuat::IDENTITY,
+            RotationColumns::Angles([yaw, pitch, roll]) => {
                 yaw_pitch_roll_quaternion([value(yaw)?, value(pitch)?, value(roll)?])
             }
-            Rotation::Quaternion([w, x, y, z]) => {
+            RotationColumns::Quaternion([w, x, y, z]) => {
                 let quaternion = DQuat::from_xyzw(value(x)?, value(y)?, value(z)?, value(w)?);
                 let length = quaternion.length();
                 if (length - 1.0).abs().is_nan() || (length - 1.0).abs() > LENGTH_ERROR {
@@ -123,28 +123,28 @@ impl Columns {
 }
 
 /// Indices of the wanted names, if all are present.
-fn found<const N: usize>(names: &[&str], wanted: [&str; N]) -> Option<[usize; N]> {
+fn find_columns<const N: usize>(names: &[&str], wanted: [&str; N]) -> Option<[usize; N]> {
     let at = wanted.map(|wanted| names.iter().position(|name| *name == wanted));
     at.iter().all(Option::is_some).then(|| at.map(Option::unwrap_or_default))
 }
 
-fn missing(names: &[&str], wanted: &[&str]) -> String {
+fn missing_columns(names: &[&str], wanted: &[&str]) -> String {
     let missing: Vec<&str> = wanted.iter().filter(|name| !names.contains(name)).copied().collect();
     format!(
         "missing {}; expected {} and, for rotation, {} or {}",
         missing.join(", "),
-        PLACE.join(", "),
+        POSITION.join(", "),
         QUATERNION.join(", "),
         ANGLES.join(", ")
     )
 }
 
-fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
+fn read_csv(file: &Path, text: &str) -> Result<ParsedTrajectory, Error> {
     let mut rows = rows(text);
     let head = rows.next().ok_or_else(|| {
         Error::coded(ErrorCode::Empty, file, "contains no row; expected a line of column names first")
     })?;
-    let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
+    let columns = TrajectoryColumns::new(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
     let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read_csv = rows.map(|row| {
         let cell = |column: usize| {
@@ -156,13 +156,13 @@ fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
         let value =
             |column: usize| number(cell(column)?).ok_or_else(|| wrong(column, cell(column).unwrap_or_default()));
         let exact = |column: usize| cell(column)?.parse().map_err(|_| wrong(column, cell(column).unwrap_or_default()));
-        let found = columns.row(value, exact).map_err(|what| Error::at(file, row.line, what))?;
-        Ok((row.line, found))
+        let trajectory_row = columns.row(value, exact).map_err(|what| Error::at(file, row.line, what))?;
+        Ok((row.line, trajectory_row))
     });
     Ok((read_csv.collect::<Result<_, _>>()?, unread))
 }
 
-fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
+fn read_json(file: &Path, text: &str) -> Result<ParsedTrajectory, Error> {
     let entries: Vec<Map<String, Value>> = serde_json::from_str(text).map_err(|cause| {
         let what = format!("not a list of objects with named numbers: {cause}");
         if cause.line() > 0 { Error::at(file, cause.line(), what) } else { Error::new(file, what) }
@@ -170,30 +170,30 @@ fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
     let lines = entry_lines(text);
     let Some(first) = entries.first() else { return Ok((Vec::new(), Vec::new())) };
     let names: Vec<&str> = first.keys().map(String::as_str).collect();
-    let columns = Columns::of(&names).map_err(|what| Error::at(file, lines[0], what))?;
+    let columns = TrajectoryColumns::new(&names).map_err(|what| Error::at(file, lines[0], what))?;
     let unread = names.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read_json = entries.iter().zip(&lines).map(|(entry, line)| {
-        let fault = |what: String| Error::at(file, *line, what);
+        let error = |what: String| Error::at(file, *line, what);
         if let Some(other) = entry.keys().find(|key| is_known(key) && !names.contains(&key.as_str())) {
-            return Err(fault(format!("has \"{other}\", which the first object does not; give it in all or in none")));
+            return Err(error(format!("has \"{other}\", which the first object does not; give it in all or in none")));
         }
-        let given = |column: usize| {
+        let entry_value = |column: usize| {
             let name = names[column];
             entry.get(name).ok_or_else(|| format!("lacks \"{name}\", which the first object has"))
         };
-        let wrong = |column: usize, found: &Value| format!("found {found} as \"{}\"; expected a number", names[column]);
+        let wrong = |column: usize, actual: &Value| format!("found {actual} as \"{}\"; expected a number", names[column]);
         let value = |column: usize| {
-            let found = given(column)?;
-            found.as_f64().ok_or_else(|| wrong(column, found))
+            let json = entry_value(column)?;
+            json.as_f64().ok_or_else(|| wrong(column, json))
         };
         let exact = |column: usize| {
-            let found = given(column)?;
-            let read_json = found
+            let stated = entry_value(column)?;
+            let read_json = stated
                 .as_str()
-                .map_or_else(|| found.as_f64().and_then(ExactTime::from_seconds), |text| text.parse().ok());
-            read_json.ok_or_else(|| wrong(column, found))
+                .map_or_else(|| stated.as_f64().and_then(ExactTime::from_seconds), |text| text.parse().ok());
+            read_json.ok_or_else(|| wrong(column, stated))
         };
-        Ok((*line, columns.row(value, exact).map_err(fault)?))
+        Ok((*line, columns.row(value, exact).map_err(error)?))
     });
     Ok((read_json.collect::<Result<_, _>>()?, unread))
 }

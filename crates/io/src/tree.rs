@@ -11,32 +11,32 @@ use crate::{Error, ErrorCode, Problem};
 
 /// Node of the tree.
 #[derive(Debug)]
-pub(crate) struct Node {
+pub(crate) struct TreeNode {
     /// Line, counted from 1.
     pub(crate) line: usize,
-    value: Value,
+    value: NodeValue,
 }
 
 #[derive(Debug)]
-enum Value {
+enum NodeValue {
     Scalar(String),
-    List(Vec<Node>),
-    Map(Vec<(String, Node)>),
+    List(Vec<TreeNode>),
+    Map(Vec<(String, TreeNode)>),
 }
 
 /// Maximum depth, beyond that of any real file.
-const DEEPEST: usize = 32;
+const MAX_DEPTH: usize = 32;
 /// Maximum number of commas and brackets, beyond that of any real file: each value takes up to 800 bytes while it is read.
-const MOST_VALUES: usize = 1 << 21;
+const MAX_VALUES: usize = 1 << 21;
 
 /// Reads a document whose root is a map.
-pub(crate) fn parse(text: &str) -> Read<Node> {
+pub(crate) fn parse(text: &str) -> Read<TreeNode> {
     let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
-    if values > MOST_VALUES {
-        return Err(Fault::coded(
+    if values > MAX_VALUES {
+        return Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
             0,
-            format!("contains {values} commas and brackets; at most {MOST_VALUES} are supported"),
+            format!("contains {values} commas and brackets; at most {MAX_VALUES} are supported"),
         ));
     }
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
@@ -46,13 +46,13 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
             (Event::StreamEnd, _) => {
-                return Err(Fault::coded(ErrorCode::Empty, 0, "is empty; expected keys with values"));
+                return Err(TreeError::coded(ErrorCode::Empty, 0, "is empty; expected keys with values"));
             }
             (event, span) => {
                 let root = events.node(event, span, 0)?;
                 return match root.value {
-                    Value::Map(_) => Ok(root),
-                    _ => Err(Fault::at(root.line, "expected keys with values (key: value)")),
+                    NodeValue::Map(_) => Ok(root),
+                    _ => Err(TreeError::at(root.line, "expected keys with values (key: value)")),
                 };
             }
         }
@@ -79,33 +79,33 @@ impl<'a> Events<'a> {
     fn next(&mut self) -> Read<(Event<'a>, Span)> {
         match self.parser.next_event() {
             Some(Ok(event)) => Ok(event),
-            Some(Err(cause)) => Err(Fault::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info()))),
-            None => Err(Fault::at(0, "not YAML or JSON: the file ends too early")),
+            Some(Err(cause)) => Err(TreeError::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info()))),
+            None => Err(TreeError::at(0, "not YAML or JSON: the file ends too early")),
         }
     }
 
-    fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<Node> {
+    fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<TreeNode> {
         let line = span.start.line();
-        if depth > DEEPEST {
-            return Err(Fault::at(line, format!("nested more than {DEEPEST} levels deep, which is not supported")));
+        if depth > MAX_DEPTH {
+            return Err(TreeError::at(line, format!("nested more than {MAX_DEPTH} levels deep, which is not supported")));
         }
         let value = match event {
-            Event::Scalar(text, style, ..) => Value::Scalar(plain(&text, style)),
-            Event::SequenceStart(..) => Value::List(self.list(depth)?),
-            Event::MappingStart(..) => Value::Map(self.map(depth)?),
+            Event::Scalar(text, style, ..) => NodeValue::Scalar(plain(&text, style)),
+            Event::SequenceStart(..) => NodeValue::List(self.list(depth)?),
+            Event::MappingStart(..) => NodeValue::Map(self.map(depth)?),
             Event::Alias(_) => {
-                return Err(Fault::coded(
+                return Err(TreeError::coded(
                     ErrorCode::UnsupportedFile,
                     line,
                     "aliases (*name) are not supported: write the value itself",
                 ));
             }
-            _ => return Err(Fault::at(line, "expected a value")),
+            _ => return Err(TreeError::at(line, "expected a value")),
         };
-        Ok(Node { line, value })
+        Ok(TreeNode { line, value })
     }
 
-    fn list(&mut self, depth: usize) -> Read<Vec<Node>> {
+    fn list(&mut self, depth: usize) -> Read<Vec<TreeNode>> {
         let mut nodes = Vec::new();
         loop {
             match self.next()? {
@@ -115,17 +115,17 @@ impl<'a> Events<'a> {
         }
     }
 
-    fn map(&mut self, depth: usize) -> Read<Vec<(String, Node)>> {
-        let mut entries: Vec<(String, Node)> = Vec::new();
+    fn map(&mut self, depth: usize) -> Read<Vec<(String, TreeNode)>> {
+        let mut entries: Vec<(String, TreeNode)> = Vec::new();
         let mut known = BTreeSet::new();
         loop {
             let (key, line) = match self.next()? {
                 (Event::MappingEnd, _) => return Ok(entries),
                 (Event::Scalar(key, ..), span) => (key.into_owned(), span.start.line()),
-                (_, span) => return Err(Fault::at(span.start.line(), "expected a key")),
+                (_, span) => return Err(TreeError::at(span.start.line(), "expected a key")),
             };
             if !known.insert(key.clone()) {
-                return Err(Fault::coded(ErrorCode::Duplicate, line, format!("the key {key} appears twice")));
+                return Err(TreeError::coded(ErrorCode::Duplicate, line, format!("the key {key} appears twice")));
             }
             let (event, span) = self.next()?;
             entries.push((key, self.node(event, span, depth + 1)?));
@@ -138,21 +138,21 @@ fn plain(text: &str, style: ScalarStyle) -> String {
     if style == ScalarStyle::Plain && text == "~" { String::new() } else { text.to_owned() }
 }
 
-impl Node {
+impl TreeNode {
     /// Value of a key, if present.
-    pub(crate) fn find(&self, key: &str) -> Option<&Node> {
+    pub(crate) fn find(&self, key: &str) -> Option<&TreeNode> {
         self.entries().iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
     /// Value of the first of several key names.
-    pub(crate) fn any(&self, names: &[&str]) -> Read<&Node> {
+    pub(crate) fn any(&self, names: &[&str]) -> Read<&TreeNode> {
         names.iter().find_map(|name| self.find(name)).ok_or_else(|| {
-            Fault::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
+            TreeError::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
         })
     }
 
     /// Value of a key.
-    pub(crate) fn key(&self, key: &str) -> Read<&Node> {
+    pub(crate) fn key(&self, key: &str) -> Read<&TreeNode> {
         self.any(&[key])
     }
 
@@ -166,24 +166,24 @@ impl Node {
         self.keys().into_iter().filter(|key| !known.contains(key)).collect()
     }
 
-    pub(crate) fn entries(&self) -> &[(String, Node)] {
+    pub(crate) fn entries(&self) -> &[(String, TreeNode)] {
         match &self.value {
-            Value::Map(entries) => entries,
+            NodeValue::Map(entries) => entries,
             _ => &[],
         }
     }
 
     pub(crate) fn text(&self) -> Read<&str> {
         match &self.value {
-            Value::Scalar(text) => Ok(text),
-            _ => Err(Fault::at(self.line, "found a list or keys; expected one value")),
+            NodeValue::Scalar(text) => Ok(text),
+            _ => Err(TreeError::at(self.line, "found a list or keys; expected one value")),
         }
     }
 
     pub(crate) fn number(&self) -> Read<f64> {
         let text = self.text()?;
         let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
-        number.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a finite number")))
+        number.ok_or_else(|| TreeError::at(self.line, format!("found \"{text}\"; expected a finite number")))
     }
 
     /// A number of pixels.
@@ -191,13 +191,13 @@ impl Node {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
         count
-            .ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
+            .ok_or_else(|| TreeError::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
     }
 
     /// Items of a list; `None` for other nodes.
-    pub(crate) fn items(&self) -> Option<&[Node]> {
+    pub(crate) fn items(&self) -> Option<&[TreeNode]> {
         match &self.value {
-            Value::List(nodes) => Some(nodes),
+            NodeValue::List(nodes) => Some(nodes),
             _ => None,
         }
     }
@@ -205,7 +205,7 @@ impl Node {
     /// All numbers of a list and of nested lists, or the single number.
     pub(crate) fn numbers(&self) -> Read<Vec<f64>> {
         let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
-        let rows: Vec<Vec<f64>> = items.iter().map(Node::numbers).collect::<Read<_>>()?;
+        let rows: Vec<Vec<f64>> = items.iter().map(TreeNode::numbers).collect::<Read<_>>()?;
         Ok(rows.concat())
     }
 
@@ -213,7 +213,7 @@ impl Node {
     pub(crate) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
         let numbers = self.numbers()?;
         let count = numbers.len();
-        numbers.try_into().map_err(|_| Fault::at(self.line, format!("found {count} numbers; expected {N}: {what}")))
+        numbers.try_into().map_err(|_| TreeError::at(self.line, format!("found {count} numbers; expected {N}: {what}")))
     }
 }
 
@@ -226,15 +226,15 @@ pub(crate) fn list(names: &[&str]) -> String {
 
 /// Problem and its line (from 1; 0 for the whole file).
 #[derive(Debug)]
-pub(crate) struct Fault {
+pub(crate) struct TreeError {
     pub(crate) line: usize,
     pub(crate) what: String,
     code: ErrorCode,
 }
 
-pub(crate) type Read<T> = Result<T, Fault>;
+pub(crate) type Read<T> = Result<T, TreeError>;
 
-impl Fault {
+impl TreeError {
     pub(crate) fn at(line: usize, what: impl Into<Problem>) -> Self {
         let Problem { code, words } = what.into();
         Self { line, what: words, code }
@@ -244,7 +244,7 @@ impl Fault {
         Self::at(line, Problem::new(code, what))
     }
 
-    pub(crate) fn of(self, file: &Path) -> Error {
+    pub(crate) fn in_file(self, file: &Path) -> Error {
         let what = Problem::new(self.code, self.what);
         if self.line == 0 { Error::new(file, what) } else { Error::at(file, self.line, what) }
     }
@@ -286,18 +286,18 @@ mod tests {
         assert_eq!((tight.key("b").expect("there").line, parse("{\n\"a\":\n\"x\"\n}").expect("JSON").line), (4, 1));
         assert_eq!(parse("{\"a\": 1,\n\"a\": 2}").expect_err("twice").line, 2);
         assert!(parse("[1, 2]").expect_err("a list").what.contains("keys"));
-        let many = format!("{{\"a\": [{}0]}}", "0,".repeat(MOST_VALUES));
+        let many = format!("{{\"a\": [{}0]}}", "0,".repeat(MAX_VALUES));
         assert!(parse(&many).expect_err("too many").what.contains("at most 2097152"));
     }
 
     #[test]
     fn faults_name_their_line() {
-        let fault = |text: &str| parse(text).expect_err("wrong");
-        assert_eq!(fault("a: 1\nb: [1, 2\nc: 3\n").what.split(':').next(), Some("not YAML or JSON"));
-        assert_eq!(fault("a: 1\na: 2\n").line, 2);
-        assert!(fault("a: &x 1\nb: *x\n").what.contains("alias"));
-        assert!(fault("- 1\n").what.contains("keys"));
-        assert!(fault(&"[".repeat(5000)).line > 0 || !fault(&"[".repeat(5000)).what.is_empty());
+        let error = |text: &str| parse(text).expect_err("wrong");
+        assert_eq!(error("a: 1\nb: [1, 2\nc: 3\n").what.split(':').next(), Some("not YAML or JSON"));
+        assert_eq!(error("a: 1\na: 2\n").line, 2);
+        assert!(error("a: &x 1\nb: *x\n").what.contains("alias"));
+        assert!(error("- 1\n").what.contains("keys"));
+        assert!(error(&"[".repeat(5000)).line > 0 || !error(&"[".repeat(5000)).what.is_empty());
         let root = parse("a: .nan\nb: 1e999\nc: inf\nd: 0x10\n").expect("YAML");
         assert!(["a", "b", "c", "d"].iter().all(|key| root.key(key).expect("there").number().is_err()));
     }

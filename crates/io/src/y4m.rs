@@ -47,24 +47,24 @@ pub fn write_frame(out: &mut impl Write, pixels: &[[u8; 3]]) -> io::Result<()> {
 fn limited_range(rgb: [u8; 3]) -> [u8; 3] {
     let [r, g, b] = rgb.map(|v| f64::from(v) / 255.0);
     let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    let colour = |difference: f64, most: f64| 128.0 + 224.0 * difference / most;
+    let colour = |difference: f64, max: f64| 128.0 + 224.0 * difference / max;
     [16.0 + 219.0 * luma, colour(b - luma, 1.8556), colour(r - luma, 1.5748)].map(|v| v.round() as u8)
 }
 
 /// Relative tolerance of a fraction.
-const NEAR: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-12;
 
 /// Simplest fraction within [`NEAR`] of a number above 0: the first such convergent of its continued fraction.
 fn fraction(value: f64) -> [u64; 2] {
     let (mut before, mut now) = ([0.0, 1.0], [1.0, 0.0]);
     let mut rest = value;
     for _ in 0..40 {
-        let whole = rest.floor();
-        (before, now) = (now, [0, 1].map(|i| whole * now[i] + before[i]));
-        if (now[0] / now[1] - value).abs() <= NEAR * value || rest == whole {
+        let integer = rest.floor();
+        (before, now) = (now, [0, 1].map(|i| integer * now[i] + before[i]));
+        if (now[0] / now[1] - value).abs() <= TOLERANCE * value || rest == integer {
             break;
         }
-        rest = 1.0 / (rest - whole);
+        rest = 1.0 / (rest - integer);
     }
     now.map(|v: f64| v as u64)
 }

@@ -121,10 +121,10 @@ pub fn fit_colour_matrix<'a>(
         .collect::<Result<Vec<_>, NoResponse>>()?;
     let channels = responsivities.len();
     // Four channels may be redundant for three dimensions of colour; the noise term decides between them.
-    if channels < MAX_CHANNELS && Normal::new(&pairs, channels, 0.0).cholesky().is_none() {
+    if channels < MAX_CHANNELS && NormalEquations::new(&pairs, channels, 0.0).cholesky().is_none() {
         return Err(FitError::Ambiguous);
     }
-    let normal = Normal::new(&pairs, channels, noise_fraction);
+    let normal = NormalEquations::new(&pairs, channels, noise_fraction);
     let lower = normal.cholesky().ok_or(FitError::Ambiguous)?;
     Ok(ColourMatrix { rows: [0, 1, 2].map(|row| normal.solve(&lower, row)) })
 }
@@ -135,7 +135,7 @@ fn balanced_response(
     light: &Spectrum,
     reflectance: &Spectrum,
 ) -> Result<Vec<f64>, NoResponse> {
-    let share = |(channel, responsivity): (usize, &&Spectrum)| {
+    let channel_response = |(channel, responsivity): (usize, &&Spectrum)| {
         let white = response(responsivity, light, None);
         if white <= 0.0 {
             Err(NoResponse(channel))
@@ -143,7 +143,7 @@ fn balanced_response(
             Ok(response(responsivity, light, Some(reflectance)) / white)
         }
     };
-    responsivities.iter().enumerate().map(share).collect()
+    responsivities.iter().enumerate().map(channel_response).collect()
 }
 
 /// Linear sRGB of a reflectance under D65.
@@ -151,18 +151,18 @@ fn reference(reflectance: &Spectrum) -> [f64; 3] {
     colour::linear_srgb_from_xyz(observer::xyz_of_reflectance(reflectance, illuminant::d65()))
 }
 
-type Square = [[f64; MAX_CHANNELS]; MAX_CHANNELS];
+type ChannelMatrix = [[f64; MAX_CHANNELS]; MAX_CHANNELS];
 
 /// The normal equations: products of the channels with each other, and with the targets.
-struct Normal {
+struct NormalEquations {
     channels: usize,
-    products: Square,
+    products: ChannelMatrix,
     targets: [[f64; MAX_CHANNELS]; 3],
 }
 
-impl Normal {
+impl NormalEquations {
     fn new(pairs: &[(Vec<f64>, [f64; 3])], channels: usize, noise_fraction: f64) -> Self {
-        let mut normal = Self { channels, products: Square::default(), targets: Default::default() };
+        let mut normal = Self { channels, products: ChannelMatrix::default(), targets: Default::default() };
         for (c, t) in pairs {
             for i in 0..channels {
                 (0..channels).for_each(|j| normal.products[i][j] += c[i] * c[j]);
@@ -175,8 +175,8 @@ impl Normal {
     }
 
     /// The lower triangle L of L Lᵀ; `None` if there is no unique solution.
-    fn cholesky(&self) -> Option<Square> {
-        let mut lower = Square::default();
+    fn cholesky(&self) -> Option<ChannelMatrix> {
+        let mut lower = ChannelMatrix::default();
         for i in 0..self.channels {
             for j in 0..=i {
                 let rest = self.products[i][j] - (0..j).map(|k| lower[i][k] * lower[j][k]).sum::<f64>();
@@ -194,7 +194,7 @@ impl Normal {
     }
 
     /// The row that sums to 1.
-    fn solve(&self, lower: &Square, row: usize) -> Vec<f64> {
+    fn solve(&self, lower: &ChannelMatrix, row: usize) -> Vec<f64> {
         let free = substitute(lower, self.targets[row], self.channels);
         let ones = substitute(lower, [1.0; MAX_CHANNELS], self.channels);
         let sum = |v: &[f64; MAX_CHANNELS]| v[..self.channels].iter().sum::<f64>();
@@ -204,7 +204,7 @@ impl Normal {
 }
 
 /// x of L Lᵀ x = b.
-fn substitute(lower: &Square, b: [f64; MAX_CHANNELS], channels: usize) -> [f64; MAX_CHANNELS] {
+fn substitute(lower: &ChannelMatrix, b: [f64; MAX_CHANNELS], channels: usize) -> [f64; MAX_CHANNELS] {
     let mut x = b;
     for i in 0..channels {
         let rest = x[i] - (0..i).map(|k| lower[i][k] * x[k]).sum::<f64>();
@@ -233,7 +233,7 @@ mod tests {
     }
 
     fn canon() -> [&'static Spectrum; 3] {
-        let canon = camera::named("canon-eos-5d-mark-ii").expect("a camera");
+        let canon = camera::by_name("canon-eos-5d-mark-ii").expect("a camera");
         [&canon.r, &canon.g, &canon.b]
     }
 
@@ -249,8 +249,8 @@ mod tests {
     fn a_measured_camera_sees_the_chart() {
         let matrix = fit_colour_matrix(&canon(), illuminant::d65(), chart_spectra(), 0.0).expect("a matrix");
         let difference = |patch: &'static Spectrum| {
-            let seen = balanced_response(&canon(), illuminant::d65(), patch).expect("light");
-            colour::ciede2000(lab_of(matrix.apply(&seen)), lab_of(reference(patch)))
+            let actual = balanced_response(&canon(), illuminant::d65(), patch).expect("light");
+            colour::ciede2000(lab_of(matrix.apply(&actual)), lab_of(reference(patch)))
         };
         let differences: Vec<f64> = chart_spectra().map(difference).collect();
         let mean = differences.iter().sum::<f64>() / 24.0;
@@ -270,10 +270,10 @@ mod tests {
         let eyes = [mix([0.9, 0.2, 0.1]), mix([0.1, 0.9, 0.2]), mix([0.1, 0.1, 0.9])];
         let matrix = fit_colour_matrix(&eyes.each_ref(), illuminant::d65(), chart_spectra(), 0.0).expect("a matrix");
         for patch in chart_spectra() {
-            let seen = matrix.apply(&balanced_response(&eyes.each_ref(), illuminant::d65(), patch).expect("light"));
-            let want = reference(patch);
+            let actual = matrix.apply(&balanced_response(&eyes.each_ref(), illuminant::d65(), patch).expect("light"));
+            let expected = reference(patch);
             // Spectra are f32: 1e-7 a node, amplified by the matrix's entries of up to 5.
-            assert!((0..3).all(|c| (seen[c] - want[c]).abs() < 2e-6), "{seen:?} {want:?}");
+            assert!((0..3).all(|c| (actual[c] - expected[c]).abs() < 2e-6), "{actual:?} {expected:?}");
         }
     }
 
@@ -304,8 +304,8 @@ mod tests {
         let light = illuminant::d65();
         let matrix = fit_colour_matrix(channels, light, chart_spectra(), noise).expect("a matrix");
         let error = |patch: &'static Spectrum| {
-            let seen = matrix.apply(&balanced_response(channels, light, patch).expect("light"));
-            colour::ciede2000(lab_of(seen), lab_of(reference(patch)))
+            let actual = matrix.apply(&balanced_response(channels, light, patch).expect("light"));
+            colour::ciede2000(lab_of(actual), lab_of(reference(patch)))
         };
         let mean = chart_spectra().map(error).sum::<f64>() / 24.0;
         (mean, matrix.rows().iter().flatten().fold(0.0, |m: f64, e| m.max(e.abs())))

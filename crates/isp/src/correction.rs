@@ -93,14 +93,14 @@ impl Shading {
 fn radial(gains: &[f64], centre: [f64; 2], pixel: [usize; 2], size: [usize; 2]) -> f64 {
     let far = [0, 1].map(|i| centre[i].abs().max((size[i] as f64 - centre[i]).abs()));
     let from = [0, 1].map(|i| pixel[i] as f64 + 0.5 - centre[i]);
-    let share = ((from[0] * from[0] + from[1] * from[1]) / (far[0] * far[0] + far[1] * far[1])).sqrt();
-    let (low, part) = place(share, gains.len());
+    let fraction = ((from[0] * from[0] + from[1] * from[1]) / (far[0] * far[0] + far[1] * far[1])).sqrt();
+    let (low, part) = place(fraction, gains.len());
     gains[low] + part * (gains[low + 1] - gains[low])
 }
 
 fn grid(gains: &[f64], columns: usize, pixel: [usize; 2], size: [usize; 2]) -> f64 {
-    let share = |i: usize| (pixel[i] as f64 + 0.5) / size[i] as f64;
-    let ((x, u), (y, v)) = (place(share(0), columns), place(share(1), gains.len() / columns));
+    let fraction = |i: usize| (pixel[i] as f64 + 0.5) / size[i] as f64;
+    let ((x, u), (y, v)) = (place(fraction(0), columns), place(fraction(1), gains.len() / columns));
     let along = |row: usize| {
         let left = gains[row * columns + x];
         left + u * (gains[row * columns + x + 1] - left)
@@ -110,8 +110,8 @@ fn grid(gains: &[f64], columns: usize, pixel: [usize; 2], size: [usize; 2]) -> f
 }
 
 /// The node below a fraction of the whole, and the fraction towards the next, for `count` nodes.
-fn place(share: f64, count: usize) -> (usize, f64) {
-    let at = share.clamp(0.0, 1.0) * (count - 1) as f64;
+fn place(fraction: f64, count: usize) -> (usize, f64) {
+    let at = fraction.clamp(0.0, 1.0) * (count - 1) as f64;
     let low = (at as usize).min(count - 2);
     (low, at - low as f64)
 }
@@ -142,10 +142,10 @@ pub(crate) fn corrected(samples: Vec<f32>, width: usize, mosaic: &Mosaic, defect
     for [x, y] in &defects.map {
         bad[*y as usize * width + *x as usize] = true;
     }
-    let picture = Picture { samples: &samples, bad: &bad, width, mosaic };
+    let samples_of = MosaicSamples { samples: &samples, bad: &bad, width, mosaic };
     let threshold = defects.outlier_threshold.map(|t| t as f32);
     let rows: Vec<Vec<(usize, f32)>> =
-        (0..samples.len() / width.max(1)).into_par_iter().map(|y| picture.corrections(y, threshold)).collect();
+        (0..samples.len() / width.max(1)).into_par_iter().map(|y| samples_of.corrections(y, threshold)).collect();
     let corrections = rows.concat();
     let mut samples = samples;
     for (i, v) in &corrections {
@@ -154,14 +154,14 @@ pub(crate) fn corrected(samples: Vec<f32>, width: usize, mosaic: &Mosaic, defect
     (samples, corrections.len())
 }
 
-struct Picture<'a> {
+struct MosaicSamples<'a> {
     samples: &'a [f32],
     bad: &'a [bool],
     width: usize,
     mosaic: &'a Mosaic,
 }
 
-impl Picture<'_> {
+impl MosaicSamples<'_> {
     /// Positions and new values of a row's defective pixels.
     fn corrections(&self, y: usize, threshold: Option<f32>) -> Vec<(usize, f32)> {
         let mut neighbours = Vec::new();
@@ -180,8 +180,8 @@ impl Picture<'_> {
     }
 
     /// The good neighbours of the same colour, sorted.
-    fn gather(&self, x: usize, y: usize, found: &mut Vec<f32>) {
-        found.clear();
+    fn gather(&self, x: usize, y: usize, neighbours: &mut Vec<f32>) {
+        neighbours.clear();
         let (reach_x, reach_y) = self.mosaic.period();
         let (height, channel) = (self.samples.len() / self.width, self.mosaic.channel_at(x, y));
         for row in y.saturating_sub(reach_y)..(y + reach_y + 1).min(height) {
@@ -189,11 +189,11 @@ impl Picture<'_> {
                 let i = row * self.width + column;
                 let itself = row == y && column == x;
                 if !itself && !self.bad[i] && self.mosaic.channel_at(column, row) == channel {
-                    found.push(self.samples[i]);
+                    neighbours.push(self.samples[i]);
                 }
             }
         }
-        found.sort_unstable_by(f32::total_cmp);
+        neighbours.sort_unstable_by(f32::total_cmp);
     }
 }
 
@@ -234,8 +234,8 @@ mod tests {
         table.check().expect("a legal table");
         for y in 0..6 {
             for (x, gain) in table.row(y, 8, 6).iter().enumerate() {
-                let want = 1.0 + 2.0 * (x as f64 + 0.5) / 8.0 + 2.0 * (y as f64 + 0.5) / 6.0;
-                assert!((f64::from(*gain) - want).abs() < 1e-6, "{gain} {want}");
+                let expected = 1.0 + 2.0 * (x as f64 + 0.5) / 8.0 + 2.0 * (y as f64 + 0.5) / 6.0;
+                assert!((f64::from(*gain) - expected).abs() < 1e-6, "{gain} {expected}");
             }
         }
     }
@@ -267,8 +267,8 @@ mod tests {
         }
         let mapped = Defects { map: vec![[0, 0], [3, 3], [1, 4], [7, 7]], outlier_threshold: None };
         assert_eq!(corrected(broken.clone(), 8, &bayer(), &mapped), (flat(), 4));
-        let found = Defects { map: vec![], outlier_threshold: Some(0.1) };
-        assert_eq!(corrected(broken, 8, &bayer(), &found), (flat(), 4));
+        let defects = Defects { map: vec![], outlier_threshold: Some(0.1) };
+        assert_eq!(corrected(broken, 8, &bayer(), &defects), (flat(), 4));
     }
 
     #[test]
@@ -276,8 +276,8 @@ mod tests {
         let edge: Vec<f32> = (0..64).map(|i| if i % 8 < 4 { 0.1 } else { 0.9 }).collect();
         let line: Vec<f32> = (0..64).map(|i| if i / 8 == 3 { 0.9 } else { 0.1 }).collect();
         let rule = Defects { map: vec![], outlier_threshold: Some(0.05) };
-        for picture in [edge, line] {
-            assert_eq!(corrected(picture.clone(), 8, &Mosaic::Mono, &rule), (picture, 0));
+        for samples in [edge, line] {
+            assert_eq!(corrected(samples.clone(), 8, &Mosaic::Mono, &rule), (samples, 0));
         }
     }
 

@@ -60,7 +60,7 @@ pub enum Demosaic {
 impl Demosaic {
     /// The smallest image side, px, for the method.
     #[must_use]
-    pub fn least_px(self, mosaic: &Mosaic) -> usize {
+    pub fn min_size_px(self, mosaic: &Mosaic) -> usize {
         match (self, mosaic) {
             (_, Mosaic::Mono) => 0,
             (Self::Bilinear, Mosaic::Tile(tile)) => tile.reach() + 1,
@@ -82,13 +82,13 @@ impl Demosaic {
 }
 
 /// Samples with a margin on all sides.
-struct Padded {
+struct PaddedRow {
     samples: Vec<f32>,
     stride: usize,
     margin: usize,
 }
 
-impl Padded {
+impl PaddedRow {
     /// Needs at least `margin + 1` columns and rows.
     fn new(samples: &[f32], width: usize, margin: usize) -> Self {
         let (height, stride) = (samples.len() / width, width + 2 * margin);
@@ -183,12 +183,12 @@ const MALVAR_MARGIN: usize = 2;
 const GREEN: usize = 1;
 
 fn interpolate_malvar(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3]> {
-    let padded = Padded::new(samples, width, MALVAR_MARGIN);
+    let padded = PaddedRow::new(samples, width, MALVAR_MARGIN);
     let mut plane = vec![[0.0; 3]; samples.len()];
     plane.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         let rows = [-2, -1, 0, 1, 2].map(|dy| padded.row(y, dy));
         for (x, rgb) in out.iter_mut().enumerate() {
-            let sums = Sums::at(&rows, x + MALVAR_MARGIN);
+            let sums = NeighbourSums::at(&rows, x + MALVAR_MARGIN);
             let own = tile.at(x, y);
             if own == GREEN {
                 rgb[tile.at(x + 1, y)] = sums.row_colour_at_green();
@@ -204,7 +204,7 @@ fn interpolate_malvar(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3
 }
 
 /// Sums of the neighbours with equal weights.
-struct Sums {
+struct NeighbourSums {
     own: f32,
     row: f32,
     column: f32,
@@ -213,7 +213,7 @@ struct Sums {
     far_column: f32,
 }
 
-impl Sums {
+impl NeighbourSums {
     fn at(rows: &[&[f32]; 5], x: usize) -> Self {
         let [above2, above, row, below, below2] = rows;
         Self {
@@ -247,7 +247,7 @@ impl Sums {
 const HAMILTON_ADAMS_MARGIN: usize = 3;
 
 fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3]> {
-    let mosaic = Padded::new(samples, width, HAMILTON_ADAMS_MARGIN);
+    let mosaic = PaddedRow::new(samples, width, HAMILTON_ADAMS_MARGIN);
     let mut green = vec![0.0; samples.len()];
     green.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         let rows = [-2, -1, 0, 1, 2].map(|dy| mosaic.row(y, dy));
@@ -257,12 +257,12 @@ fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec
         }
     });
     // Mirrored greens are the greens of the mirrored image: the method is symmetric.
-    let padded = Padded::new(&green, width, HAMILTON_ADAMS_MARGIN);
+    let padded = PaddedRow::new(&green, width, HAMILTON_ADAMS_MARGIN);
     drop(green);
     let mut plane = vec![[0.0; 3]; samples.len()];
     plane.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         let around =
-            Around { mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)), green: [-1, 0, 1].map(|dy| padded.row(y, dy)) };
+            Neighbourhood3 { mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)), green: [-1, 0, 1].map(|dy| padded.row(y, dy)) };
         for (x, rgb) in out.iter_mut().enumerate() {
             *rgb = around.colours(x + HAMILTON_ADAMS_MARGIN, tile.at(x, y), tile.at(x + 1, y));
         }
@@ -306,19 +306,19 @@ fn better(a: Estimate, b: Estimate) -> f32 {
 }
 
 /// Three rows about a pixel, of the mosaic and of green.
-struct Around<'a> {
+struct Neighbourhood3<'a> {
     mosaic: [&'a [f32]; 3],
     green: [&'a [f32]; 3],
 }
 
-impl Around<'_> {
+impl Neighbourhood3<'_> {
     /// Steps 2 and 3, at a pixel of colour `own` whose row neighbours have the colour `beside`.
-    fn colours(&self, x: usize, own: usize, beside: usize) -> [f32; 3] {
+    fn colours(&self, x: usize, own: usize, neighbour: usize) -> [f32; 3] {
         let mut rgb = [0.0; 3];
         rgb[own] = self.mosaic[1][x];
         if own == GREEN {
-            rgb[beside] = self.along([(1, x - 1), (1, x + 1)], x).value;
-            rgb[2 - beside] = self.along([(0, x), (2, x)], x).value;
+            rgb[neighbour] = self.along([(1, x - 1), (1, x + 1)], x).value;
+            rgb[2 - neighbour] = self.along([(0, x), (2, x)], x).value;
         } else {
             rgb[GREEN] = self.green[1][x];
             let falling = self.along([(0, x - 1), (2, x + 1)], x);

@@ -53,10 +53,10 @@ impl NoiseReduction {
     }
 
     /// The smoothed image. Runs in the rayon pool of the caller; the result does not depend on it.
-    pub(crate) fn apply<const N: usize>(&self, picture: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
+    pub(crate) fn apply<const N: usize>(&self, image: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
         match self {
-            Self::Bilateral(bilateral) => bilateral.apply(picture, width),
-            Self::Median { radius_px } => apply(picture, width, *radius_px),
+            Self::Bilateral(bilateral) => bilateral.apply(image, width),
+            Self::Median { radius_px } => apply(image, width, *radius_px),
         }
     }
 }
@@ -96,17 +96,17 @@ impl Bilateral {
         within("range", self.range, 0.0, 1.0, "above 0 and at most 1")
     }
 
-    fn apply<const N: usize>(&self, picture: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
+    fn apply<const N: usize>(&self, image: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
         let reach = (2.0 * self.radius_px).ceil() as usize;
         let near = (-0.5 / (self.radius_px * self.radius_px)) as f32;
         let like = (-0.5 / (self.range * self.range * N as f64)) as f32;
-        let height = picture.len() / width.max(1);
+        let height = image.len() / width.max(1);
         let smoothed = |i: usize| {
-            let (x, y, centre) = (i % width, i / width, picture[i]);
+            let (x, y, centre) = (i % width, i / width, image[i]);
             let (mut sum, mut total) = ([0.0; N], 0.0);
             for row in y.saturating_sub(reach)..(y + reach + 1).min(height) {
                 for column in x.saturating_sub(reach)..(x + reach + 1).min(width) {
-                    let v = picture[row * width + column];
+                    let v = image[row * width + column];
                     let (dx, dy) = (column.abs_diff(x) as f32, row.abs_diff(y) as f32);
                     let difference: f32 = (0..N).map(|c| (v[c] - centre[c]) * (v[c] - centre[c])).sum();
                     let weight = exp(near * (dx * dx + dy * dy) + like * difference);
@@ -116,12 +116,12 @@ impl Bilateral {
             }
             sum.map(|s| s / total)
         };
-        (0..picture.len()).into_par_iter().map(smoothed).collect()
+        (0..image.len()).into_par_iter().map(smoothed).collect()
     }
 }
 
-fn apply<const N: usize>(picture: &[[f32; N]], width: usize, radius: usize) -> Vec<[f32; N]> {
-    let height = picture.len() / width.max(1);
+fn apply<const N: usize>(image: &[[f32; N]], width: usize, radius: usize) -> Vec<[f32; N]> {
+    let height = image.len() / width.max(1);
     let at = |i: usize| {
         let (x, y) = (i % width, i / width);
         core::array::from_fn(|c| {
@@ -129,14 +129,14 @@ fn apply<const N: usize>(picture: &[[f32; N]], width: usize, radius: usize) -> V
             let mut count = 0;
             for row in y.saturating_sub(radius)..(y + radius + 1).min(height) {
                 for column in x.saturating_sub(radius)..(x + radius + 1).min(width) {
-                    values[count] = picture[row * width + column][c];
+                    values[count] = image[row * width + column][c];
                     count += 1;
                 }
             }
             middle(&mut values[..count])
         })
     };
-    (0..picture.len()).into_par_iter().map(at).collect()
+    (0..image.len()).into_par_iter().map(at).collect()
 }
 
 /// The median; the lower of the two middle values for an even number.
@@ -147,7 +147,7 @@ fn middle(values: &mut [f32]) -> f32 {
 
 /// Amount of sharpening, and its blur.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unsharp {
+pub struct UnsharpMask {
     /// Factor on the detail, above 0 and at most 10.
     pub amount: f64,
     /// σ of the blur, px, above 0 and at most 50.
@@ -156,7 +156,7 @@ pub struct Unsharp {
     pub threshold: f64,
 }
 
-impl Unsharp {
+impl UnsharpMask {
     /// Checks the ranges of the parameters.
     ///
     /// # Errors
@@ -166,16 +166,16 @@ impl Unsharp {
         within("radius_px", self.radius_px, 0.0, 50.0, "above 0 and at most 50")?;
         let threshold = self.threshold;
         let legal = (0.0..=1.0).contains(&threshold);
-        let fault = DetailError::Range { name: "threshold", value: threshold, range: "from 0 to 1" };
-        if legal { Ok(()) } else { Err(fault) }
+        let error = DetailError::Range { name: "threshold", value: threshold, range: "from 0 to 1" };
+        if legal { Ok(()) } else { Err(error) }
     }
 
     /// Sharpens an image. Runs in the rayon pool of the caller; the result does not depend on it.
-    pub(crate) fn apply(&self, picture: &mut Plane<Display>) {
-        let luma: Vec<[f32; 1]> = picture.samples().par_iter().map(|rgb| [luma(*rgb)]).collect();
-        let blurred = gaussian(&luma, picture.width(), self.radius_px);
+    pub(crate) fn apply(&self, image: &mut Plane<Display>) {
+        let luma: Vec<[f32; 1]> = image.samples().par_iter().map(|rgb| [luma(*rgb)]).collect();
+        let blurred = gaussian(&luma, image.width(), self.radius_px);
         let (amount, threshold) = (self.amount as f32, self.threshold as f32);
-        picture.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| {
+        image.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| {
             let detail = luma[i][0] - blurred[i][0];
             if detail.abs() > threshold {
                 *rgb = rgb.map(|v| (v + amount * detail).clamp(0.0, 1.0));
@@ -185,17 +185,17 @@ impl Unsharp {
 }
 
 /// The image blurred by σ px, channel by channel.
-pub(crate) fn gaussian<const N: usize>(picture: &[[f32; N]], width: usize, sigma_px: f64) -> Vec<[f32; N]> {
+pub(crate) fn gaussian<const N: usize>(image: &[[f32; N]], width: usize, sigma_px: f64) -> Vec<[f32; N]> {
     let weights = weights(sigma_px);
-    let mut across = vec![[0.0; N]; picture.len()];
+    let mut across = vec![[0.0; N]; image.len()];
     across.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
-        let row = &picture[y * width..][..width];
+        let row = &image[y * width..][..width];
         for (x, pixel) in out.iter_mut().enumerate() {
             *pixel = mean(&weights, x, width, |i| row[i]);
         }
     });
-    let height = picture.len() / width.max(1);
-    let mut blurred = vec![[0.0; N]; picture.len()];
+    let height = image.len() / width.max(1);
+    let mut blurred = vec![[0.0; N]; image.len()];
     blurred.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
         for (x, pixel) in out.iter_mut().enumerate() {
             *pixel = mean(&weights, y, height, |i| across[i * width + x]);
@@ -233,9 +233,9 @@ mod tests {
         (0..32 * 32).map(|i| [0, 1, 2].map(|c| if i % 32 < 16 { 0.2 } else { 0.8 } + 0.04 * noise(3 * i + c))).collect()
     }
 
-    fn spread(picture: &[[f32; 3]], columns: core::ops::Range<usize>) -> f32 {
+    fn spread(image: &[[f32; 3]], columns: core::ops::Range<usize>) -> f32 {
         let values: Vec<f32> =
-            picture.iter().enumerate().filter(|(i, _)| columns.contains(&(i % 32))).map(|(_, v)| v[1]).collect();
+            image.iter().enumerate().filter(|(i, _)| columns.contains(&(i % 32))).map(|(_, v)| v[1]).collect();
         let mean = values.iter().sum::<f32>() / values.len() as f32;
         (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f32>() / values.len() as f32).sqrt()
     }
@@ -258,11 +258,11 @@ mod tests {
 
     #[test]
     fn single_pixels_go_and_edges_stay() {
-        let mut picture: Vec<[f32; 2]> = (0..80).map(|i| if i % 10 < 5 { [0.1, 0.9] } else { [0.6, 0.2] }).collect();
-        let clean = picture.clone();
-        picture[22] = [1.0, 0.0];
-        picture[57] = [0.0, 1.0];
-        assert_eq!(apply(&picture, 10, 1), clean);
+        let mut image: Vec<[f32; 2]> = (0..80).map(|i| if i % 10 < 5 { [0.1, 0.9] } else { [0.6, 0.2] }).collect();
+        let clean = image.clone();
+        image[22] = [1.0, 0.0];
+        image[57] = [0.0, 1.0];
+        assert_eq!(apply(&image, 10, 1), clean);
     }
 
     fn edge() -> Plane<Display> {
@@ -273,7 +273,7 @@ mod tests {
     #[test]
     fn edges_overshoot_alike_in_all_channels_and_flats_stay() {
         let mut sharp = edge();
-        Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 }.apply(&mut sharp);
+        UnsharpMask { amount: 1.0, radius_px: 1.0, threshold: 0.0 }.apply(&mut sharp);
         let (before, after) = (edge(), sharp);
         let change = |x: usize| [0, 1, 2].map(|c| after.at(x, 5)[c] - before.at(x, 5)[c]);
         assert!(change(9)[1] < -0.05 && change(10)[1] > 0.05);
@@ -283,18 +283,18 @@ mod tests {
 
     #[test]
     fn small_detail_is_left_alone() {
-        let mut picture = edge();
-        Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.5 }.apply(&mut picture);
-        assert_eq!(picture, edge());
+        let mut image = edge();
+        UnsharpMask { amount: 1.0, radius_px: 1.0, threshold: 0.5 }.apply(&mut image);
+        assert_eq!(image, edge());
     }
 
     #[test]
     fn numbers_out_of_range_are_refused() {
-        let legal = Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 };
+        let legal = UnsharpMask { amount: 1.0, radius_px: 1.0, threshold: 0.0 };
         assert!(legal.check().is_ok());
-        assert!(Unsharp { amount: 0.0, ..legal }.check().is_err());
-        assert!(Unsharp { radius_px: 51.0, ..legal }.check().is_err());
-        assert!(Unsharp { threshold: -0.1, ..legal }.check().is_err());
+        assert!(UnsharpMask { amount: 0.0, ..legal }.check().is_err());
+        assert!(UnsharpMask { radius_px: 51.0, ..legal }.check().is_err());
+        assert!(UnsharpMask { threshold: -0.1, ..legal }.check().is_err());
     }
 
     #[test]

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 /// A raw image, with the data needed for development.
 #[derive(Clone, Copy, Debug)]
-pub struct RawPicture<'a> {
+pub struct RawImage<'a> {
     /// Digital numbers.
     pub plane: &'a Plane<DigitalNumber>,
     /// Digital number of no light.
@@ -56,7 +56,7 @@ pub enum BlackLevel {
 }
 
 /// The black level, DN; `None` if optical-black pixels are requested and the image has none.
-pub(crate) fn black_level(rule: BlackLevel, raw: &RawPicture<'_>) -> Option<f64> {
+pub(crate) fn black_level(rule: BlackLevel, raw: &RawImage<'_>) -> Option<f64> {
     match rule {
         BlackLevel::Stated => Some(raw.black_level_dn),
         BlackLevel::Fixed(dn) => Some(dn),
@@ -235,11 +235,11 @@ impl Tile {
     /// True if every block of `size` × `size` pixels contains all channels.
     fn full(&self, size: usize) -> bool {
         let in_block = |x: usize, y: usize| {
-            let mut seen = [false; MAX_CHANNELS];
+            let mut is_used = [false; MAX_CHANNELS];
             for (dx, dy) in (0..size * size).map(|i| (i % size, i / size)) {
-                seen[self.at(x + dx, y + dy)] = true;
+                is_used[self.at(x + dx, y + dy)] = true;
             }
-            seen.into_iter().filter(|s| *s).count() == self.filters.len()
+            is_used.into_iter().filter(|s| *s).count() == self.filters.len()
         };
         (0..self.channels.len()).all(|i| in_block(i % self.width, i / self.width))
     }
@@ -262,22 +262,22 @@ mod tests {
         }
         let shielded = Plane::from_samples(100, 4, samples).expect("filled");
         let plane = Plane::new(2, 2);
-        let raw = RawPicture {
+        let raw = RawImage {
             plane: &plane,
             black_level_dn: 10.0,
             white_level_dn: 255.0,
             mosaic: &Mosaic::Mono,
             optical_black: Some(&shielded),
         };
-        let found = black_level(BlackLevel::OpticalBlack, &raw).expect("there are some");
+        let level = black_level(BlackLevel::OpticalBlack, &raw).expect("there are some");
         // Of 400 numbers 20 are 0 and 120 or more 63, so the middle 200 hold 40 to 47 of 63 and else 64.
-        assert!((63.75..=63.8).contains(&found), "{found}");
+        assert!((63.75..=63.8).contains(&level), "{level}");
         assert_eq!(black_level(BlackLevel::Stated, &raw), Some(10.0));
         assert_eq!(black_level(BlackLevel::Fixed(12.5), &raw), Some(12.5));
         let hot = Plane::filled(4, 4, 255_u8.into());
-        let saturated = RawPicture { optical_black: Some(&hot), ..raw };
+        let saturated = RawImage { optical_black: Some(&hot), ..raw };
         assert_eq!(black_level(BlackLevel::OpticalBlack, &saturated), Some(254.0));
-        let bare = RawPicture { optical_black: None, ..raw };
+        let bare = RawImage { optical_black: None, ..raw };
         assert_eq!(black_level(BlackLevel::OpticalBlack, &bare), None);
     }
 

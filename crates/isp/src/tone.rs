@@ -243,8 +243,8 @@ fn check_order(points: &[(f64, f64)]) -> Result<(), ToneError> {
     if let Some(i) = points.iter().position(|p| !(p.0.is_finite() && p.1.is_finite())) {
         return Err(ToneError::Order(i + 1));
     }
-    let fault = points.windows(2).position(|p| p[1].0 <= p[0].0 || p[1].1 < p[0].1);
-    fault.map_or(Ok(()), |i| Err(ToneError::Order(i + 2)))
+    let position = points.windows(2).position(|p| p[1].0 <= p[0].0 || p[1].1 < p[0].1);
+    position.map_or(Ok(()), |i| Err(ToneError::Order(i + 2)))
 }
 
 /// Output over exposure.
@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn measured_points_are_met_and_halves_are_halfway() {
+    fn measured_points_are_hit_and_halves_are_halfway() {
         let oecf = Oecf::new(vec![(2.0, 10.0), (8.0, 50.0), (32.0, 100.0)], 100.0).expect("legal");
         for (exposure, output) in [(1.0, 0.05), (2.0, 0.1), (4.0, 0.3), (8.0, 0.5), (16.0, 0.75), (32.0, 1.0)] {
             assert!((oecf.output(exposure / 32.0) - output).abs() < 1e-6, "{exposure}");

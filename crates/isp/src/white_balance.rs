@@ -28,30 +28,30 @@ pub enum WhiteBalance {
 }
 
 /// The gains that equalise channels of these strengths; the smallest is 1. `None` if a channel has none.
-fn balancing(strengths: &[f64]) -> Option<Vec<f64>> {
+fn equalising_gains(strengths: &[f64]) -> Option<Vec<f64>> {
     let largest = strengths.iter().copied().fold(0.0, f64::max);
     strengths.iter().all(|s| *s > 0.0).then(|| strengths.iter().map(|s| largest / s).collect())
 }
 
 /// The gains, one per channel, for samples with black at 0 and saturation at 1.
 pub(crate) fn grey_world(samples: &[f32], width: usize, mosaic: &Mosaic) -> Vec<f64> {
-    let rows: Vec<Sums> =
-        samples.par_chunks(width.max(1)).enumerate().map(|(y, row)| Sums::of_row(row, y, mosaic)).collect();
+    let rows: Vec<ChannelSums> =
+        samples.par_chunks(width.max(1)).enumerate().map(|(y, row)| ChannelSums::from_row(row, y, mosaic)).collect();
     // Rows are added in order, so the result does not depend on threads.
-    let total = rows.iter().fold(Sums::default(), |sum, row| sum.plus(row));
+    let total = rows.iter().fold(ChannelSums::default(), |sum, row| sum.plus(row));
     let means: Vec<f64> = (0..mosaic.channels()).map(|c| total.values[c] / total.counts[c].max(1) as f64).collect();
-    balancing(&means).unwrap_or_else(|| vec![1.0; mosaic.channels()])
+    equalising_gains(&means).unwrap_or_else(|| vec![1.0; mosaic.channels()])
 }
 
 /// Sums and counts of the samples of each channel.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct ChannelSums {
     values: [f64; MAX_CHANNELS],
     counts: [u64; MAX_CHANNELS],
 }
 
-impl Sums {
-    fn of_row(row: &[f32], y: usize, mosaic: &Mosaic) -> Self {
+impl ChannelSums {
+    fn from_row(row: &[f32], y: usize, mosaic: &Mosaic) -> Self {
         let mut sums = Self::default();
         for (x, v) in row.iter().enumerate().filter(|(_, v)| **v < 1.0) {
             let channel = mosaic.channel_at(x, y);
@@ -86,7 +86,7 @@ pub fn white_balance_from_illuminant(
     illuminant: &Spectrum,
 ) -> Result<Vec<f64>, NoResponse> {
     let white: Vec<f64> = responsivities.iter().map(|r| response(r, illuminant, None)).collect();
-    balancing(&white).ok_or_else(|| NoResponse(white.iter().position(|w| *w <= 0.0).unwrap_or(0)))
+    equalising_gains(&white).ok_or_else(|| NoResponse(white.iter().position(|w| *w <= 0.0).unwrap_or(0)))
 }
 
 /// ∫ responsivity × illuminant × reflectance dλ, by the trapezoidal rule with 1 nm steps (the ends, at 300 and 1 100 nm, count in full); for white if
@@ -110,30 +110,30 @@ mod tests {
         Mosaic::tile(2, 2, vec![Red, Green, Green, Blue]).expect("Bayer")
     }
 
-    fn picture(rgb: [f32; 3]) -> Vec<f32> {
+    fn test_image(rgb: [f32; 3]) -> Vec<f32> {
         (0..64).map(|i| rgb[bayer().channel_at(i % 8, i / 8)]).collect()
     }
 
     #[test]
     fn the_mean_comes_out_grey() {
-        assert_eq!(grey_world(&picture([0.25, 0.5, 0.125]), 8, &bayer()), [2.0, 1.0, 4.0]);
+        assert_eq!(grey_world(&test_image([0.25, 0.5, 0.125]), 8, &bayer()), [2.0, 1.0, 4.0]);
     }
 
     #[test]
     fn saturated_pixels_do_not_count_and_darkness_tells_nothing() {
-        let mut samples = picture([0.25, 0.5, 0.125]);
+        let mut samples = test_image([0.25, 0.5, 0.125]);
         samples[0] = 1.0;
         samples[9] = 1.0;
         assert_eq!(grey_world(&samples, 8, &bayer()), [2.0, 1.0, 4.0]);
-        assert_eq!(grey_world(&picture([0.25, 0.5, -0.1]), 8, &bayer()), [1.0; 3]);
-        assert_eq!(grey_world(&picture([1.0; 3]), 8, &bayer()), [1.0; 3]);
+        assert_eq!(grey_world(&test_image([0.25, 0.5, -0.1]), 8, &bayer()), [1.0; 3]);
+        assert_eq!(grey_world(&test_image([1.0; 3]), 8, &bayer()), [1.0; 3]);
     }
 
     #[test]
     fn a_grey_is_neutral_and_the_smallest_gain_is_one() {
-        let canon = camera::named("canon-eos-5d-mark-ii").expect("a camera");
+        let canon = camera::by_name("canon-eos-5d-mark-ii").expect("a camera");
         let channels = [&canon.r, &canon.g, &canon.b];
-        let light = illuminant::named("A").unwrap_or(illuminant::d65());
+        let light = illuminant::by_name("A").unwrap_or(illuminant::d65());
         let gains = white_balance_from_illuminant(&channels, light).expect("light in all channels");
         let grey = Spectrum::constant(0.18);
         let balanced: [f64; 3] = core::array::from_fn(|c| gains[c] * response(channels[c], light, Some(&grey)));

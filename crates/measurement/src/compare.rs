@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
+use etendue_io::compare::{ChannelPair, PairContent, VarianceOrigin, ComparedFiles, read_pair};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::{Existing, OutputFolder, inspect::Preview};
+use etendue_io::{ExistingFiles, OutputFolder, inspect::Preview};
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
 use etendue_stats::{ErrorSummary, chi_square::sidak_level};
 
@@ -40,7 +40,7 @@ impl ChannelComparison {
 pub struct Comparison {
     /// Channel by channel.
     pub channels: Vec<ChannelComparison>,
-    pair: Pair,
+    pair: ComparedFiles,
 }
 
 impl Comparison {
@@ -73,35 +73,35 @@ pub fn compare(a: &Path, b: &Path, significance: f64) -> Result<Comparison, Erro
     Ok(Comparison { channels: findings(&pair, significance)?, pair })
 }
 
-fn findings(pair: &Pair, significance: f64) -> Result<Vec<ChannelComparison>, Error> {
+fn findings(pair: &ComparedFiles, significance: f64) -> Result<Vec<ChannelComparison>, Error> {
     let tested = pair.channels.iter().filter(|c| c.has_variance()).count().max(1);
     let level = sidak_level(significance, tested);
     pair.channels.iter().map(|channel| finding(channel, pair, level)).collect()
 }
 
-fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparison, Error> {
+fn finding(channel: &ChannelPair, pair: &ComparedFiles, level: f64) -> Result<ChannelComparison, Error> {
     let name = channel.name.clone();
     match &channel.content {
-        Content::Identity { a, b } => {
+        PairContent::Identity { a, b } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a != b).count();
             Ok(ChannelComparison { name, errors: None, unequal, not_finite: 0, test: None })
         }
-        Content::Number { a, b, variance } => {
+        PairContent::Number { a, b, variance } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
             let test =
                 match variance {
                     None => None,
-                    Some((of_a, of_b)) => {
-                        let a = estimated(a, of_a, pair.origin.0);
-                        let b = estimated(b, of_b, pair.origin.1);
+                    Some((error_a, error_b)) => {
+                        let a = estimated(a, error_a, pair.origin.0);
+                        let b = estimated(b, error_b, pair.origin.1);
                         let test = compare_planes(&a, &b, level);
                         Some(test.map_err(|error| {
                             Error::coded(ErrorCode::NotComparable, format!("channel {name}: {error}"))
                         })?)
                     }
                 };
-            let alike = pair.origin.0.alike.max(pair.origin.1.alike);
-            let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
+            let correlated_px = pair.origin.0.correlated_block_px.max(pair.origin.1.correlated_block_px);
+            let errors = ErrorSummary::compare(a, b).map(|errors| errors.with_correlated_pixels(correlated_px));
             // No errors: no sample is finite in both.
             let without_errors = errors.map_or(a.len(), |errors| errors.not_finite);
             let not_finite = test.map_or(without_errors, |test| test.not_finite);
@@ -110,17 +110,17 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
     }
 }
 
-fn estimated<'a>(mean: &'a [f32], variance_of_mean: &'a [f32], origin: Origin) -> EstimatedPlane<'a> {
-    EstimatedPlane { mean, variance_of_mean, replicates: origin.replicates, alike: origin.alike }
+fn estimated<'a>(mean: &'a [f32], variance_of_mean: &'a [f32], origin: VarianceOrigin) -> EstimatedPlane<'a> {
+    EstimatedPlane { mean, variance_of_mean, replicates: origin.replicates, correlated_pixels: origin.correlated_block_px }
 }
 
 /// Writes `a.png`, `b.png` and `difference.png` (|a − b|) of the first channel that differs most.
-pub(crate) fn write(pair: &Pair, folder: &Path) -> Result<(), Error> {
+pub(crate) fn write(pair: &ComparedFiles, folder: &Path) -> Result<(), Error> {
     let Some((a, b)) = worst(pair) else { return Ok(()) };
     let difference: Vec<f32> = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).collect();
-    let mut output = OutputFolder::open(folder, Existing::Replace).map_err(Error::input)?;
+    let mut output = OutputFolder::open(folder, ExistingFiles::Replace).map_err(Error::input)?;
     for (name, values) in [("a.png", &a), ("b.png", &b), ("difference.png", &difference)] {
-        let bytes = Preview::of_grey(pair.width, pair.height, values).to_png();
+        let bytes = Preview::from_grey(pair.width, pair.height, values).to_png();
         let bytes = bytes.map_err(|error| Error::Run(error.to_string()))?;
         output.write(name, &bytes).map_err(Error::input)?;
     }
@@ -128,10 +128,10 @@ pub(crate) fn write(pair: &Pair, folder: &Path) -> Result<(), Error> {
 }
 
 /// The samples of the channel with the largest relative difference.
-fn worst(pair: &Pair) -> Option<(Vec<f32>, Vec<f32>)> {
+fn worst(pair: &ComparedFiles) -> Option<(Vec<f32>, Vec<f32>)> {
     let numbers = pair.channels.iter().map(|channel| match &channel.content {
-        Content::Number { a, b, .. } => (a.clone(), b.clone()),
-        Content::Identity { a, b } => (a.iter().map(|v| *v as f32).collect(), b.iter().map(|v| *v as f32).collect()),
+        PairContent::Number { a, b, .. } => (a.clone(), b.clone()),
+        PairContent::Identity { a, b } => (a.iter().map(|v| *v as f32).collect(), b.iter().map(|v| *v as f32).collect()),
     });
     numbers.max_by(|x, y| distance(&x.0, &x.1).total_cmp(&distance(&y.0, &y.1)))
 }

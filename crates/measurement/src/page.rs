@@ -76,11 +76,11 @@ fn heading(table: &Table) -> String {
 
 /// Settings, and the conversion from the images' numbers to light.
 fn settings(report: &Report) -> String {
-    let told = report.json();
+    let json = report.json();
     let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     let chosen =
-        told["settings"].as_object().into_iter().flatten().map(|(key, value)| (key.replace('_', " "), text(value)));
-    let encodings = told["encodings"].as_array().into_iter().flatten();
+        json["settings"].as_object().into_iter().flatten().map(|(key, value)| (key.replace('_', " "), text(value)));
+    let encodings = json["encodings"].as_array().into_iter().flatten();
     let encodings =
         encodings.map(|e| ("encoding".to_owned(), format!("{} ({})", text(&e["encoding"]), text(&e["reason"]))));
     let rows: String = chosen

@@ -4,7 +4,7 @@ use std::fmt;
 
 use etendue_core::maths::f64::log10;
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::Stated;
+use etendue_io::photograph::SourcedEncoding;
 use serde_json::{Map, Value, json};
 
 use crate::plot::{Plot, svg};
@@ -67,7 +67,7 @@ pub struct Report {
     data: Vec<Table>,
     covariances: Vec<Covariance>,
     /// Conversions from the images' numbers to light, without repetitions.
-    encodings: Vec<Stated>,
+    encodings: Vec<SourcedEncoding>,
 }
 
 /// The covariance of figures: their keys, and the matrix row by row, in the product of their units.
@@ -138,7 +138,7 @@ impl Report {
     }
 
     /// Adds the conversion from an image's numbers to light.
-    pub(crate) fn encoding(&mut self, stated: &Stated) {
+    pub(crate) fn encoding(&mut self, stated: &SourcedEncoding) {
         if !self.encodings.contains(stated) {
             self.encodings.push(stated.clone());
         }
@@ -213,7 +213,7 @@ impl Report {
         };
         let tables = self.tables.iter().chain(&self.data);
         let tables: Map<String, Value> = tables.map(|t| (t.key.to_owned(), t.json())).collect();
-        let mut told = json!({
+        let mut object = json!({
             "measurement": self.kind,
             "method": self.method,
             "settings": self.settings.iter().map(|(key, value)| ((*key).to_owned(), value.as_str().into())).collect::<Map<_, _>>(),
@@ -222,13 +222,13 @@ impl Report {
             "notes": self.notes,
         });
         if !self.encodings.is_empty() {
-            let one = |s: &Stated| json!({ "encoding": s.encoding.name(), "reason": s.reason, "guessed": s.guessed });
-            told["encodings"] = self.encodings.iter().map(one).collect();
+            let one = |s: &SourcedEncoding| json!({ "encoding": s.encoding.name(), "reason": s.reason, "guessed": s.guessed });
+            object["encodings"] = self.encodings.iter().map(one).collect();
         }
         if !self.covariances.is_empty() {
-            told["covariances"] = self.covariances.iter().map(Covariance::json).collect();
+            object["covariances"] = self.covariances.iter().map(Covariance::json).collect();
         }
-        told
+        object
     }
 }
 
@@ -376,13 +376,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_told_to_two_digits_of_their_uncertainty() {
-        let told = |value, u| with_uncertainty(Estimate::new(value, u));
-        assert_eq!(told(0.196_482, 0.000_913), "0.19648 ± 0.00091");
-        assert_eq!(told(12_903.2, 230.0), "12903 ± 230");
-        assert_eq!(told(0.0, 0.0), "0");
-        assert_eq!(told(1288.0, 0.0), "1288");
-        assert_eq!(told(1.0, f64::INFINITY), "1.000 ± unknown");
-        assert_eq!(told(f64::NAN, 1.0), "unknown");
+    fn numbers_have_two_digits_of_their_uncertainty() {
+        let text = |value, u| with_uncertainty(Estimate::new(value, u));
+        assert_eq!(text(0.196_482, 0.000_913), "0.19648 ± 0.00091");
+        assert_eq!(text(12_903.2, 230.0), "12903 ± 230");
+        assert_eq!(text(0.0, 0.0), "0");
+        assert_eq!(text(1288.0, 0.0), "1288");
+        assert_eq!(text(1.0, f64::INFINITY), "1.000 ± unknown");
+        assert_eq!(text(f64::NAN, 1.0), "unknown");
     }
 }

@@ -75,8 +75,8 @@ pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Dis
 /// Length of the shortest step to a neighbour, px.
 fn step(grid: &Grid, node: &crate::target::Node) -> Option<f64> {
     let [i, j] = node.index;
-    let beside = [[i + 1, j], [i.wrapping_sub(1), j], [i, j + 1], [i, j.wrapping_sub(1)]];
-    beside.iter().filter_map(|index| Some((grid.node(*index)?.at - node.at).length())).min_by(f64::total_cmp)
+    let neighbours = [[i + 1, j], [i.wrapping_sub(1), j], [i, j + 1], [i, j.wrapping_sub(1)]];
+    neighbours.iter().filter_map(|index| Some((grid.node(*index)?.at - node.at).length())).min_by(f64::total_cmp)
 }
 
 /// Rings of a tenth of the half diagonal with at least three points.
@@ -109,7 +109,7 @@ pub fn shift(displacements: &[Displacement]) -> Option<[Estimate; 2]> {
 /// Displacements less their least-squares fit of a shift and a scale: the scatter from point to point.
 fn rest(displacements: &[Displacement]) -> Vec<Displacement> {
     let count = displacements.len().max(1) as f64;
-    let mean = |of: fn(&Displacement) -> DVec2| displacements.iter().map(of).sum::<DVec2>() / count;
+    let mean = |component: fn(&Displacement) -> DVec2| displacements.iter().map(component).sum::<DVec2>() / count;
     let (at, by) = (mean(|d| d.at), mean(|d| d.by));
     let sum = |f: &dyn Fn(&Displacement) -> f64| displacements.iter().map(f).sum::<f64>();
     let scale = sum(&|d| (d.at - at).dot(d.by - by)) / sum(&|d| (d.at - at).length_squared()).max(f64::MIN_POSITIVE);

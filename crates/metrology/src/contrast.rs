@@ -66,7 +66,7 @@ pub struct ContrastSettings {
     /// Reading of a saturated pixel.
     pub full_scale: Option<f64>,
     /// Maximum relative deviation of a measured contrast from the scene's, ε.
-    pub share: f64,
+    pub tolerance: f64,
     /// Side of the blocks of pixels with equal errors, px; 1: none.
     pub shared_px: usize,
 }
@@ -82,7 +82,7 @@ pub enum ContrastError {
     Contrast(f64),
     /// The tolerance is outside 0 to 1.
     #[error("the tolerated fraction must be above 0 and at most 1, not {0}")]
-    Share(f64),
+    Tolerance(f64),
     /// A patch is clipped.
     #[error(
         "{percent:.1} % of a patch is saturated, which lowers its contrast and its noise: expose less, or leave it out"
@@ -115,9 +115,9 @@ pub fn measure_contrast(
     if !(scene_contrast > 0.0 && scene_contrast.is_finite()) {
         return Err(ContrastError::Contrast(scene_contrast));
     }
-    let &ContrastSettings { black, full_scale, share, shared_px } = settings;
-    if !(share > 0.0 && share <= 1.0) {
-        return Err(ContrastError::Share(share));
+    let &ContrastSettings { black, full_scale, tolerance, shared_px } = settings;
+    if !(tolerance > 0.0 && tolerance <= 1.0) {
+        return Err(ContrastError::Tolerance(tolerance));
     }
     if let Some(percent) = saturated_percent([&darker.readings, &brighter.readings], full_scale) {
         return Err(ContrastError::Saturated { percent });
@@ -127,14 +127,14 @@ pub fn measure_contrast(
     if x.value <= 0.0 {
         return Err(ContrastError::Dark);
     }
-    let least = x.value - 4.0 * hypot(x.standard_uncertainty, y.standard_uncertainty);
-    if y.value <= least || darker == brighter {
+    let lower_bound = x.value - 4.0 * hypot(x.standard_uncertainty, y.standard_uncertainty);
+    if y.value <= lower_bound || darker == brighter {
         return Err(ContrastError::Order);
     }
     let figures = propagate(&[x, xx, y, yy], |v| {
         let measured = v[2] / v[0] - 1.0;
         let snr = (v[2] - v[0]) / (v[1] + v[3]).sqrt();
-        [measured, detection_probability([v[0], v[1]], [v[2], v[3]], scene_contrast, share), snr]
+        [measured, detection_probability([v[0], v[1]], [v[2], v[3]], scene_contrast, tolerance), snr]
     });
     let [measured, detection, contrast_snr] = figures;
     Ok(ContrastPair { measured, detection, transfer: measured.scaled(1.0 / scene_contrast), contrast_snr })
@@ -142,7 +142,7 @@ pub fn measure_contrast(
 
 /// CDP of two Gaussians (mean, variance) for a contrast of the scene.
 #[must_use]
-pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contrast: f64, share: f64) -> f64 {
+pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contrast: f64, tolerance: f64) -> f64 {
     let below = |contrast: f64| {
         let ratio = 1.0 + contrast;
         let spread = (brighter[1] + ratio * ratio * darker[1]).max(0.0).sqrt();
@@ -150,7 +150,7 @@ pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contras
         // Without noise the probability is a step function.
         if spread > 0.0 { normal::cdf(distance / spread) } else { f64::from(u8::from(distance >= 0.0)) }
     };
-    below(scene_contrast * (1.0 + share)) - below(scene_contrast * (1.0 - share))
+    below(scene_contrast * (1.0 + tolerance)) - below(scene_contrast * (1.0 - tolerance))
 }
 
 /// Mean less black, and variance, of a patch.
@@ -185,7 +185,7 @@ mod tests {
             Patch::from(Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square"))
         };
         let (dark, light) = (patch(1000.0, 120.0, 0), patch(1500.0, 150.0, 1));
-        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+        let settings = ContrastSettings { black: 0.0, full_scale: None, tolerance: 0.5, shared_px: 1 };
         let pair = measure_contrast(&dark, &light, 0.5, &settings).expect("patches");
         let [dark_readings, light_readings] = [&dark, &light].map(|patch| patch.readings.samples());
         let contrasts = dark_readings.iter().flat_map(|x| light_readings.iter().map(move |y| f64::from(y / x) - 1.0));
@@ -211,7 +211,7 @@ mod tests {
             readings: image(&|i| 64.0 + light * fall_off(first + i)),
             flat: Some(image(&|i| fall_off(first + i))),
         };
-        let settings = ContrastSettings { black: 64.0, full_scale: Some(2000.0), share: 0.5, shared_px: 1 };
+        let settings = ContrastSettings { black: 64.0, full_scale: Some(2000.0), tolerance: 0.5, shared_px: 1 };
         let (darker, brighter) = (patch(1000.0, 0), patch(1500.0, 200));
         let corrected = measure_contrast(&darker, &brighter, 0.5, &settings).expect("patches");
         assert!((corrected.measured.value - 0.5).abs() < 1e-6 && corrected.detection.value > 0.999, "{corrected:?}");

@@ -18,18 +18,18 @@ use crate::Estimate;
 /// Seeds per quantity.
 const SEEDS: u64 = 200;
 /// Allowed number of covered seeds.
-const FAIR: core::ops::RangeInclusive<usize> = 180..=198;
+const ALLOWED_COUNTS: core::ops::RangeInclusive<usize> = 180..=198;
 /// Maximum difference of a count from the table.
-const MOVED: usize = 3;
+const MAX_COUNT_CHANGE: usize = 3;
 /// Seeds that every test run measures.
 const FEW_SEEDS: usize = 50;
 /// Maximum relative difference of their root mean square error from the table's.
 const SPREAD_TOLERANCE: f64 = 0.03;
 /// Serialises the tests of one run that write the table.
-static WRITING: Mutex<()> = Mutex::new(());
+static TABLE_LOCK: Mutex<()> = Mutex::new(());
 
 /// A quantity for one seed: its name, the measured estimate, the true value.
-pub(crate) type Run = Vec<(&'static str, Estimate, f64)>;
+pub(crate) type CoverageRun = Vec<(&'static str, Estimate, f64)>;
 
 /// Coverage of a quantity.
 struct Coverage {
@@ -42,18 +42,18 @@ struct Coverage {
 
 /// Asserts that the intervals of every quantity cover the true value as the table states.
 #[track_caller]
-pub(crate) fn covers(measurement: &str, measured: impl Fn(u64) -> Run + Send + Sync) {
+pub(crate) fn assert_coverage(measurement: &str, measured: impl Fn(u64) -> CoverageRun + Send + Sync) {
     let is_whole = is_set("ETENDUE_BLESS") || is_set("ETENDUE_WHOLE");
     let seeds = if is_whole { SEEDS } else { FEW_SEEDS as u64 };
-    let runs: Vec<Run> = (0..seeds).into_par_iter().map(measured).collect();
+    let runs: Vec<CoverageRun> = (0..seeds).into_par_iter().map(measured).collect();
     let quantities: Vec<Coverage> = (0..runs[0].len()).map(|k| coverage(&runs, k)).collect();
     if is_whole {
-        let is_fair = |of: &&Coverage| !FAIR.contains(&of.covered);
-        let unfair: Vec<_> = quantities.iter().filter(is_fair).map(|of| (of.quantity, of.covered, of.spread)).collect();
+        let is_fair = |quantity: &&Coverage| !ALLOWED_COUNTS.contains(&quantity.covered);
+        let unfair: Vec<_> = quantities.iter().filter(is_fair).map(|quantity| (quantity.quantity, quantity.covered, quantity.spread)).collect();
         assert!(unfair.is_empty(), "{measurement}: of {SEEDS} seeds are covered {unfair:?}");
     }
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/data/coverage.csv");
-    let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let _one = TABLE_LOCK.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let table = std::fs::read_to_string(&file).expect("the table");
     if is_set("ETENDUE_BLESS") {
         std::fs::write(&file, with_rows(&table, measurement, &quantities)).expect("the table is written");
@@ -66,7 +66,7 @@ fn is_set(variable: &str) -> bool {
     std::env::var_os(variable).is_some_and(|value| value == "1")
 }
 
-fn coverage(runs: &[Run], k: usize) -> Coverage {
+fn coverage(runs: &[CoverageRun], k: usize) -> Coverage {
     let quantity = runs[0][k].0;
     let stated = runs.iter().filter(|run| run[k].1.standard_uncertainty.is_finite()).count();
     assert_eq!(stated, runs.len(), "{quantity}: seeds with a stated uncertainty");
@@ -92,7 +92,7 @@ fn compare(table: &str, measurement: &str, quantities: &[Coverage], is_whole: bo
             )
         };
         let is_near = (spread / stated_spread - 1.0).abs() <= SPREAD_TOLERANCE
-            && (!is_whole || (*covered as f64 - stated_count).abs() <= MOVED as f64);
+            && (!is_whole || (*covered as f64 - stated_count).abs() <= MAX_COUNT_CHANGE as f64);
         assert!(
             is_near,
             "docs/evidence/data/coverage.csv states {stated_count} covered and {stated_spread} for {measurement}, {quantity}: {covered} of {} and \
@@ -109,7 +109,7 @@ fn with_rows(table: &str, measurement: &str, quantities: &[Coverage]) -> String 
     let heading = lines.next().unwrap_or_default().to_owned();
     let mut rows: Vec<String> = lines.filter(|line| !line.starts_with(&own)).map(str::to_owned).collect();
     rows.extend(
-        quantities.iter().map(|of| format!("{}{},{:.3}", head(measurement, of.quantity), of.covered, of.spread)),
+        quantities.iter().map(|quantity| format!("{}{},{:.3}", head(measurement, quantity.quantity), quantity.covered, quantity.spread)),
     );
     rows.sort();
     core::iter::once(heading).chain(rows).map(|line| line + "\n").collect()

@@ -45,7 +45,7 @@ pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) 
         Alignment::None => 1.0,
         Alignment::Median => median_ratio(estimate, truth, &edges).ok_or(DepthError::Nothing)?,
     };
-    let sums = |wanted: &dyn Fn(usize, f64) -> bool| Sums::of(estimate, truth, scale, settings, wanted).errors();
+    let sums = |includes: &dyn Fn(usize, f64) -> bool| DepthSums::from_pixels(estimate, truth, scale, settings, includes).errors();
     let all = sums(&|i, _| !edges[i]);
     if all.pixels == 0 {
         return Err(DepthError::Nothing);
@@ -190,13 +190,13 @@ pub struct DepthSettings {
     /// Minimum error of an outlier as a fraction of the depth …
     pub outlier_ratio: f64,
     /// … and its minimum error, m.
-    pub outlier_least_m: f64,
+    pub min_outlier_m: f64,
     /// Minimum depth jump at an edge, as a fraction of the depth.
     pub edge_ratio: f64,
     /// Distance from a jump within which pixels are edge pixels.
     pub edge_px: usize,
     /// Focal length times baseline of a stereo rig, px m, for errors of disparity.
-    pub focal_base_px_m: Option<f64>,
+    pub focal_baseline_px_m: Option<f64>,
     /// Alignment of the estimate before the comparison.
     pub alignment: Alignment,
 }
@@ -216,10 +216,10 @@ impl Default for DepthSettings {
         Self {
             ranges_m: vec![0.0, 5.0, 10.0, 20.0, 40.0, 80.0, f64::INFINITY],
             outlier_ratio: 0.05,
-            outlier_least_m: 0.0,
+            min_outlier_m: 0.0,
             edge_ratio: 0.1,
             edge_px: 2,
-            focal_base_px_m: None,
+            focal_baseline_px_m: None,
             alignment: Alignment::None,
         }
     }
@@ -232,14 +232,14 @@ impl DepthSettings {
         if !rising {
             return Err(DepthError::Ranges);
         }
-        let shares = [
+        let fractions = [
             ("outlier ratio", self.outlier_ratio),
-            ("minimum error of an outlier", self.outlier_least_m),
+            ("minimum error of an outlier", self.min_outlier_m),
             ("edge ratio", self.edge_ratio),
         ];
-        let wrong = shares.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
+        let wrong = fractions.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
         let wrong = wrong.map(|(name, value)| DepthError::Setting { name, value, least: "0" });
-        let rig = self.focal_base_px_m.filter(|value| !(value.is_finite() && *value > 0.0));
+        let rig = self.focal_baseline_px_m.filter(|value| !(value.is_finite() && *value > 0.0));
         let rig =
             rig.map(|value| DepthError::Setting { name: "focal length times baseline", value, least: "more than 0" });
         wrong.or(rig).map_or(Ok(()), Err)
@@ -254,10 +254,10 @@ const COUNT: usize = 14;
 
 /// An outlier of disparity, px and fraction (KITTI 2015).
 const DISPARITY_PX: f64 = 3.0;
-const DISPARITY_SHARE: f64 = 0.05;
+const DISPARITY_FRACTION: f64 = 0.05;
 
 /// Sums over pixels, by block.
-struct Sums {
+struct DepthSums {
     missing: usize,
     has_disparity: bool,
     /// Pixels, and the sum of each number.
@@ -268,12 +268,12 @@ fn values(guess: f64, depth: f64, settings: &DepthSettings) -> [f64; COUNT] {
     let error = guess - depth;
     let log = ln(guess) - ln(depth);
     let inverse = 1.0 / guess - 1.0 / depth;
-    let outlier = error.abs() > settings.outlier_ratio * depth && error.abs() > settings.outlier_least_m;
+    let outlier = error.abs() > settings.outlier_ratio * depth && error.abs() > settings.min_outlier_m;
     let ratio = (guess / depth).max(depth / guess);
     let within = |limit: f64| f64::from(u8::from(ratio < limit));
-    let rig = settings.focal_base_px_m.unwrap_or(0.0);
+    let rig = settings.focal_baseline_px_m.unwrap_or(0.0);
     let disparity = rig * inverse.abs();
-    let far = disparity > DISPARITY_PX && disparity > DISPARITY_SHARE * rig / depth;
+    let far = disparity > DISPARITY_PX && disparity > DISPARITY_FRACTION * rig / depth;
     [
         error,
         error * error,
@@ -292,13 +292,13 @@ fn values(guess: f64, depth: f64, settings: &DepthSettings) -> [f64; COUNT] {
     ]
 }
 
-impl Sums {
-    fn of(
+impl DepthSums {
+    fn from_pixels(
         estimate: &Image,
         truth: &Image,
         scale: f64,
         settings: &DepthSettings,
-        wanted: &dyn Fn(usize, f64) -> bool,
+        includes: &dyn Fn(usize, f64) -> bool,
     ) -> Self {
         let (width, height) = (truth.width(), truth.height());
         let columns = width.div_ceil(BLOCK_PX);
@@ -306,7 +306,7 @@ impl Sums {
         let mut missing = 0;
         for (i, (guess, depth)) in estimate.samples().iter().zip(truth.samples()).enumerate() {
             let (guess, depth) = (scale * f64::from(*guess), f64::from(*depth));
-            if !(known(depth) && wanted(i, depth)) {
+            if !(known(depth) && includes(i, depth)) {
                 continue;
             }
             if !known(guess) {
@@ -317,7 +317,7 @@ impl Sums {
             block.0 += 1.0;
             block.1.iter_mut().zip(values(guess, depth, settings)).for_each(|(sum, v)| *sum += v);
         }
-        Self { missing, has_disparity: settings.focal_base_px_m.is_some(), blocks }
+        Self { missing, has_disparity: settings.focal_baseline_px_m.is_some(), blocks }
     }
 
     fn count(&self) -> f64 {
@@ -327,23 +327,23 @@ impl Sums {
     /// The mean of a value that is a linear combination of those of a pixel, by weights of the sums.
     fn mean(&self, weights: &[(usize, f64)]) -> Estimate {
         let count = self.count();
-        let of = |block: &(f64, [f64; COUNT])| weights.iter().map(|(i, w)| w * block.1[*i]).sum::<f64>();
-        let mean = self.blocks.iter().map(of).sum::<f64>() / count;
+        let block_mean = |block: &(f64, [f64; COUNT])| weights.iter().map(|(i, w)| w * block.1[*i]).sum::<f64>();
+        let mean = self.blocks.iter().map(block_mean).sum::<f64>() / count;
         // Contribution of a block to the mean: its fraction of the pixels times its deviation from the overall mean.
-        let pulls = self.blocks.iter().filter(|b| b.0 > 0.0).map(|b| (of(b) - mean * b.0) / count);
-        let moments = Moments::of(pulls);
+        let influences = self.blocks.iter().filter(|b| b.0 > 0.0).map(|b| (block_mean(b) - mean * b.0) / count);
+        let moments = Moments::from_values(influences);
         let scatter = (moments.variance().unwrap_or(f64::INFINITY) * moments.count() as f64).sqrt();
         Estimate::new(mean, scatter)
     }
 
     fn errors(&self) -> DepthErrors {
-        let of = |i: usize| self.mean(&[(i, 1.0)]);
+        let value_mean = |i: usize| self.mean(&[(i, 1.0)]);
         let root = |square: Estimate| {
             let root = square.value.max(0.0).sqrt();
             Estimate::new(root, square.standard_uncertainty / (2.0 * root).max(f64::MIN_POSITIVE))
         };
         // ⟨l²⟩ − ⟨l⟩², to first order in both means.
-        let (log, log_square) = (of(5), of(6));
+        let (log, log_square) = (value_mean(5), value_mean(6));
         let variance = Estimate::new(
             log_square.value - log.value * log.value,
             self.mean(&[(6, 1.0), (5, -2.0 * log.value)]).standard_uncertainty,
@@ -351,17 +351,17 @@ impl Sums {
         DepthErrors {
             pixels: self.count() as usize,
             missing: self.missing,
-            bias_m: of(0),
-            rmse_m: root(of(1)),
-            mean_m: of(2),
-            relative: of(3),
-            squared_relative_m: of(4),
+            bias_m: value_mean(0),
+            rmse_m: root(value_mean(1)),
+            mean_m: value_mean(2),
+            relative: value_mean(3),
+            squared_relative_m: value_mean(4),
             rmse_log: root(log_square),
             scale_invariant: root(variance),
-            inverse_rmse_per_km: root(of(7)).scaled(1e3),
-            outliers: of(8),
-            within: [9, 10, 11].map(of),
-            disparity: self.has_disparity.then(|| [12, 13].map(of)),
+            inverse_rmse_per_km: root(value_mean(7)).scaled(1e3),
+            outliers: value_mean(8),
+            within: [9, 10, 11].map(value_mean),
+            disparity: self.has_disparity.then(|| [12, 13].map(value_mean)),
         }
     }
 }

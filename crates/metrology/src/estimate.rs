@@ -44,7 +44,7 @@ pub(crate) fn propagate<const N: usize>(inputs: &[Estimate], f: impl Fn(&[f64]) 
 
 /// A quantity derived from noisy inputs, to second order.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Curved {
+pub(crate) struct SecondOrderEstimate {
     /// Value, with the standard uncertainty of first order.
     pub first_order: Estimate,
     /// Mean shift due to the inputs' noise: half the sum of the second differences s of its inputs.
@@ -53,7 +53,7 @@ pub(crate) struct Curved {
     variance: f64,
 }
 
-impl Curved {
+impl SecondOrderEstimate {
     /// Estimate of a quantity that cannot be negative, such as a length: its root mean square error, with shift and curvature;
     /// unknown if the shift exceeds an eighth of the value. (For a length of several components of total variance V the shift is
     /// V/2 over it, so lengths below 2 √V are not distinguished from 0. One that is 0 exceeds that by chance in 1 to 2 % of cases.)
@@ -65,7 +65,7 @@ impl Curved {
 }
 
 /// Any number of derived quantities of independent inputs, to second order (5.1.2, note).
-pub(crate) fn propagate_curved(inputs: &[Estimate], f: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Curved> {
+pub(crate) fn propagate_curved(inputs: &[Estimate], f: impl Fn(&[f64]) -> Vec<f64>) -> Vec<SecondOrderEstimate> {
     let mut at: Vec<f64> = inputs.iter().map(|input| input.value).collect();
     let values = f(&at);
     let mut sums = vec![[0.0; 3]; values.len()];
@@ -82,7 +82,7 @@ pub(crate) fn propagate_curved(inputs: &[Estimate], f: impl Fn(&[f64]) -> Vec<f6
             *curved += 0.5 * second * second;
         }
     }
-    let curved = |(value, [first, bias, variance]): (&f64, [f64; 3])| Curved {
+    let curved = |(value, [first, bias, variance]): (&f64, [f64; 3])| SecondOrderEstimate {
         first_order: Estimate::new(*value, first.sqrt()),
         bias,
         variance,

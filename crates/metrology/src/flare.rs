@@ -67,9 +67,9 @@ fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareE
     if light <= dark.max(0.0) {
         return Err(FlareError::NotWhite { white: white.value, black: trap.value.max(black) });
     }
-    let share = dark / light;
-    let (own, other) = (trap.standard_uncertainty / light, share * white.standard_uncertainty / light);
-    Ok(Estimate::new(share, (own * own + other * other).sqrt()))
+    let ratio = dark / light;
+    let (own, other) = (trap.standard_uncertainty / light, ratio * white.standard_uncertainty / light);
+    Ok(Estimate::new(ratio, (own * own + other * other).sqrt()))
 }
 
 #[cfg(test)]

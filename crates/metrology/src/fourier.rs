@@ -65,13 +65,13 @@ mod tests {
         for length in [1, 2, 7, 12, 30, 49, 64] {
             let values: Vec<Complex> = (0..length).map(|i| [((i * 7) % 11) as f64, ((i * 5) % 3) as f64]).collect();
             let fast = transform(&values);
-            for (k, got) in fast.iter().enumerate() {
-                let want = values.iter().enumerate().fold([0.0; 2], |[re, im], (n, v)| {
+            for (k, actual) in fast.iter().enumerate() {
+                let expected = values.iter().enumerate().fold([0.0; 2], |[re, im], (n, v)| {
                     let [a, b] = times(*v, root((k * n) % length, length));
                     [re + a, im + b]
                 });
                 // Rounding: about fifty operations on values up to 10 · 64.
-                assert!((got[0] - want[0]).abs() < 1e-11 && (got[1] - want[1]).abs() < 1e-11, "{length} {k}");
+                assert!((actual[0] - expected[0]).abs() < 1e-11 && (actual[1] - expected[1]).abs() < 1e-11, "{length} {k}");
             }
         }
     }

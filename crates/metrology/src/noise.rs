@@ -20,7 +20,7 @@ use crate::{Estimate, Image, estimate::root, patch_statistics::saturated_percent
 /// Minimum number of frames of the standard.
 pub const MIN_FRAMES: usize = 8;
 /// Maximum deviation of a frame's mean from the others', relative to the signal: lamps flicker by a few percent.
-const UNSTEADY: f64 = 0.1;
+const MAX_MEAN_DEVIATION: f64 = 0.1;
 
 /// Noise of a patch, in readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,9 +101,9 @@ pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseEr
 fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
     let mut sorted = means.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let usual = sorted[sorted.len() / 2];
-    let off = means.iter().position(|mean| (mean - usual).abs() > UNSTEADY * (usual - black).abs());
-    off.map_or(Ok(()), |i| Err(NoiseError::Unlike { frame: i + 1, frames: means.len(), mean: means[i], usual }))
+    let median = sorted[sorted.len() / 2];
+    let off = means.iter().position(|mean| (mean - median).abs() > MAX_MEAN_DEVIATION * (median - black).abs());
+    off.map_or(Ok(()), |i| Err(NoiseError::Unlike { frame: i + 1, frames: means.len(), mean: means[i], usual: median }))
 }
 
 /// Measures the noise of a stack of frames of a patch.
@@ -115,7 +115,7 @@ pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
         return Err(NoiseError::TooFew(stack.frames()));
     }
     one_light(stack.frame_means(), black)?;
-    let (statistics, pattern) = (stack.statistics()?, Pattern::of(stack)?);
+    let (statistics, pattern) = (stack.statistics()?, Pattern::from_stack(stack)?);
     let (temporal, fixed) = (statistics.variance_dn2, pattern.variances_dn2().total);
     let variance = temporal.value + fixed.value.max(0.0);
     let u = (temporal.standard_uncertainty * temporal.standard_uncertainty
@@ -143,12 +143,12 @@ mod tests {
         let normal = Normal::new(0.0, 1.0).expect("a width");
         let mut stack = Stack::new(64, 64);
         for frame in 0..frames {
-            let draw = |i: usize, frame, draw| {
+            let noise_at = |i: usize, frame, purpose| {
                 let pixel = Pixel { x: (i % 64) as u32, y: (i / 64) as u32 };
-                normal.sample(&mut NoiseStream::new(5, 0, frame, 0, pixel, draw))
+                normal.sample(&mut NoiseStream::new(5, 0, frame, 0, pixel, purpose))
             };
             let sample = |i: usize| {
-                (200.0 + 4.0 * draw(i, frame, NoiseDraw::Read) + 3.0 * draw(i, 0, NoiseDraw::PixelOffset)) as f32
+                (200.0 + 4.0 * noise_at(i, frame, NoiseDraw::Read) + 3.0 * noise_at(i, 0, NoiseDraw::PixelOffset)) as f32
             };
             let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
             stack.push(&image).expect("a frame");
@@ -167,11 +167,11 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_noise_are_told_apart() {
+    fn noise_components_are_separated() {
         let noise = measure_noise(&stack(8), 40.0).expect("eight frames");
-        for (found, truth) in [(noise.temporal, 4.0), (noise.fixed, 3.0), (noise.total, 5.0)] {
-            assert!((found.value - truth).abs() < 3.0 * found.standard_uncertainty, "{found:?} {truth}");
-            assert!(found.standard_uncertainty < 0.02 * truth, "{found:?}");
+        for (measured, truth) in [(noise.temporal, 4.0), (noise.fixed, 3.0), (noise.total, 5.0)] {
+            assert!((measured.value - truth).abs() < 3.0 * measured.standard_uncertainty, "{measured:?} {truth}");
+            assert!(measured.standard_uncertainty < 0.02 * truth, "{measured:?}");
         }
         let [total, ..] = noise.snr();
         assert!((total.value - 32.0).abs() < 3.0 * total.standard_uncertainty);

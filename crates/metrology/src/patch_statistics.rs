@@ -35,12 +35,12 @@ use glam::DVec2;
 use crate::Estimate;
 
 /// Maximum distance of neighbours, px.
-const REACH: usize = 3;
+const MAX_DISTANCE_PX: usize = 3;
 /// Distances beyond the reach at which pixels of a line are compared.
-const BEYOND: usize = 6;
+const REFERENCE_DISTANCES: usize = 6;
 /// Maximum side, px, of the central part from which correlations are computed: tens of thousands of pixels determine them to a
 /// few per cent.
-const ENOUGH: usize = 256;
+const MAX_SIDE_PX: usize = 256;
 
 /// Statistics of a uniform patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,34 +54,34 @@ pub struct PatchStatistics {
 /// Mean and variance of a patch with equal errors in blocks of `shared_px` × `shared_px` pixels (1: none).
 #[must_use]
 pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
-    let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s)));
+    let moments = Moments::from_values(patch.samples().iter().map(|s| f64::from(*s)));
     let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
-    let deviations = Deviations::of(patch);
+    let deviations = Deviations::from_patch(patch);
     // Few blocks look like lines: rendered images have no line noise except the sensor's.
-    let lines = if shared_px > 1 { Lines::default() } else { Lines::of(&deviations) };
-    let alike =
-        if shared_px > 1 { alike_in_blocks(patch, &deviations, shared_px) } else { alike(&deviations, REACH, lines) };
-    let of_lines = lines.rows / patch.height() as f64 + lines.columns / patch.width() as f64;
+    let lines = if shared_px > 1 { LineVariances::default() } else { LineVariances::from_deviations(&deviations) };
+    let correlation =
+        if shared_px > 1 { block_correlation_sum(patch, &deviations, shared_px) } else { correlation_sum(&deviations, MAX_DISTANCE_PX, lines) };
+    let line_correlation = lines.rows / patch.height() as f64 + lines.columns / patch.width() as f64;
     PatchStatistics {
-        mean: Estimate::new(moments.mean(), (variance * (alike / count + of_lines)).sqrt()),
-        variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * alike).sqrt()),
+        mean: Estimate::new(moments.mean(), (variance * (correlation / count + line_correlation)).sqrt()),
+        variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * correlation).sqrt()),
     }
 }
 
 /// Σ ρ for equal errors in blocks.
-fn alike_in_blocks(patch: &Image, deviations: &Deviations, shared_px: usize) -> f64 {
-    let reach = REACH.max(shared_px - 1);
+fn block_correlation_sum(patch: &Image, deviations: &Deviations, shared_px: usize) -> f64 {
+    let reach = MAX_DISTANCE_PX.max(shared_px - 1);
     let distances = ((2 * reach + 1) * (2 * reach + 1)) as f64;
-    let count = (patch.width().min(ENOUGH) * patch.height().min(ENOUGH)) as f64;
+    let count = (patch.width().min(MAX_SIDE_PX) * patch.height().min(MAX_SIDE_PX)) as f64;
     if count < 2.0 * distances || patch.width().min(patch.height()) <= 2 * reach {
         return (shared_px * shared_px) as f64;
     }
-    alike(deviations, reach, Lines::default()) / (1.0 - distances / count)
+    correlation_sum(deviations, reach, LineVariances::default()) / (1.0 - distances / count)
 }
 
 /// Σ ρ over neighbours up to a reach, 1 or more, without row and column noise: the number of pixels equivalent to one independent
 /// pixel.
-fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
+fn correlation_sum(deviations: &Deviations, reach: usize, lines: LineVariances) -> f64 {
     let own = deviations.products(0, 0);
     if own <= 0.0 || deviations.width <= 2 * reach || deviations.height <= 2 * reach {
         return 1.0;
@@ -91,33 +91,33 @@ fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
     let along = (1..=far).map(|dx| deviations.products(dx, 0)).sum::<f64>();
     let across = (1..=far).flat_map(|dy| (-far..=far).map(move |dx| (dx, dy)));
     let sum = along + across.map(|(dx, dy)| deviations.products(dx, dy)).sum::<f64>();
-    let of_lines = (2 * reach + 1) as f64 * (lines.rows + lines.columns);
-    (1.0 + 2.0 * sum / own - of_lines).max(1.0)
+    let line_variance = (2 * reach + 1) as f64 * (lines.rows + lines.columns);
+    (1.0 + 2.0 * sum / own - line_variance).max(1.0)
 }
 
 /// Variance shared by the pixels of a row, and of a column, relative to the variance of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
-struct Lines {
+struct LineVariances {
     rows: f64,
     columns: f64,
 }
 
-impl Lines {
+impl LineVariances {
     /// 0 if the patch is too small.
-    fn of(deviations: &Deviations) -> Self {
+    fn from_deviations(deviations: &Deviations) -> Self {
         let own = deviations.mean_product(0, 0);
-        if own <= 0.0 || deviations.width.min(deviations.height) < 2 * (REACH + BEYOND) {
+        if own <= 0.0 || deviations.width.min(deviations.height) < 2 * (MAX_DISTANCE_PX + REFERENCE_DISTANCES) {
             return Self::default();
         }
-        let beyond = || (REACH + 1..=REACH + BEYOND).map(|d| d as isize);
+        let reference_shifts = || (MAX_DISTANCE_PX + 1..=MAX_DISTANCE_PX + REFERENCE_DISTANCES).map(|d| d as isize);
         let mean = |all: &[f64]| all.iter().sum::<f64>() / (all.len() as f64 * own);
         let products = |places: &mut dyn Iterator<Item = (isize, isize)>| {
             mean(&places.map(|(dx, dy)| deviations.mean_product(dx, dy)).collect::<Vec<_>>())
         };
-        let uneven = products(&mut beyond().flat_map(|d| [(d, d), (-d, d)]));
-        let pairs = (deviations.width * deviations.height * BEYOND) as f64;
+        let uneven = products(&mut reference_shifts().flat_map(|d| [(d, d), (-d, d)]));
+        let pairs = (deviations.width * deviations.height * REFERENCE_DISTANCES) as f64;
         let shared = |place: fn(isize) -> (isize, isize)| {
-            (products(&mut beyond().map(place)) - uneven - 2.0 / pairs.sqrt()).max(0.0)
+            (products(&mut reference_shifts().map(place)) - uneven - 2.0 / pairs.sqrt()).max(0.0)
         };
         Self { rows: shared(|d| (d, 0)), columns: shared(|d| (0, d)) }
     }
@@ -131,11 +131,11 @@ struct Deviations {
 }
 
 impl Deviations {
-    fn of(patch: &Image) -> Self {
-        let middle = |length: usize| (length.saturating_sub(ENOUGH) / 2, length.min(ENOUGH));
+    fn from_patch(patch: &Image) -> Self {
+        let middle = |length: usize| (length.saturating_sub(MAX_SIDE_PX) / 2, length.min(MAX_SIDE_PX));
         let ((left, width), (top, height)) = (middle(patch.width()), middle(patch.height()));
         let part = patch.part(left, top, width, height);
-        let mean = Moments::of(part.samples().iter().map(|s| f64::from(*s))).mean();
+        let mean = Moments::from_values(part.samples().iter().map(|s| f64::from(*s))).mean();
         Self { width, height, values: part.samples().iter().map(|s| f64::from(*s) - mean).collect() }
     }
 
@@ -172,7 +172,7 @@ impl Quantity for Reading {
 pub type Image = Plane<Reading>;
 
 /// Maximum fraction of saturated pixels that a measurement accepts.
-pub(crate) const SATURATED_SHARE: f64 = 1e-3;
+pub(crate) const MAX_SATURATED_FRACTION: f64 = 1e-3;
 
 /// Fraction of pixels at or above full scale. If full scale is unknown, fraction of pixels at the largest reading: a plateau
 /// indicates clipping, unless the image has a single value.
@@ -181,8 +181,8 @@ pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f6
     if let Some(full) = full_scale {
         return count(full);
     }
-    let most = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-    let plateau = count(f64::from(most));
+    let max_sample = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let plateau = count(f64::from(max_sample));
     // One pixel in a hundred at exactly the largest reading is not due to noise.
     if plateau > 0.01 && plateau < 1.0 { plateau } else { 0.0 }
 }
@@ -192,8 +192,8 @@ pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f6
 #[must_use]
 pub fn saturated_percent<'a>(parts: impl IntoIterator<Item = &'a Image>, full_scale: Option<f64>) -> Option<f64> {
     let full = full_scale?;
-    let share = parts.into_iter().map(|part| saturated_fraction(part.samples(), Some(full))).fold(0.0, f64::max);
-    (share > SATURATED_SHARE).then_some(100.0 * share)
+    let fraction = parts.into_iter().map(|part| saturated_fraction(part.samples(), Some(full))).fold(0.0, f64::max);
+    (fraction > MAX_SATURATED_FRACTION).then_some(100.0 * fraction)
 }
 
 /// A sixth of the squared second differences of neighbours in a row, at the middle one: unbiased for independent noise on a
@@ -217,9 +217,9 @@ pub fn centroid_shift(map: impl Fn(DVec2) -> Option<DVec2>, centre: DVec2, radiu
         let (sin, cos) = sin_cos(TAU * i as f64 / CORNERS as f64);
         map(centre + radius * DVec2::new(cos, sin)).map(|p| p - middle)
     };
-    let rim: Vec<DVec2> = (0..CORNERS).map(corner).collect::<Option<_>>()?;
+    let outline: Vec<DVec2> = (0..CORNERS).map(corner).collect::<Option<_>>()?;
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
-    for (a, b) in rim.iter().zip(rim.iter().cycle().skip(1)) {
+    for (a, b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
         let part = a.perp_dot(*b);
         area += part;
         moment += part * (*a + *b) / 3.0;
@@ -235,10 +235,10 @@ mod tests {
     #[test]
     fn repeated_pixels_count_once() {
         let noise = |x: usize, y: usize| ((x * 7919 + y * 104_729 + x * y * 31) % 97) as f32;
-        let of =
+        let test_image =
             |f: &dyn Fn(usize) -> f32| Image::from_samples(96, 96, (0..96 * 96).map(f).collect()).expect("a square");
-        let (single, double) = (of(&|i| noise(i % 96, i / 96)), of(&|i| noise(i % 96 / 2, i / 96 / 2)));
-        let [one, four] = [&single, &double].map(|image| alike(&Deviations::of(image), REACH, Lines::default()));
+        let (single, double) = (test_image(&|i| noise(i % 96, i / 96)), test_image(&|i| noise(i % 96 / 2, i / 96 / 2)));
+        let [one, four] = [&single, &double].map(|image| correlation_sum(&Deviations::from_patch(image), MAX_DISTANCE_PX, LineVariances::default()));
         assert!((four / one - 4.0).abs() < 1.0, "{four} {one}");
         let [a, b] = [patch_statistics(&single, 1), patch_statistics(&double, 1)].map(|e| e.mean.standard_uncertainty);
         assert!((b / a - 2.0).abs() < 0.3, "{a} {b}");
@@ -265,13 +265,13 @@ mod tests {
     fn means_over_shared_blocks_know_it() {
         const PICTURES: usize = 400;
         for (shared, side) in [(4, 10), (4, 16), (4, 24), (4, 64), (8, 24), (8, 40)] {
-            let reading = |i: usize, picture: usize| {
+            let reading = |i: usize, image: usize| {
                 let (x, y) = (i % side + 3, i / side + 1);
-                100.0 + scatter(x / shared, y / shared, picture) + 0.3 * scatter(x, y, picture + PICTURES)
+                100.0 + scatter(x / shared, y / shared, image) + 0.3 * scatter(x, y, image + PICTURES)
             };
             let means: Vec<Estimate> = (0..PICTURES)
-                .map(|picture| {
-                    let samples = (0..side * side).map(|i| reading(i, picture) as f32).collect();
+                .map(|image| {
+                    let samples = (0..side * side).map(|i| reading(i, image) as f32).collect();
                     patch_statistics(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
                 })
                 .collect();

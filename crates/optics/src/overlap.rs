@@ -34,27 +34,27 @@ impl Disc {
 }
 
 /// ∫ z²/d⁴ dA over the part of the pupil inside the apertures, sr, for a sensor point `sensor_radius_mm` from the axis.
-pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, rims: [Option<Disc>; 2]) -> f64 {
-    over_half(rims, |t, low, high| strip_sr(view, sensor_radius_mm, t, low, high)) * 2.0
+pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, discs: [Option<Disc>; 2]) -> f64 {
+    over_half(discs, |t, low, high| strip_sr(view, sensor_radius_mm, t, low, high)) * 2.0
 }
 
 /// Position on the line of the area centroid of the part of the pupil inside the apertures; `None` if nothing is open.
-pub(crate) fn open_centroid(rims: [Option<Disc>; 2]) -> Option<f64> {
-    let area = over_half(rims, |_, low, high| high - low);
-    let moment = over_half(rims, |_, low, high| 0.5 * (high - low) * (high + low));
+pub(crate) fn open_centroid(discs: [Option<Disc>; 2]) -> Option<f64> {
+    let area = over_half(discs, |_, low, high| high - low);
+    let moment = over_half(discs, |_, low, high| 0.5 * (high - low) * (high + low));
     (area > 0.0).then(|| moment / area)
 }
 
 /// The integral over height of `strip(height, low, high)` over one half of the open region, which is symmetric about the
 /// line.
-fn over_half(rims: [Option<Disc>; 2], strip: impl Fn(f64, f64, f64) -> f64) -> f64 {
-    let at = |t: f64| chord(rims, t).map_or(0.0, |(low, high)| strip(t, low, high));
-    break_heights(rims).windows(2).map(|piece| integrate(&at, piece[0], piece[1])).sum()
+fn over_half(discs: [Option<Disc>; 2], strip: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    let at = |t: f64| chord(discs, t).map_or(0.0, |(low, high)| strip(t, low, high));
+    break_heights(discs).windows(2).map(|piece| integrate(&at, piece[0], piece[1])).sum()
 }
 
 /// The ends of the open region's chord at height `t`.
-fn chord(rims: [Option<Disc>; 2], t: f64) -> Option<(f64, f64)> {
-    let discs = rims.into_iter().flatten().chain([PUPIL]);
+fn chord(apertures: [Option<Disc>; 2], t: f64) -> Option<(f64, f64)> {
+    let discs = apertures.into_iter().flatten().chain([PUPIL]);
     let (low, high) = discs.into_iter().try_fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), disc| {
         let half = disc.half_chord(t)?;
         Some((low.max(disc.centre - half), high.min(disc.centre + half)))
@@ -76,13 +76,13 @@ fn strip_sr(view: &PupilView, sensor_radius_mm: f64, t: f64, low: f64, high: f64
 }
 
 /// Heights, in order from 0 to the smallest radius, between which the boundary consists of the same circles.
-fn break_heights(rims: [Option<Disc>; 2]) -> [f64; 5] {
-    let [front, rear] = rims;
+fn break_heights(discs: [Option<Disc>; 2]) -> [f64; 5] {
+    let [front, rear] = discs;
     let pair = |a: Option<Disc>, b: Option<Disc>| a.zip(b).and_then(|(a, b)| crossing_height(a, b)).unwrap_or(0.0);
-    let least = [front, rear].into_iter().flatten().map(|d| d.radius).fold(1.0, f64::min);
+    let minimum = [front, rear].into_iter().flatten().map(|d| d.radius).fold(1.0, f64::min);
     let crossings = [pair(front, Some(PUPIL)), pair(rear, Some(PUPIL)), pair(front, rear)];
-    let [a, b, c] = crossings.map(|t| t.min(least));
-    let mut heights = [0.0, a, b, c, least];
+    let [a, b, c] = crossings.map(|t| t.min(minimum));
+    let mut heights = [0.0, a, b, c, minimum];
     heights.sort_by(f64::total_cmp);
     heights
 }
@@ -129,11 +129,11 @@ pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, OpticsErro
 /// Returns `value` if it is a possible f-number of a lens.
 pub(crate) fn f_number(value: f64) -> Result<f64, OpticsError> {
     let value = positive("f_number", value)?;
-    if value >= FASTEST { Ok(value) } else { Err(OpticsError::Faster { value }) }
+    if value >= MIN_F_NUMBER { Ok(value) } else { Err(OpticsError::Faster { value }) }
 }
 
 /// The f-number at which axial light fills the whole half space: an aplanatic lens in air has 1/2N = sin θ′ ≤ 1 (Abbe).
-const FASTEST: f64 = 0.5;
+const MIN_F_NUMBER: f64 = 0.5;
 
 /// Returns `value` if it is finite.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, OpticsError> {
@@ -152,11 +152,11 @@ mod tests {
     const VIEW: PupilView = PupilView { distance_mm: 3.0, radius_mm: 1.2 };
 
     /// The same integral by strips of equal height: slow, and without break points or substitution.
-    fn by_strips(sensor_radius_mm: f64, rims: [Option<Disc>; 2]) -> f64 {
+    fn by_strips(sensor_radius_mm: f64, discs: [Option<Disc>; 2]) -> f64 {
         let n = 200_000;
         let strips = (0..n).map(|i| {
             let t = 2.0 * (f64::from(i) + 0.5) / f64::from(n) - 1.0;
-            let ends = rims
+            let ends = discs
                 .into_iter()
                 .flatten()
                 .chain([PUPIL])
@@ -168,16 +168,16 @@ mod tests {
     }
 
     #[test]
-    fn a_rim_around_the_pupil_leaves_the_closed_form() {
+    fn an_aperture_around_the_pupil_leaves_the_closed_form() {
         for x in [0.0, 0.7, 2.5] {
             let exact = VIEW.projected_solid_angle_sr(DVec2::new(x, 0.0));
-            for rim in [
+            for aperture in [
                 Disc { centre: 0.0, radius: 1.0 },
                 Disc { centre: 0.3, radius: 1.3 },
                 Disc { centre: -2.0, radius: 9.0 },
             ] {
                 // 16 Gauss points on an analytic integrand.
-                assert!((clipped_etendue_sr(&VIEW, x, [Some(rim), None]) / exact - 1.0).abs() < 1e-9, "{rim:?}");
+                assert!((clipped_etendue_sr(&VIEW, x, [Some(aperture), None]) / exact - 1.0).abs() < 1e-9, "{aperture:?}");
             }
         }
     }
@@ -192,11 +192,11 @@ mod tests {
             [disc(-0.7, 1.0), disc(0.7, 1.0)],
             [disc(0.9, 1.2), disc(0.5, 1.3)],
         ];
-        for rims in cases {
+        for discs in cases {
             for x in [0.0, 1.7] {
-                let (fast, slow) = (clipped_etendue_sr(&VIEW, x, rims), by_strips(x, rims));
+                let (fast, slow) = (clipped_etendue_sr(&VIEW, x, discs), by_strips(x, discs));
                 // The strips' midpoint rule at square-root ends: n^-1.5 = 1e-8.
-                assert!((fast / slow - 1.0).abs() < 1e-7, "{rims:?} at {x}: {fast} against {slow}");
+                assert!((fast / slow - 1.0).abs() < 1e-7, "{discs:?} at {x}: {fast} against {slow}");
             }
         }
     }

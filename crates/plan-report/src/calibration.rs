@@ -13,7 +13,7 @@ pub fn keys(calibration: &Calibration) -> Value {
                        at +0.5",
         "width_px": width,
         "height_px": height,
-        "greatest_angle_deg": calibration.greatest_angle_rad().map(f64::to_degrees),
+        "greatest_angle_deg": calibration.max_angle_rad().map(f64::to_degrees),
     })
 }
 
@@ -32,8 +32,8 @@ mod tests {
              f_number = 4\nprojection = {projection}\n"
         );
         let camera = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());
-        let camera = camera.unwrap_or_else(|faults| panic!("{faults}\n{text}"));
-        let body = compile_camera(&camera, &Assets::default()).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
+        let camera = camera.unwrap_or_else(|errors| panic!("{errors}\n{text}"));
+        let body = compile_camera(&camera, &Assets::default()).unwrap_or_else(|errors| panic!("{errors:?}\n{text}"));
         let Lens::Calibrated(lens) = body.lens else { panic!("calibrated") };
         lens.parameters().calibration.clone()
     }
@@ -76,8 +76,8 @@ mod tests {
         let cases = of_matrix.map(|keys| (keys, matrix)).into_iter().chain(of_pixels.map(|keys| (keys, stretch)));
         for (keys, rest) in cases {
             let camera = calibration(&format!("{{ type = {keys}, {rest} }}"));
-            let said = super::keys(&camera);
-            assert_eq!(calibration(&toml(&said["projection"])), camera, "{said}");
+            let camera_keys = super::keys(&camera);
+            assert_eq!(calibration(&toml(&camera_keys["projection"])), camera, "{camera_keys}");
         }
     }
 }

@@ -113,8 +113,8 @@ pub struct FilmPart {
 }
 
 impl CameraReport {
-    pub(super) fn of(plan: &Plan, camera: &CameraPlan) -> Self {
-        let cost = FrameCost::of(plan, camera);
+    pub(super) fn new(plan: &Plan, camera: &CameraPlan) -> Self {
+        let cost = FrameCost::new(plan, camera);
         let raster = &camera.body.raster;
         let effects = plan.effects(camera).into_iter().map(|effect| EffectReport::new(effect, cost.cpu_s()));
         let (width, height) = camera.film_size();
@@ -137,9 +137,9 @@ impl CameraReport {
                 Shutter::GlobalReset(_) => "global_reset",
             },
             frame_period_s: camera.timing.period_s,
-            lights: LightsReport::of(plan, camera),
+            lights: LightsReport::new(plan, camera),
             settings: camera.settings,
-            lens: LensSummary::of(camera),
+            lens: LensSummary::new(camera),
             dynamic_range_db: camera
                 .body
                 .sensor
@@ -147,13 +147,13 @@ impl CameraReport {
                 .map(|sensor| sensor.dynamic_range().db())
                 .filter(|db| db.is_finite()),
             effects: effects.collect(),
-            cost: CostReport::of(cost),
+            cost: CostReport::new(cost),
         }
     }
 }
 
 impl LightsReport {
-    fn of(plan: &Plan, camera: &CameraPlan) -> Self {
+    fn new(plan: &Plan, camera: &CameraPlan) -> Self {
         let counts = light_counts(plan, camera);
         let kinds = [(counts.sky, "sky"), (counts.image_environment, "image"), (counts.uniform_environment, "uniform")];
         Self {
@@ -168,7 +168,7 @@ impl LightsReport {
 }
 
 impl LensSummary {
-    fn of(camera: &CameraPlan) -> Self {
+    fn new(camera: &CameraPlan) -> Self {
         let lens = &camera.body.lens;
         let focus_m = lens.focus_distance_m();
         Self {
@@ -184,7 +184,7 @@ impl LensSummary {
 }
 
 impl CostReport {
-    fn of(cost: FrameCost) -> Self {
+    fn new(cost: FrameCost) -> Self {
         let parts = cost.parts.iter().filter(|part| part.cpu_s > 0.0).map(|part| FilmPart {
             name: part.name,
             cpu_s: part.cpu_s,

@@ -6,8 +6,8 @@ use etendue_optics::effects::PointSpread;
 use etendue_optics::front::Optic;
 use etendue_optics::{DepthOfField, Front, Lens};
 use etendue_pipeline::plan::{CameraBody, RowExposure, RowSkipping};
-use etendue_projection::Sense;
-use etendue_sensor::figures::Switch;
+use etendue_projection::DistortionDirection;
+use etendue_sensor::figures::CaptureTransition;
 use etendue_sensor::{DynamicRange, Sensor};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -115,8 +115,8 @@ fn distortion(body: &CameraBody) -> Option<Value> {
     let d = body.lens.distortion()?;
     let [k1, k2] = d.coefficients();
     let other = match d.sense() {
-        Sense::IdealToObserved => Sense::ObservedToIdeal,
-        Sense::ObservedToIdeal => Sense::IdealToObserved,
+        DistortionDirection::IdealToObserved => DistortionDirection::ObservedToIdeal,
+        DistortionDirection::ObservedToIdeal => DistortionDirection::IdealToObserved,
     };
     let fitted = d.fitted(other, body.raster.max_radius_mm()).ok().map(|fit| {
         let [k1, k2] = fit.distortion.coefficients();
@@ -133,10 +133,10 @@ fn distortion(body: &CameraBody) -> Option<Value> {
 }
 
 /// Direction of a distortion, as camera files spell it.
-fn direction(sense: Sense) -> &'static str {
+fn direction(sense: DistortionDirection) -> &'static str {
     match sense {
-        Sense::IdealToObserved => "ideal_to_observed",
-        Sense::ObservedToIdeal => "observed_to_ideal",
+        DistortionDirection::IdealToObserved => "ideal_to_observed",
+        DistortionDirection::ObservedToIdeal => "observed_to_ideal",
     }
 }
 
@@ -192,7 +192,7 @@ fn shutter(rows: &RowExposure) -> Value {
         Shutter::GlobalReset(timing) => ("global_reset", timing),
     };
     let RowSkipping { together, pitch } = rows.skipping;
-    let mut said = json!({
+    let mut report = json!({
         "type": word,
         "row_time_s": timing.row_time_s,
         "direction": if timing.upwards { "up" } else { "down" },
@@ -201,18 +201,18 @@ fn shutter(rows: &RowExposure) -> Value {
         "rows": rows.rows,
     });
     if rows.skipping.skips() {
-        said["rows_read"] = json!({ "together": together, "of": pitch });
+        report["rows_read"] = json!({ "together": together, "of": pitch });
     }
-    said
+    report
 }
 
 /// Dynamic range of a frame in photo-electrons of the first capture, and the signal-to-noise ratios at the transitions between captures.
 fn dynamic_range(range: &DynamicRange) -> Value {
-    let switch = |s: &Switch| json!({ "at_e": s.at_e, "snr_before": s.before, "snr_after": s.after });
+    let switch = |s: &CaptureTransition| json!({ "at_e": s.at_e, "snr_before": s.before, "snr_after": s.after });
     json!({
         "db": range.db(),
-        "least_e": range.least_e,
-        "most_e": range.most_e,
+        "least_e": range.lower_e,
+        "most_e": range.upper_e,
         "switches": range.switches.iter().map(switch).collect::<Vec<_>>(),
     })
 }

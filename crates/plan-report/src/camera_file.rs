@@ -14,7 +14,7 @@ use std::path::Path;
 /// All errors of the file and of the files that it names.
 pub fn open_camera(file: &Path, set: &[String]) -> Result<CameraBody, Error> {
     let overrides = Overrides::new(set);
-    let camera = load_camera(file, &read_text, &overrides).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
+    let camera = load_camera(file, &read_text, &overrides).map_err(|f| Error::inputs(f.as_slice()))?;
+    let assets = load_assets(&named_files::camera_files(&camera)).map_err(Error::inputs)?;
     compile_camera(&camera, &assets).map_err(Error::inputs)
 }

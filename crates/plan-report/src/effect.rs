@@ -7,7 +7,7 @@ use etendue_pipeline::report::effects::{EffectGroup, PlannedEffect};
 /// Status of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Need {
+pub enum EffectStatusReport {
     /// Modelled, always run.
     Required,
     /// Modelled, run only if a cheap test requires it.
@@ -16,7 +16,7 @@ pub enum Need {
     Skipped,
 }
 
-impl From<&EffectStatus> for Need {
+impl From<&EffectStatus> for EffectStatusReport {
     fn from(status: &EffectStatus) -> Self {
         match status {
             EffectStatus::Modelled(_) => Self::Required,
@@ -36,7 +36,7 @@ pub struct EffectReport {
     /// Stage of the frame to which it belongs.
     pub group: EffectGroup,
     /// Status.
-    pub status: Need,
+    pub status: EffectStatusReport,
     /// Reason for the status.
     pub reason: String,
     /// Key that describes it; for cameras relative to `cameras.NAME.`.
@@ -48,12 +48,12 @@ pub struct EffectReport {
     /// Memory during rendering of the frame, bytes.
     pub memory_bytes: Option<f64>,
     /// Result of leaving it out; null if it is not modelled.
-    pub if_dropped: Option<IfDroppedReport>,
+    pub if_dropped: Option<OmissionReport>,
 }
 
 /// Result of leaving an effect out.
 #[derive(Clone, Debug, serde::Serialize)]
-pub struct IfDroppedReport {
+pub struct OmissionReport {
     /// Changes of keys, in the syntax of `--set`, that leave it out; null if no key does.
     pub set: Option<Vec<String>>,
     /// Estimated CPU time saved per frame, s; below 0 if it increases.
@@ -66,21 +66,21 @@ impl EffectReport {
     /// Report of an effect of a frame with an estimated time of `frame_s` seconds.
     pub(super) fn new(effect: PlannedEffect, frame_s: f64) -> Self {
         let id = effect.id();
-        let PlannedEffect { group, name, key, status, cpu_s, memory_bytes, if_dropped } = effect;
+        let PlannedEffect { group, name, key, status, cpu_s, memory_bytes, omission: if_dropped } = effect;
         Self {
             id,
             name,
             group,
-            status: Need::from(&status),
+            status: EffectStatusReport::from(&status),
             reason: status.reason().to_owned(),
             key,
             cpu_s,
             cpu_share: cpu_s.filter(|_| frame_s > 0.0).map(|s| s / frame_s),
             memory_bytes,
-            if_dropped: if_dropped.map(|dropped| IfDroppedReport {
-                set: dropped.set,
-                cpu_saved_s: dropped.cpu_saved_s,
-                errors: dropped.errors,
+            if_dropped: if_dropped.map(|omission| OmissionReport {
+                set: omission.set,
+                cpu_saved_s: omission.cpu_saved_s,
+                errors: omission.errors,
             }),
         }
     }

@@ -16,9 +16,9 @@ use std::path::{Path, PathBuf};
 
 pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport};
 pub use camera_file::open_camera;
-pub use effect::{EffectReport, IfDroppedReport, Need};
+pub use effect::{EffectReport, OmissionReport, EffectStatusReport};
 pub use memory::{CameraMemoryReport, MemoryReport, StageReport};
-pub use remark::{RemarkReport, RemarkWeight};
+pub use remark::{NoteReport, NoteSeverity};
 pub use scene::{SceneReport, SkyReport};
 
 /// Report of a job's plan. Unknown values are `None`, null in JSON.
@@ -37,7 +37,7 @@ pub struct PlanReport {
     /// Memory of the whole run.
     pub memory: MemoryReport,
     /// Notes and warnings of compilation, without duplicates.
-    pub remarks: Vec<RemarkReport>,
+    pub remarks: Vec<NoteReport>,
     /// Warnings that a render repeats from them, and warnings of the lights, as sentences.
     pub warnings: Vec<String>,
     /// Settings of the job file overridden by the command line, as sentences.
@@ -46,17 +46,17 @@ pub struct PlanReport {
 
 impl PlanReport {
     /// Report of the plan of a job file.
-    pub fn of(job: &Path, plan: &Plan) -> Self {
+    pub fn new(job: &Path, plan: &Plan) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),
             job: job.to_owned(),
             hash: plan.hash_text(),
-            scene: SceneReport::of(plan),
-            cameras: plan.cameras.iter().map(|camera| CameraReport::of(plan, camera)).collect(),
-            memory: MemoryReport::of(plan),
-            remarks: RemarkReport::all(plan),
+            scene: SceneReport::new(plan),
+            cameras: plan.cameras.iter().map(|camera| CameraReport::new(plan, camera)).collect(),
+            memory: MemoryReport::new(plan),
+            remarks: NoteReport::notes_of_plan(plan),
             warnings: plan.warnings(),
-            notices: plan.notices.clone(),
+            notices: plan.overridden_keys.clone(),
         }
     }
 }

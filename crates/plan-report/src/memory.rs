@@ -37,13 +37,13 @@ pub struct StageReport {
 }
 
 impl MemoryReport {
-    pub(super) fn of(plan: &Plan) -> Self {
-        let memory = RunMemory::planned(plan);
+    pub(super) fn new(plan: &Plan) -> Self {
+        let memory = RunMemory::of_plan(plan);
         let cameras = memory.cameras.iter().map(|(name, camera)| {
             let stages = camera.stages.iter().filter(|stage| stage.bytes > 0.0);
             CameraMemoryReport {
                 name: name.clone(),
-                bytes: camera.most().bytes,
+                bytes: camera.peak_stage().bytes,
                 stages: stages.map(|stage| StageReport { stage: stage.stage, bytes: stage.bytes }).collect(),
             }
         });

@@ -60,7 +60,7 @@ pub struct SkyReport {
 }
 
 impl SceneReport {
-    pub(super) fn of(plan: &Plan) -> Self {
+    pub(super) fn new(plan: &Plan) -> Self {
         let instances = plan.world.instances();
         let triangles = |shape: &Shape| match shape {
             Shape::Mesh(id) => plan.world.mesh(*id).triangles().len(),

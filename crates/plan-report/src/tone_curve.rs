@@ -50,9 +50,9 @@ mod tests {
             assert_eq!(tone_curve(&encoding(&curve), 255.0), Ok(curve));
         }
         let oecf = ToneCurve::Oecf(Oecf::new(vec![(2.0, 10.0), (32.0, 200.0)], 255.0).expect("legal"));
-        let again = tone_curve(&encoding(&oecf), 255.0).expect("legal");
+        let repeated = tone_curve(&encoding(&oecf), 255.0).expect("legal");
         for y in [0.01, 0.1, 0.4, 0.78] {
-            assert!((again.decode(y) - oecf.decode(y)).abs() < 1e-6, "{y}");
+            assert!((repeated.decode(y) - oecf.decode(y)).abs() < 1e-6, "{y}");
         }
     }
 }

@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
-use crate::model::{Model, Sight, field_angle};
+use crate::model::{Model, DirectionAndSolidAngle, field_angle};
 use crate::raster::CameraMatrix;
 
 /// Error of a calibration.
@@ -66,7 +66,7 @@ pub struct Calibration {
     model: Model,
     matrix: CameraMatrix,
     size_px: [usize; 2],
-    greatest_angle_rad: Option<f64>,
+    max_angle_rad: Option<f64>,
 }
 
 impl Calibration {
@@ -84,18 +84,18 @@ impl Calibration {
         if width == 0 || height == 0 {
             return Err(CalibrationError::Empty { width, height });
         }
-        Ok(Self { model, matrix, size_px, greatest_angle_rad: None })
+        Ok(Self { model, matrix, size_px, max_angle_rad: None })
     }
 
     /// The same camera limited to directions below this field angle.
     ///
     /// # Errors
     /// If the angle is not in (0, π].
-    pub fn limited_to(self, angle_rad: f64) -> Result<Self, CalibrationError> {
+    pub fn with_max_angle(self, angle_rad: f64) -> Result<Self, CalibrationError> {
         if !(angle_rad > 0.0 && angle_rad <= core::f64::consts::PI) {
             return Err(CalibrationError::Angle { angle_rad });
         }
-        Ok(Self { greatest_angle_rad: Some(angle_rad), ..self })
+        Ok(Self { max_angle_rad: Some(angle_rad), ..self })
     }
 
     /// Returns the same camera with `k` × `k` of its pixels combined into one. In raster coordinates, whose origin is the corner of the image, every
@@ -128,14 +128,14 @@ impl Calibration {
 
     /// The stated limit of the field angle, rad; the model's own [`edge`](Model::edge) may come before.
     #[must_use]
-    pub fn greatest_angle_rad(&self) -> Option<f64> {
-        self.greatest_angle_rad
+    pub fn max_angle_rad(&self) -> Option<f64> {
+        self.max_angle_rad
     }
 
     /// The raster point (px) of a direction of the camera frame (any length), inside the image or not; `None` outside the field.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
-        let limit = self.greatest_angle_rad;
+        let limit = self.max_angle_rad;
         if limit.is_some_and(|limit| field_angle(direction).is_none_or(|angle| angle >= limit)) {
             return None;
         }
@@ -153,7 +153,7 @@ impl Calibration {
     #[must_use]
     pub fn solid_angle_per_area(&self, raster_px: DVec2) -> Option<f64> {
         let point = self.matrix.point(raster_px);
-        if self.greatest_angle_rad.is_some() {
+        if self.max_angle_rad.is_some() {
             self.unproject(raster_px)?;
         }
         Some(self.model.solid_angle_per_area(point)? / self.matrix.area_px())
@@ -162,7 +162,7 @@ impl Calibration {
     /// [`unproject`](Self::unproject) and [`solid_angle_per_area`](Self::solid_angle_per_area) (sr per px²) of a raster point, at little more than
     /// the cost of one of them; `None` if there is no direction.
     #[must_use]
-    pub fn sight(&self, raster_px: DVec2) -> Option<Sight> {
+    pub fn sight(&self, raster_px: DVec2) -> Option<DirectionAndSolidAngle> {
         let sight = self.model.sight(self.matrix.point(raster_px))?;
         self.sees(sight.direction).then(|| sight.enlarged(self.matrix.area_px()))
     }
@@ -174,7 +174,7 @@ impl Calibration {
     /// [`CalibrationError::Fold`].
     pub fn check(&self) -> Result<(), CalibrationError> {
         let edge = self.model.edge();
-        let limited = self.greatest_angle_rad.is_some_and(|angle| angle < edge.angle_rad);
+        let limited = self.max_angle_rad.is_some_and(|angle| angle < edge.angle_rad);
         if !edge.folds || limited || self.border().all(|p| self.unproject(p).is_some()) {
             return Ok(());
         }
@@ -184,7 +184,7 @@ impl Calibration {
     }
 
     fn sees(&self, direction: DVec3) -> bool {
-        self.greatest_angle_rad.is_none_or(|limit| field_angle(direction).is_some_and(|angle| angle < limit))
+        self.max_angle_rad.is_none_or(|limit| field_angle(direction).is_some_and(|angle| angle < limit))
     }
 
     fn principal_distance(&self, raster_px: DVec2) -> f64 {
@@ -208,9 +208,9 @@ impl Calibration {
 
     /// The corners of all pixels along the image's border, at most some thousand per side.
     fn border(&self) -> impl Iterator<Item = DVec2> {
-        const MOST: usize = 4096;
+        const MAX_DIRECTIONS: usize = 4096;
         let size = self.size();
-        let along = |n: usize| (0..=n.min(MOST)).map(move |i| i as f64 / n.min(MOST) as f64);
+        let along = |n: usize| (0..=n.min(MAX_DIRECTIONS)).map(move |i| i as f64 / n.min(MAX_DIRECTIONS) as f64);
         let rows = along(self.size_px[0]).flat_map(move |t| [0.0, size.y].map(|y| DVec2::new(t * size.x, y)));
         let columns = along(self.size_px[1]).flat_map(move |t| [0.0, size.x].map(|x| DVec2::new(x, t * size.y)));
         rows.chain(columns)

@@ -21,6 +21,6 @@ mod root;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use model::Model;
-pub use radial::{DistortionError, Fit, RadialDistortion, RadialPolynomial, RadiusScales, RadiusUnit, Sense};
+pub use radial::{DistortionError, DistortionFit, RadialDistortion, RadialPolynomial, RadiusScales, RadiusUnit, DistortionDirection};
 pub use raster::{CameraMatrix, Raster, RasterError};
 pub use rectilinear::Rectilinear;

@@ -31,7 +31,7 @@ use crate::root::increasing;
 
 /// Direction of the polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sense {
+pub enum DistortionDirection {
     /// From the undistorted radius to the distorted one (OpenCV's direction).
     IdealToObserved,
     /// From the distorted radius to the undistorted one.
@@ -110,12 +110,12 @@ pub enum DistortionError {
 }
 
 /// Largest size of a coefficient, in any unit of radius.
-const LARGEST: f64 = 1e30;
+const MAX_COEFFICIENT: f64 = 1e30;
 
 /// Radial distortion about the principal point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialDistortion {
-    sense: Sense,
+    sense: DistortionDirection,
     pub(crate) polynomial: RadialPolynomial,
     unit_mm: f64,
 }
@@ -125,8 +125,8 @@ impl RadialDistortion {
     ///
     /// # Errors
     /// If a coefficient is not finite or beyond 1e30 (its square would overflow), or the unit is not a positive length.
-    pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
-        if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
+    pub fn new(sense: DistortionDirection, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
+        if ![k1, k2].iter().all(|k| k.abs() <= MAX_COEFFICIENT) {
             return Err(DistortionError::Coefficient { k1, k2 });
         }
         if !(unit_mm.is_finite() && unit_mm > 0.0) {
@@ -151,7 +151,7 @@ impl RadialDistortion {
 
     /// Direction of the polynomial.
     #[must_use]
-    pub fn sense(&self) -> Sense {
+    pub fn sense(&self) -> DistortionDirection {
         self.sense
     }
 
@@ -172,8 +172,8 @@ impl RadialDistortion {
     pub fn fold_observed_mm(&self) -> f64 {
         self.unit_mm
             * match self.sense {
-                Sense::IdealToObserved => self.polynomial.fold_value(),
-                Sense::ObservedToIdeal => self.polynomial.fold(),
+                DistortionDirection::IdealToObserved => self.polynomial.fold_value(),
+                DistortionDirection::ObservedToIdeal => self.polynomial.fold(),
             }
     }
 
@@ -182,8 +182,8 @@ impl RadialDistortion {
     pub fn fold_ideal_mm(&self) -> f64 {
         self.unit_mm
             * match self.sense {
-                Sense::IdealToObserved => self.polynomial.fold(),
-                Sense::ObservedToIdeal => self.polynomial.fold_value(),
+                DistortionDirection::IdealToObserved => self.polynomial.fold(),
+                DistortionDirection::ObservedToIdeal => self.polynomial.fold_value(),
             }
     }
 
@@ -202,13 +202,13 @@ impl RadialDistortion {
     /// The ideal radius of an observed one, mm; `None` beyond the fold.
     #[must_use]
     pub fn ideal_radius_mm(&self, observed_mm: f64) -> Option<f64> {
-        self.radius(observed_mm, Sense::ObservedToIdeal)
+        self.radius(observed_mm, DistortionDirection::ObservedToIdeal)
     }
 
     /// The observed radius of an ideal one, mm; `None` beyond the fold.
     #[must_use]
     pub fn observed_radius_mm(&self, ideal_mm: f64) -> Option<f64> {
-        self.radius(ideal_mm, Sense::IdealToObserved)
+        self.radius(ideal_mm, DistortionDirection::IdealToObserved)
     }
 
     /// Ideal area per unit of observed area at an observed radius: (R/r) · dR/dr with R(r) the ideal radius. 1 on the axis; `None` beyond the fold.
@@ -219,15 +219,15 @@ impl RadialDistortion {
             return Some(1.0);
         }
         let slope = match self.sense {
-            Sense::ObservedToIdeal => self.polynomial.derivative(observed_mm / self.unit_mm),
-            Sense::IdealToObserved => 1.0 / self.polynomial.derivative(ideal_mm / self.unit_mm),
+            DistortionDirection::ObservedToIdeal => self.polynomial.derivative(observed_mm / self.unit_mm),
+            DistortionDirection::IdealToObserved => 1.0 / self.polynomial.derivative(ideal_mm / self.unit_mm),
         };
         Some(ideal_mm / observed_mm * slope)
     }
 
-    fn radius(&self, r_mm: f64, wanted: Sense) -> Option<f64> {
+    fn radius(&self, r_mm: f64, direction: DistortionDirection) -> Option<f64> {
         let r = r_mm / self.unit_mm;
-        let mapped = if wanted == self.sense { self.polynomial.forward(r) } else { self.polynomial.inverse(r) };
+        let mapped = if direction == self.sense { self.polynomial.forward(r) } else { self.polynomial.inverse(r) };
         mapped.map(|r| r * self.unit_mm)
     }
 }
@@ -241,7 +241,7 @@ fn scaled(point: DVec2, radius: impl Fn(f64) -> Option<f64>) -> Option<DVec2> {
 
 /// A distortion fitted to another over an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fit {
+pub struct DistortionFit {
     /// The fitted distortion.
     pub distortion: RadialDistortion,
     /// The largest difference of its radius from the other's, mm, over the radii of the fit.
@@ -254,24 +254,24 @@ impl RadialDistortion {
     ///
     /// # Errors
     /// If this distortion folds inside the image, or the fitted one does.
-    pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
+    pub fn fitted(&self, sense: DistortionDirection, max_observed_mm: f64) -> Result<DistortionFit, DistortionError> {
         self.check(max_observed_mm)?;
         let samples = self.pairs(sense, max_observed_mm);
         let [k1, k2] = least_squares(&samples);
         let distortion = Self::new(sense, k1, k2, self.unit_mm())?;
         distortion.check(max_observed_mm)?;
         let worst = samples.iter().map(|[r, out]| (distortion.polynomial_at(*r) - out).abs()).fold(0.0, f64::max);
-        Ok(Fit { distortion, worst_mm: worst * self.unit_mm() })
+        Ok(DistortionFit { distortion, worst_mm: worst * self.unit_mm() })
     }
 
     /// Argument and value, in radius units, of the map of direction `sense` over the radii of an image.
-    fn pairs(&self, sense: Sense, max_observed_mm: f64) -> Vec<[f64; 2]> {
+    fn pairs(&self, sense: DistortionDirection, max_observed_mm: f64) -> Vec<[f64; 2]> {
         (1..=FIT_SAMPLES)
             .filter_map(|i| {
                 let observed_mm = max_observed_mm * i as f64 / FIT_SAMPLES as f64;
                 let ideal = self.ideal_radius_mm(observed_mm)? / self.unit_mm();
                 let observed = observed_mm / self.unit_mm();
-                Some(if sense == Sense::ObservedToIdeal { [observed, ideal] } else { [ideal, observed] })
+                Some(if sense == DistortionDirection::ObservedToIdeal { [observed, ideal] } else { [ideal, observed] })
             })
             .collect()
     }

@@ -1,12 +1,12 @@
 //! Results of one camera.
 
 use crate::frame::Frame;
-use crate::held::{Held, whole};
+use crate::held::{LazyValue, full_cube};
 use crate::samples::{self, Cube, Sample, plane};
 use crate::watch::run;
 use etendue::{CameraResults, GroundTruth, Light, MotionTruth, RayTable};
 use etendue_core::quantity::{Disparity, Identity, Quantity};
-use etendue_core::{KeptCube, Plane};
+use etendue_core::{StoredCube, Plane};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyRange};
 use std::sync::Arc;
@@ -17,15 +17,15 @@ pub(crate) struct Camera {
     results: Arc<etendue::Results>,
     place: usize,
     threads: Option<u32>,
-    radiance: Held<Cube>,
-    radiance_variance: Held<Cube>,
-    irradiance: Held<Cube>,
-    ghosts: Held<Cube>,
-    truth: Held<GroundTruth>,
-    motion: Held<MotionTruth>,
-    rays: Held<RayTable>,
-    disparity: Held<Option<(Plane<Disparity>, Plane<Identity>)>>,
-    frame: Held<Option<Frame>>,
+    radiance: LazyValue<Cube>,
+    radiance_variance: LazyValue<Cube>,
+    irradiance: LazyValue<Cube>,
+    ghosts: LazyValue<Cube>,
+    truth: LazyValue<GroundTruth>,
+    motion: LazyValue<MotionTruth>,
+    rays: LazyValue<RayTable>,
+    disparity: LazyValue<Option<(Plane<Disparity>, Plane<Identity>)>>,
+    frame: LazyValue<Option<Frame>>,
 }
 
 impl Camera {
@@ -34,15 +34,15 @@ impl Camera {
             results,
             place,
             threads,
-            radiance: Held::default(),
-            radiance_variance: Held::default(),
-            irradiance: Held::default(),
-            ghosts: Held::default(),
-            truth: Held::default(),
-            motion: Held::default(),
-            rays: Held::default(),
-            disparity: Held::default(),
-            frame: Held::default(),
+            radiance: LazyValue::default(),
+            radiance_variance: LazyValue::default(),
+            irradiance: LazyValue::default(),
+            ghosts: LazyValue::default(),
+            truth: LazyValue::default(),
+            motion: LazyValue::default(),
+            rays: LazyValue::default(),
+            disparity: LazyValue::default(),
+            frame: LazyValue::default(),
         }
     }
 
@@ -63,27 +63,27 @@ impl Camera {
     }
 
     /// Plane of the ground truth.
-    fn truth_plane<'py, Q>(&self, py: Python<'py>, of: fn(&GroundTruth) -> &Plane<Q>) -> PyResult<Bound<'py, PyAny>>
+    fn truth_plane<'py, Q>(&self, py: Python<'py>, plane_of: fn(&GroundTruth) -> &Plane<Q>) -> PyResult<Bound<'py, PyAny>>
     where
         Q: Quantity,
         Q::Sample: Sample,
     {
         let truth = self.truth(py)?;
-        plane(py, of(&truth), Arc::clone(&truth) as _)
+        plane(py, plane_of(&truth), Arc::clone(&truth) as _)
     }
 
     /// Plane that not every ground truth has.
     fn optional_truth<'py, Q>(
         &self,
         py: Python<'py>,
-        of: fn(&GroundTruth) -> Option<&Plane<Q>>,
+        plane_of: fn(&GroundTruth) -> Option<&Plane<Q>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>>
     where
         Q: Quantity,
         Q::Sample: Sample,
     {
         let truth = self.truth(py)?;
-        of(&truth).map(|found| plane(py, found, Arc::clone(&truth) as _)).transpose()
+        plane_of(&truth).map(|value| plane(py, value, Arc::clone(&truth) as _)).transpose()
     }
 
     /// First of the frames.
@@ -98,11 +98,11 @@ impl Camera {
     fn cube<'py, Q: Quantity<Sample = f32>>(
         &self,
         py: Python<'py>,
-        held: &Held<Cube>,
-        of: fn(&Light) -> Option<&KeptCube<Q>>,
+        lazy: &LazyValue<Cube>,
+        cube_of: fn(&Light) -> Option<&StoredCube<Q>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let Some(kept) = of(self.camera().light()) else { return Ok(None) };
-        let cube = held.get(py, self.threads, || whole(kept))?;
+        let Some(cube_source) = cube_of(self.camera().light()) else { return Ok(None) };
+        let cube = lazy.get(py, self.threads, || full_cube(cube_source))?;
         samples::cube(py, &cube).map(Some)
     }
 }
@@ -127,7 +127,7 @@ impl Camera {
     fn wavelengths_nm(&self) -> Option<Vec<f64>> {
         let light = self.camera().light();
         let bands = light.radiance.as_ref().map(|radiance| radiance.mean.bands());
-        let bands = bands.or_else(|| light.irradiance.as_ref().map(KeptCube::bands))?;
+        let bands = bands.or_else(|| light.irradiance.as_ref().map(StoredCube::bands))?;
         Some((0..bands.count()).map(|i| bands.centre_nm(i)).collect())
     }
 
@@ -247,27 +247,27 @@ impl Camera {
     /// "time", s, (height, width).
     fn motion_truth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let motion = self.motion(py)?;
-        let told = PyDict::new(py);
-        told.set_item("forward", neighbour(py, &motion, 0)?)?;
-        told.set_item("backward", neighbour(py, &motion, 1)?)?;
-        told.set_item("motion_vector", plane(py, &motion.motion_vector, Arc::clone(&motion) as _)?)?;
-        told.set_item("velocity", plane(py, &motion.velocity, Arc::clone(&motion) as _)?)?;
-        told.set_item("time", plane(py, &motion.time, Arc::clone(&motion) as _)?)?;
-        Ok(told)
+        let dict = PyDict::new(py);
+        dict.set_item("forward", neighbour(py, &motion, 0)?)?;
+        dict.set_item("backward", neighbour(py, &motion, 1)?)?;
+        dict.set_item("motion_vector", plane(py, &motion.motion_vector, Arc::clone(&motion) as _)?)?;
+        dict.set_item("velocity", plane(py, &motion.velocity, Arc::clone(&motion) as _)?)?;
+        dict.set_item("time", plane(py, &motion.time, Arc::clone(&motion) as _)?)?;
+        Ok(dict)
     }
 
     /// Disparity to the camera that the job's `disparity_to` names, px: float32, (height, width). None if it names none.
     #[getter]
     fn disparity<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let held = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
-        held.as_ref().as_ref().map(|(disparity, _)| plane(py, disparity, Arc::clone(&held) as _)).transpose()
+        let disparity_planes = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
+        disparity_planes.as_ref().as_ref().map(|(disparity, _)| plane(py, disparity, Arc::clone(&disparity_planes) as _)).transpose()
     }
 
     /// Visibility of each point in that camera: uint32, (height, width), the numbers of docs/ground-truth.md. None if the job names none.
     #[getter]
     fn disparity_visibility<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let held = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
-        held.as_ref().as_ref().map(|(_, seen)| plane(py, seen, Arc::clone(&held) as _)).transpose()
+        let disparity = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
+        disparity.as_ref().as_ref().map(|(_, visible)| plane(py, visible, Arc::clone(&disparity) as _)).transpose()
     }
 
     /// Boxes of the objects, as in `boxes.json`.
@@ -282,13 +282,13 @@ impl Camera {
     #[getter]
     fn rays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rays = self.rays.get(py, self.threads, || Ok(self.camera().rays()))?;
-        let told = PyDict::new(py);
-        told.set_item("origin", plane(py, &rays.origin, Arc::clone(&rays) as _)?)?;
-        told.set_item("direction", plane(py, &rays.direction, Arc::clone(&rays) as _)?)?;
-        told.set_item("ray", plane(py, &rays.ray, Arc::clone(&rays) as _)?)?;
+        let dict = PyDict::new(py);
+        dict.set_item("origin", plane(py, &rays.origin, Arc::clone(&rays) as _)?)?;
+        dict.set_item("direction", plane(py, &rays.direction, Arc::clone(&rays) as _)?)?;
+        dict.set_item("ray", plane(py, &rays.ray, Arc::clone(&rays) as _)?)?;
         let path = rays.path.as_ref().map(|path| plane(py, path, Arc::clone(&rays) as _));
-        path.transpose()?.map_or(Ok(()), |path| told.set_item("path", path))?;
-        Ok(told)
+        path.transpose()?.map_or(Ok(()), |path| dict.set_item("path", path))?;
+        Ok(dict)
     }
 
     fn __repr__(&self) -> String {
@@ -299,10 +299,10 @@ impl Camera {
 
 /// Motion to a neighbouring frame; `None` if there is none.
 fn neighbour<'py>(py: Python<'py>, motion: &Arc<MotionTruth>, place: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
-    let Some(found) = motion.neighbours.get(place) else { return Ok(None) };
-    let told = PyDict::new(py);
-    told.set_item("flow", plane(py, &found.flow, Arc::clone(motion) as _)?)?;
-    told.set_item("visibility", plane(py, &found.visibility, Arc::clone(motion) as _)?)?;
-    told.set_item("scene_flow", plane(py, &found.scene_flow, Arc::clone(motion) as _)?)?;
-    Ok(Some(told))
+    let Some(displacement) = motion.neighbours.get(place) else { return Ok(None) };
+    let dict = PyDict::new(py);
+    dict.set_item("flow", plane(py, &displacement.flow, Arc::clone(motion) as _)?)?;
+    dict.set_item("visibility", plane(py, &displacement.visibility, Arc::clone(motion) as _)?)?;
+    dict.set_item("scene_flow", plane(py, &displacement.scene_flow, Arc::clone(motion) as _)?)?;
+    Ok(Some(dict))
 }

@@ -54,15 +54,15 @@ impl Frame {
     /// Image as its file encodes it, before rounding to bits, 0 to 1: float32, (height, width, 3). None if the camera makes none.
     #[getter]
     pub(crate) fn picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let picture = self.frame.picture.as_ref();
-        picture.map(|picture| plane(py, &picture.display, Arc::clone(&self.frame) as _)).transpose()
+        let image = self.frame.picture.as_ref();
+        image.map(|image| plane(py, &image.display, Arc::clone(&self.frame) as _)).transpose()
     }
 
     /// The same image in linear sRGB, not clipped: float32, (height, width, 3). None if the camera makes none.
     #[getter]
     fn linear_picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let picture = self.frame.picture.as_ref();
-        picture.map(|picture| plane(py, &picture.linear, Arc::clone(&self.frame) as _)).transpose()
+        let image = self.frame.picture.as_ref();
+        image.map(|image| plane(py, &image.linear, Arc::clone(&self.frame) as _)).transpose()
     }
 
     fn __len__(&self) -> usize {
@@ -78,8 +78,8 @@ impl Frame {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let found = self.get(py, name, None)?;
-        found.ok_or_else(|| {
+        let value = self.get(py, name, None)?;
+        value.ok_or_else(|| {
             PyKeyError::new_err(format!("unknown array {name:?}; available: {}", self.keys().join(", ")))
         })
     }
@@ -108,13 +108,13 @@ impl Frame {
         name: &str,
         default: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let found = match name {
+        let value = match name {
             "raw" => Some(self.raw(py)?),
             "picture" => self.picture(py)?,
             "linear_picture" => self.linear_picture(py)?,
             _ => None,
         };
-        Ok(found.or(default))
+        Ok(value.or(default))
     }
 
     fn __repr__(&self) -> String {

@@ -5,7 +5,7 @@ use crate::results::{Results, existing};
 use crate::watch::run;
 use crate::{meshes, toml};
 use etendue::{
-    Existing, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardRequest,
+    ExistingFiles, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardRequest,
     ShardSpec, TextureMemory, Word as _,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -21,7 +21,7 @@ pub(crate) struct Job {
 }
 
 /// File name of a job made in Python.
-const MADE: &str = "job.toml";
+const GENERATED_FILE: &str = "job.toml";
 
 #[pymethods]
 impl Job {
@@ -78,8 +78,8 @@ impl Job {
             progressive,
             scale: scale.map(|scale| Ok::<_, PyErr>(scale.str()?.to_cow()?.into_owned())).transpose()?,
             seed,
-            integrator: integrator.map(|word| of_word(word, "integrator", Integrator::WORDS)).transpose()?,
-            quality: quality.map(|word| of_word(word, "quality", Quality::WORDS)).transpose()?,
+            integrator: integrator.map(|word| parse_word(word, "integrator", Integrator::WORDS)).transpose()?,
+            quality: quality.map(|word| parse_word(word, "quality", Quality::WORDS)).transpose()?,
             camera,
             sandbox,
             textures: TextureMemory {
@@ -97,7 +97,7 @@ impl Job {
         }
         let job = run(py, None, None, |watch| {
             let job = request.open_in(&files)?;
-            job.notices().iter().for_each(|notice| watch.message(Message::Note(notice)));
+            job.overridden_settings().iter().for_each(|notice| watch.message(Message::Note(notice)));
             Ok(job)
         })?;
         Ok(Self { job })
@@ -179,7 +179,7 @@ impl Job {
             (true, true) => {
                 return Err(PyValueError::new_err("overwrite and resume exclude each other; give one of them"));
             }
-            (false, true) => Existing::Resume,
+            (false, true) => ExistingFiles::Resume,
             (overwrite, false) => existing(overwrite),
         };
         if resume && shard.is_some() {
@@ -197,8 +197,8 @@ impl Job {
             None => self.job.save(&options, &folder, existing, watch),
             Some((index, count)) => {
                 let (spec, frames) = (ShardSpec { index, count }, options.frames.clone());
-                let asked = ShardRequest { spec, frames, films: films.clone().unwrap_or_default() };
-                self.job.save_shard(&asked, options.simd, &folder, existing, watch)
+                let shard_request = ShardRequest { spec, frames, films: films.clone().unwrap_or_default() };
+                self.job.save_shard(&shard_request, options.simd, &folder, existing, watch)
             }
         })
     }
@@ -212,7 +212,7 @@ impl Job {
 /// Path of a job, and its text if it is made in Python.
 fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(PathBuf, Option<String>)> {
     if let Some(keys) = toml::mapping(description)? {
-        return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(&keys)?)));
+        return Ok((folder.unwrap_or_default().join(GENERATED_FILE), Some(toml::file(&keys)?)));
     }
     if folder.is_some() {
         return Err(PyValueError::new_err("folder: has no effect on a job file, which has its own; omit it"));
@@ -244,20 +244,20 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
 
 /// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
-    let told = || PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames");
+    let type_error = || PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames");
     let Some(frames) = frames else { return Ok(0..1) };
     if let Ok(frame) = frames.extract::<u32>() {
-        return Ok(frame..frame.checked_add(1).ok_or_else(told)?);
+        return Ok(frame..frame.checked_add(1).ok_or_else(type_error)?);
     }
     let part = |name: &str| frames.getattr(name).and_then(|part| part.extract::<u32>());
     match (part("start"), part("stop"), part("step")) {
         (Ok(start), Ok(stop), Ok(1)) if start < stop => Ok(start..stop),
-        _ => Err(told()),
+        _ => Err(type_error()),
     }
 }
 
-fn of_word<T: Copy>(word: &str, what: &str, words: &[(&str, T)]) -> PyResult<T> {
-    let found = words.iter().find(|(name, _)| *name == word).map(|(_, value)| *value);
+fn parse_word<T: Copy>(word: &str, option_name: &str, words: &[(&str, T)]) -> PyResult<T> {
+    let matching = words.iter().find(|(name, _)| *name == word).map(|(_, value)| *value);
     let known: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
-    found.ok_or_else(|| PyValueError::new_err(format!("{what}={word:?}: expected one of {}", known.join(", "))))
+    matching.ok_or_else(|| PyValueError::new_err(format!("{option_name}={word:?}: expected one of {}", known.join(", "))))
 }

@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 /// Classes and functions for `import etendue`.
 #[pymodule]
 fn _etendue(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    etendue_cli::quieten_decoders();
+    etendue_cli::silence_decoder_panics();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<job::Job>()?;
     module.add_class::<results::Results>()?;

@@ -2,7 +2,7 @@
 
 use crate::error::exception;
 use crate::toml;
-use etendue::{MemoryFiles, Triangles};
+use etendue::{MemoryFiles, MeshTriangles};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -33,25 +33,25 @@ pub(crate) fn files(
 }
 
 /// Items of an argument that is a mapping, by name.
-fn named<'py>(argument: &str, given: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
-    let Some(given) = given else { return Ok(Vec::new()) };
-    let told = || PyTypeError::new_err(format!("{argument}: expected a dict from names to values"));
-    let given = toml::mapping(given)?.ok_or_else(told)?;
-    given.iter().map(|(name, thing)| Ok((name.extract().map_err(|_| told())?, thing))).collect()
+fn named<'py>(argument: &str, argument_value: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    let Some(value) = argument_value else { return Ok(Vec::new()) };
+    let type_error = || PyTypeError::new_err(format!("{argument}: expected a dict from names to values"));
+    let value = toml::mapping(value)?.ok_or_else(type_error)?;
+    value.iter().map(|(name, element)| Ok((name.extract().map_err(|_| type_error())?, element))).collect()
 }
 
 fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_, PyAny>) -> PyResult<()> {
-    let given = toml::mapping(mesh)?.ok_or_else(|| {
+    let array_dict = toml::mapping(mesh)?.ok_or_else(|| {
         PyTypeError::new_err(format!("meshes[{name:?}]: expected a dict of arrays: {}", ARRAYS.join(", ")))
     })?;
-    if let Some(strange) = given.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {
+    if let Some(unknown_key) = array_dict.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {
         return Err(PyValueError::new_err(format!(
-            "meshes[{name:?}]: unknown array {strange:?}; expected {}",
+            "meshes[{name:?}]: unknown array {unknown_key:?}; expected {}",
             ARRAYS.join(", ")
         )));
     }
-    let array = |key: &str| match given.get_item(key)? {
-        Some(array) if !array.is_none() => Ok(Some(NamedArray { array, told: format!("meshes[{name:?}][{key:?}]") })),
+    let array = |key: &str| match array_dict.get_item(key)? {
+        Some(array) if !array.is_none() => Ok(Some(NamedArray { array, place: format!("meshes[{name:?}][{key:?}]") })),
         _ => Ok::<_, PyErr>(None),
     };
     let needed = |key: &str| {
@@ -61,29 +61,29 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
     let triangles = indices(needed("triangles")?)?;
     let normals = array("normals")?.map(floats::<3>).transpose()?.unwrap_or_default();
     let uvs = array("uvs")?.map(floats::<2>).transpose()?.unwrap_or_default();
-    let mesh = Triangles { positions: &positions, triangles: &triangles, normals: &normals, uvs: &uvs };
-    files.add_mesh(folder.join(name), &mesh).map_err(|error| exception(given.py(), error))
+    let mesh = MeshTriangles { positions: &positions, triangles: &triangles, normals: &normals, uvs: &uvs };
+    files.add_mesh(folder.join(name), &mesh).map_err(|error| exception(array_dict.py(), error))
 }
 
 /// Array of a dict, and its place in words.
 struct NamedArray<'py> {
     array: Bound<'py, PyAny>,
-    told: String,
+    place: String,
 }
 
 /// Rows of `N` numbers.
-fn floats<const N: usize>(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[f32; N]>> {
+fn floats<const N: usize>(NamedArray { array, place: told }: NamedArray<'_>) -> PyResult<Vec<[f32; N]>> {
     let array = rows(&array, N, "fiu", "numbers", &told)?;
     let bytes = bytes(&array, "float32")?;
     Ok(bytes.as_chunks::<4>().0.iter().map(|b| f32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
 }
 
 /// Rows of three indices.
-fn indices(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>> {
+fn indices(NamedArray { array, place: told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>> {
     let array = rows(&array, 3, "iu", "whole numbers", &told)?;
     if array.getattr("size")?.extract::<usize>()? > 0 {
-        let legal = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());
-        if !(legal("min")? && legal("max")?) {
+        let fits_u32 = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());
+        if !(fits_u32("min")? && fits_u32("max")?) {
             return Err(PyValueError::new_err(format!("{told}: expected vertex indices from 0 to 2^32 − 1")));
         }
     }
@@ -92,16 +92,16 @@ fn indices(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>
 }
 
 /// Two-dimensional array with rows of `n` numbers of one of these kinds.
-fn rows<'py>(given: &Bound<'py, PyAny>, n: usize, kinds: &str, what: &str, told: &str) -> PyResult<Bound<'py, PyAny>> {
-    let array = given.py().import("numpy")?.call_method1("asarray", (given,))?;
+fn rows<'py>(array_like: &Bound<'py, PyAny>, n: usize, kinds: &str, content: &str, place: &str) -> PyResult<Bound<'py, PyAny>> {
+    let array = array_like.py().import("numpy")?.call_method1("asarray", (array_like,))?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if !matches!(shape[..], [_, columns] if columns == n) {
-        return Err(PyValueError::new_err(format!("{told}: expected an array of shape (n, {n}), not {shape:?}")));
+        return Err(PyValueError::new_err(format!("{place}: expected an array of shape (n, {n}), not {shape:?}")));
     }
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     match kinds.contains(&kind) {
         true => Ok(array),
-        false => Err(PyTypeError::new_err(format!("{told}: expected {what}, not {}", array.getattr("dtype")?))),
+        false => Err(PyTypeError::new_err(format!("{place}: expected {content}, not {}", array.getattr("dtype")?))),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::watch::run;
-use etendue::Existing;
+use etendue::ExistingFiles;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyList};
@@ -89,10 +89,10 @@ impl Results {
     /// A camera by its name; if light depends on time, of one frame: the first unless another is named.
     #[pyo3(signature = (name, frame = None))]
     fn camera(&self, py: Python<'_>, name: &str, frame: Option<u32>) -> PyResult<Py<Camera>> {
-        let of = |camera: &etendue::CameraResults| {
+        let matches = |camera: &etendue::CameraResults| {
             camera.name() == name && frame.is_none_or(|frame| camera.frame_numbers().contains(&frame))
         };
-        let place = self.results.cameras().iter().position(of).ok_or_else(|| {
+        let place = self.results.cameras().iter().position(matches).ok_or_else(|| {
             let frame = frame.map(|frame| format!(" with frame {frame}")).unwrap_or_default();
             PyKeyError::new_err(format!("there is no camera {name:?}{frame}; available: {}", self.names().join(", ")))
         })?;
@@ -111,6 +111,6 @@ impl Results {
 }
 
 /// Treatment of files of an earlier run.
-pub(crate) fn existing(overwrite: bool) -> Existing {
-    if overwrite { Existing::Replace } else { Existing::Refuse }
+pub(crate) fn existing(overwrite: bool) -> ExistingFiles {
+    if overwrite { ExistingFiles::Replace } else { ExistingFiles::Refuse }
 }

@@ -44,12 +44,12 @@ impl Samples {
     #[getter]
     fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let order = if cfg!(target_endian = "little") { '<' } else { '>' };
-        let told = PyDict::new(py);
-        told.set_item("version", 3)?;
-        told.set_item("shape", PyTuple::new(py, &self.shape)?)?;
-        told.set_item("typestr", format!("{order}{}", self.type_of_number))?;
-        told.set_item("data", (self.address, true))?;
-        Ok(told)
+        let interface = PyDict::new(py);
+        interface.set_item("version", 3)?;
+        interface.set_item("shape", PyTuple::new(py, &self.shape)?)?;
+        interface.set_item("typestr", format!("{order}{}", self.type_of_number))?;
+        interface.set_item("data", (self.address, true))?;
+        Ok(interface)
     }
 }
 

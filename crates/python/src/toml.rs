@@ -10,12 +10,12 @@ use std::path::PathBuf;
 #[pyfunction]
 pub(crate) fn to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
     let mut text = String::new();
-    write(&mut text, value, "", DEPTH)?;
+    write(&mut text, value, "", MAX_DEPTH)?;
     Ok(text)
 }
 
 /// Maximum nesting depth of values: stops at a list that contains itself.
-const DEPTH: usize = 64;
+const MAX_DEPTH: usize = 64;
 
 /// A mapping as a dict; `None` for other values.
 pub(crate) fn mapping<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
@@ -35,7 +35,7 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
         let key = key_of(&key, "")?;
         text.push_str(&quoted(&key));
         text.push_str(" = ");
-        write(&mut text, &value, &key, DEPTH)?;
+        write(&mut text, &value, &key, MAX_DEPTH)?;
         text.push('\n');
     }
     Ok(text)
@@ -45,10 +45,10 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
 pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     let Some(set) = set else { return Ok(Vec::new()) };
     let Some(keys) = mapping(set)? else {
-        let told = "set: expected a dict of keys to values, or a list of str \"key=value\"";
+        let message = "set: expected a dict of keys to values, or a list of str \"key=value\"";
         return match set.is_instance_of::<PyString>() {
-            true => Err(PyTypeError::new_err(told)),
-            false => set.extract().map_err(|_| PyTypeError::new_err(told)),
+            true => Err(PyTypeError::new_err(message)),
+            false => set.extract().map_err(|_| PyTypeError::new_err(message)),
         };
     };
     let change = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
@@ -56,7 +56,7 @@ pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         let mut text = format!("{key}=");
         match value.is_none() {
             true => text.push_str("null"),
-            false => write(&mut text, &value, &key, DEPTH)?,
+            false => write(&mut text, &value, &key, MAX_DEPTH)?,
         }
         Ok(text)
     };
@@ -73,7 +73,7 @@ fn named(key: &str) -> &str {
 
 fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<()> {
     let Some(depth) = depth.checked_sub(1) else {
-        return Err(PyValueError::new_err(format!("{}: values are nested more than {DEPTH} deep", named(key))));
+        return Err(PyValueError::new_err(format!("{}: values are nested more than {MAX_DEPTH} deep", named(key))));
     };
     if let Ok(value) = value.cast::<PyBool>() {
         text.push_str(if value.is_true() { "true" } else { "false" });

@@ -16,7 +16,7 @@ pub(crate) fn call(
 ) -> PyResult<(String, Option<String>)> {
     let answered = run(py, None, progress.as_ref(), |watch| {
         let ended = etendue_cli::call(&arguments, watch);
-        Ok((watch.answer(), ended))
+        Ok((watch.set_result(), ended))
     })?;
     match answered {
         (answer, Ok(())) => Ok((answer, None)),

@@ -13,32 +13,32 @@ const PAUSE: Duration = Duration::from_millis(10);
 const FIRST_PAUSE: Duration = Duration::from_micros(100);
 
 /// Message after a panic, which the panic's own lines on stderr explain.
-const FAULT: &str = "an internal error ended this run, at the place stated on stderr; files with their final names are complete. Please report those lines";
+const PANIC_MESSAGE: &str = "an internal error ended this run, at the place stated on stderr; files with their final names are complete. Please report those lines";
 
 /// Messages of the task that the calling thread passes on.
 pub(crate) struct Watch {
     start: Instant,
     cancelled: AtomicBool,
-    heard: Mutex<Heard>,
+    pending: Mutex<PendingMessages>,
 }
 
 #[derive(Default)]
-struct Heard {
+struct PendingMessages {
     /// Only the latest progress.
     progress: Option<(String, usize, usize)>,
     /// Messages; true for a warning.
     messages: Vec<(bool, String)>,
     /// Result of a verb.
-    answer: String,
+    result: String,
 }
 
 impl Observer for Watch {
     fn message(&self, message: Message<'_>) {
-        let told = match message {
+        let line = match message {
             Message::Note(text) => (false, text.to_owned()),
             Message::Warning(text) => (true, text.to_owned()),
         };
-        self.heard().messages.push(told);
+        self.take_pending().messages.push(line);
     }
 
     fn progress(&self, progress: Progress<'_>) {
@@ -46,7 +46,7 @@ impl Observer for Watch {
             None => progress.heading.to_owned(),
             Some(frame) => format!("{}, frame {} ({}/{})", progress.heading, frame.number, frame.place, frame.count),
         };
-        self.heard().progress = Some((heading, progress.done, progress.total));
+        self.take_pending().progress = Some((heading, progress.done, progress.total));
     }
 
     fn now_s(&self) -> Option<f64> {
@@ -60,10 +60,10 @@ impl Observer for Watch {
 
 impl Console for Watch {
     fn print(&self, text: &str) {
-        self.heard().answer.push_str(text);
+        self.take_pending().result.push_str(text);
     }
 
-    fn tell(&self, line: &str) {
+    fn print_message(&self, line: &str) {
         self.message(Message::Note(line.trim_end()));
     }
 
@@ -74,27 +74,27 @@ impl Console for Watch {
 
 impl Watch {
     fn new() -> Self {
-        Self { start: Instant::now(), cancelled: AtomicBool::new(false), heard: Mutex::default() }
+        Self { start: Instant::now(), cancelled: AtomicBool::new(false), pending: Mutex::default() }
     }
 
-    fn heard(&self) -> MutexGuard<'_, Heard> {
-        self.heard.lock().unwrap_or_else(PoisonError::into_inner)
+    fn take_pending(&self) -> MutexGuard<'_, PendingMessages> {
+        self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Result of a verb.
-    pub(crate) fn answer(&self) -> String {
-        std::mem::take(&mut self.heard().answer)
+    pub(crate) fn set_result(&self) -> String {
+        std::mem::take(&mut self.take_pending().result)
     }
 
     /// Passes on what was received: progress to the caller's function, warnings to `warnings`, notes to `logging`.
-    fn hand_on(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    fn forward_messages(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         py.check_signals()?;
-        let (newest, messages) = {
-            let mut heard = self.heard();
-            (heard.progress.take(), std::mem::take(&mut heard.messages))
+        let (latest, messages) = {
+            let mut pending = self.take_pending();
+            (pending.progress.take(), std::mem::take(&mut pending.messages))
         };
-        if let (Some(progress), Some(newest)) = (progress, newest) {
-            progress.call1(py, newest)?;
+        if let (Some(progress), Some(latest)) = (progress, latest) {
+            progress.call1(py, latest)?;
         }
         for (is_warning, text) in messages {
             let text = terminal_text(&text);
@@ -127,7 +127,7 @@ pub(crate) fn run<T: Send>(
                 let is_done = task.is_finished();
                 // A function that has raised is not called again.
                 let progress = progress.filter(|_| raised.is_none());
-                if let Err(error) = Python::attach(|py| watch.hand_on(py, progress)) {
+                if let Err(error) = Python::attach(|py| watch.forward_messages(py, progress)) {
                     watch.cancelled.store(true, Ordering::Relaxed);
                     raised.get_or_insert(error);
                 }
@@ -142,6 +142,6 @@ pub(crate) fn run<T: Send>(
     match (raised, done) {
         (Some(raised), _) => Err(raised),
         (None, Ok(result)) => result.map_err(|error| exception(py, error)),
-        (None, Err(_)) => Err(exception(py, Error::Run(FAULT.to_owned()))),
+        (None, Err(_)) => Err(exception(py, Error::Run(PANIC_MESSAGE.to_owned()))),
     }
 }

@@ -17,7 +17,7 @@ fn install(folder: &Path) {
     copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("python/etendue"), &package);
     let module = built().join(format!("{}_etendue{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX));
     let name = if cfg!(windows) { "_etendue.pyd" } else { "_etendue.abi3.so" };
-    std::fs::copy(&module, package.join(name)).unwrap_or_else(|cause| panic!("{}: {cause}", module.display()));
+    std::fs::copy(&module, package.join(name)).unwrap_or_else(|error| panic!("{}: {error}", module.display()));
 }
 
 /// Copies a folder of Python files with its subfolders.
@@ -50,8 +50,8 @@ fn passes(test: &str, variable: &str, mark: &str) {
         command.env("ETENDUE_BINARY", program);
     }
     let output = command.output().expect("Python runs");
-    let told = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
-    assert!(output.status.success(), "{told}");
+    let output_text = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
+    assert!(output.status.success(), "{output_text}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Develops raws captured earlier, with a camera file's processing.
 
-use crate::result_files::Files;
-use crate::results::frames::encoded;
+use crate::result_files::ResultFiles;
+use crate::results::frames::encode_picture;
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use clap::Args;
@@ -11,8 +11,8 @@ use etendue_core::quantity::DigitalNumber;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::photograph::{FilterTile, Photograph, RawFacts, RawFrame, read_photograph};
-use etendue_io::{Existing, OutputFolder};
-use etendue_pipeline::photograph::{Developed, developed};
+use etendue_io::{ExistingFiles, OutputFolder};
+use etendue_pipeline::photograph::{DevelopmentResult, developed};
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_plan_report::{camera_facts, open_camera};
 use etendue_sensor::layout::Region;
@@ -35,7 +35,7 @@ pub struct DevelopRequest {
     pub set: Vec<String>,
     /// For raws without a side-car: black level and saturation level, DN, e.g. 64..4095
     #[arg(long, value_name = "BLACK..WHITE")]
-    pub levels: Option<Levels>,
+    pub levels: Option<RawLevels>,
     /// Seed of the noise of the image filters [default: that of the side-car, or 0]
     #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
@@ -52,9 +52,9 @@ impl DevelopRequest {
 ///
 /// # Errors
 /// The camera or the raws cannot be used or contradict each other, or the folder cannot be written.
-pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
+pub fn develop(request: &DevelopRequest, folder: &Path, existing: ExistingFiles) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
-    let camera = Camera::of(&body).ok_or_else(|| {
+    let camera = RawCamera::new(&body).ok_or_else(|| {
         let file = request.camera.display();
         Error::coded(
             ErrorCode::MissingKey,
@@ -64,46 +64,46 @@ pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> R
     let name = camera_stem(&request.camera);
     let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
     let mut writer = ResultWriter { prefix: name, folder: &mut folder };
-    writer.claim(Files::DEVELOPMENT)?;
-    all(&camera, request, &mut writer)?;
+    writer.check_absent(ResultFiles::DEVELOPMENT)?;
+    develop_all(&camera, request, &mut writer)?;
     folder.commit().map_err(Error::run)
 }
 
 /// A camera with processing.
-struct Camera<'a> {
+struct RawCamera<'a> {
     body: &'a CameraBody,
     sensor: &'a Sensor,
     development: &'a Development,
 }
 
-impl<'a> Camera<'a> {
-    fn of(body: &'a CameraBody) -> Option<Self> {
+impl<'a> RawCamera<'a> {
+    fn new(body: &'a CameraBody) -> Option<Self> {
         Some(Self { body, sensor: body.sensor.as_ref()?, development: body.development.as_ref()? })
     }
 }
 
-fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+fn develop_all(camera: &RawCamera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let (mut frames, mut files, mut correlated_block_px) = (Vec::new(), Map::new(), 1);
     for (number, file) in request.raws.iter().enumerate() {
         let mut stored = read_raw(file, request.levels, number as u32, camera.body, camera.sensor)
             .map_err(|words| Error::coded(ErrorCode::UnsuitableFile, words))?;
         correlated_block_px = correlated_block_px.max(stored.correlated_block_px);
         stored.address.seed = request.seed.unwrap_or(stored.address.seed);
-        let name = Files::picture(stored.address.frame, camera.development.format);
+        let name = ResultFiles::picture(stored.address.frame, camera.development.format);
         if files.contains_key(&name) {
-            let told = format!(
+            let problem = format!(
                 "{}: another raw is also frame {}: develop them separately",
                 file.display(),
                 stored.address.frame
             );
-            return Err(Error::coded(ErrorCode::Duplicate, told));
+            return Err(Error::coded(ErrorCode::Duplicate, problem));
         }
-        writer.claim(&name)?;
-        let picture = developed(camera.development, &stored.raw, stored.address)
+        writer.check_absent(&name)?;
+        let image = developed(camera.development, &stored.raw, stored.address)
             .map_err(|error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", file.display())))?;
-        writer.write(&name, encoded(&picture.display, camera.development))?;
-        frames.push(frame(file, &stored, &picture));
-        files.insert(name, Files::picture_entry(camera.development));
+        writer.write(&name, encode_picture(&image.display, camera.development))?;
+        frames.push(frame(file, &stored, &image));
+        files.insert(name, ResultFiles::picture_entry(camera.development));
     }
     let facts = json!({
         "program": "etendue",
@@ -114,25 +114,25 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
         "sampling": { "correlated_block_px": correlated_block_px },
         "files": files,
     });
-    writer.json(Files::DEVELOPMENT, &facts)
+    writer.json(ResultFiles::DEVELOPMENT, &facts)
 }
 
 /// Returns the metadata of a developed raw.
-fn frame(file: &Path, stored: &StoredRaw, picture: &Developed) -> Value {
+fn frame(file: &Path, stored: &StoredRaw, image: &DevelopmentResult) -> Value {
     json!({
         "frame": stored.address.frame,
         "raw": file.file_name().map(|name| name.to_string_lossy()),
         "seed": stored.address.seed,
-        "black_level_dn": picture.facts.black_level_dn,
+        "black_level_dn": image.report.black_level_dn,
         "white_level_dn": stored.raw.linear().white_level_dn,
-        "white_balance": picture.facts.white_balance,
-        "corrected_pixels": picture.facts.corrected_pixels,
+        "white_balance": image.report.white_balance,
+        "corrected_pixels": image.report.corrected_pixels,
     })
 }
 
 /// Black and white level of a raw without a side-car, DN.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Levels {
+pub struct RawLevels {
     /// Black level, DN.
     pub black_dn: f64,
     /// Saturation level, DN.
@@ -140,7 +140,7 @@ pub struct Levels {
 }
 
 /// `BLACK..WHITE`.
-impl FromStr for Levels {
+impl FromStr for RawLevels {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -167,26 +167,26 @@ struct StoredRaw {
 /// Reads a raw of a camera. Without a side-car `levels` are required, and the raw is frame `number`.
 fn read_raw(
     file: &Path,
-    levels: Option<Levels>,
+    levels: Option<RawLevels>,
     number: u32,
     body: &CameraBody,
     sensor: &Sensor,
 ) -> Result<StoredRaw, String> {
-    let photograph = read_photograph(file).map_err(|error| error.to_string())?;
-    let found = match (&photograph.raw, levels) {
-        (None, Some(levels)) => by_levels(&photograph, levels, number, sensor),
+    let image = read_photograph(file).map_err(|error| error.to_string())?;
+    let found = match (&image.raw, levels) {
+        (None, Some(levels)) => from_levels(&image, levels, number, sensor),
         (Some(_), Some(_)) => Err("camera.json next to it states its levels: omit `levels`".to_owned()),
-        (Some(facts), None) => by_side_car(&photograph, facts, sensor),
+        (Some(facts), None) => from_sidecar(&image, facts, sensor),
         (None, None) => {
             Err("no camera.json next to it lists it as raw, so its levels are unknown: put the side-car next to it, \
                              or give `levels` BLACK..WHITE"
                 .to_owned())
         }
     };
-    found.and_then(|stored| fitting(stored, body, sensor)).map_err(|why| format!("{}: {why}", file.display()))
+    found.and_then(|stored| check_size(stored, body, sensor)).map_err(|why| format!("{}: {why}", file.display()))
 }
 
-fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sensor) -> Result<StoredRaw, String> {
+fn from_levels(image: &Photograph, levels: RawLevels, number: u32, sensor: &Sensor) -> Result<StoredRaw, String> {
     if sensor.parameters().hdr.companding.is_some() {
         return Err(
             "the camera's digital numbers are companded, but `levels` applies to linear ones: a raw of this camera \
@@ -196,21 +196,21 @@ fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sens
     }
     let p = sensor.parameters();
     let point = OperatingPoint { exposure_s: p.exposure.exposure_s, analogue_gain: p.read_out.analogue_gain };
-    let whole = [0, 0, photograph.width, photograph.height];
-    let raw = raw(numbers(photograph)?, [levels.black_dn, levels.white_dn], whole, point, sensor);
+    let area_px = [0, 0, image.width, image.height];
+    let raw = raw(numbers(image)?, [levels.black_dn, levels.white_dn], area_px, point, sensor);
     Ok(StoredRaw {
         raw,
         address: FrameAddress { seed: 0, camera: 0, frame: number, capture: 0 },
-        correlated_block_px: photograph.correlated_block_px,
+        correlated_block_px: image.correlated_block_px,
     })
 }
 
-fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Result<StoredRaw, String> {
+fn from_sidecar(image: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Result<StoredRaw, String> {
     let former = "camera.json next to it is from an earlier version and does not state the frame number: render again";
     let frame = facts.frame.as_ref().ok_or(former)?;
-    same_filters(&facts.filters, sensor)?;
-    same_companding(frame, sensor)?;
-    let plane = numbers(photograph)?;
+    check_filters(&facts.filters, sensor)?;
+    check_companding(frame, sensor)?;
+    let plane = numbers(image)?;
     if let Some(dn) = plane.samples().iter().find(|dn| u64::from(**dn) >> frame.bits.min(63) != 0) {
         return Err(format!(
             "it contains the number {dn}, which exceeds the {} bits that camera.json states",
@@ -223,7 +223,7 @@ fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Re
     Ok(StoredRaw {
         raw,
         address: FrameAddress { seed, camera, frame, capture: 0 },
-        correlated_block_px: photograph.correlated_block_px,
+        correlated_block_px: image.correlated_block_px,
     })
 }
 
@@ -240,7 +240,7 @@ fn raw(
         white_level_dn,
         bits: sensor.delivered_bits(),
         companding: sensor.parameters().hdr.companding.clone(),
-        picture: Region { x, y, width, height },
+        image: Region { x, y, width, height },
         operating_point,
         accounts: Vec::new(),
         invalid: Vec::new(),
@@ -248,35 +248,35 @@ fn raw(
 }
 
 /// Digital numbers of a single-channel image.
-fn numbers(photograph: &Photograph) -> Result<Plane<DigitalNumber>, String> {
-    let ([channel], Some(_)) = (&photograph.channels[..], photograph.full_scale) else {
-        let names = photograph.names().join(", ");
+fn numbers(image: &Photograph) -> Result<Plane<DigitalNumber>, String> {
+    let ([channel], Some(_)) = (&image.channels[..], image.full_scale) else {
+        let names = image.names().join(", ");
         return Err(format!("a raw is a greyscale image of whole numbers (PNG, TIFF, DNG); this one has {names}"));
     };
     // Floats represent whole numbers exactly up to here.
-    const LARGEST: f32 = 16_777_215.0;
-    if let Some(beyond) = channel.samples.iter().find(|v| **v > LARGEST) {
+    const MAX_SAMPLES: f32 = 16_777_215.0;
+    if let Some(beyond) = channel.samples.iter().find(|v| **v > MAX_SAMPLES) {
         return Err(format!("it contains the number {beyond}, which exceeds the 24 bits of raws"));
     }
     let samples = channel.samples.iter().map(|v| *v as u32).collect();
-    Ok(Plane::from_samples(photograph.width, photograph.height, samples).expect("as many samples as pixels"))
+    Ok(Plane::from_samples(image.width, image.height, samples).expect("as many samples as pixels"))
 }
 
-fn same_filters(stated: &FilterTile, sensor: &Sensor) -> Result<(), String> {
+fn check_filters(raw_filters: &FilterTile, sensor: &Sensor) -> Result<(), String> {
     let p = sensor.parameters();
     let names = p.cfa.channels().iter().map(|channel| p.channels[*channel].name.clone());
     let own = FilterTile { columns: p.cfa.width(), channels: names.collect() };
     let words = |tile: &FilterTile| format!("{} in {} columns", tile.channels.join(" "), tile.columns);
-    if own == *stated {
+    if own == *raw_filters {
         return Ok(());
     }
-    let (stated, own) = (words(stated), words(&own));
+    let (raw_words, own) = (words(raw_filters), words(&own));
     Err(format!(
-        "its colour filters are {stated} in camera.json, but {own} in the camera file: give the camera that captured it"
+        "its colour filters are {raw_words} in camera.json, but {own} in the camera file: give the camera that captured it"
     ))
 }
 
-fn same_companding(frame: &RawFrame, sensor: &Sensor) -> Result<(), String> {
+fn check_companding(frame: &RawFrame, sensor: &Sensor) -> Result<(), String> {
     let own = sensor.parameters().hdr.companding.as_ref().map(|companding| &companding.knees);
     if own == frame.companding_knees_dn.as_ref() && frame.bits == sensor.delivered_bits() {
         return Ok(());
@@ -286,8 +286,8 @@ fn same_companding(frame: &RawFrame, sensor: &Sensor) -> Result<(), String> {
 }
 
 /// Refuses a raw whose size differs from the camera's.
-fn fitting(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<StoredRaw, String> {
-    let (Region { x, y, width, height }, plane) = (stored.raw.picture, &stored.raw.plane);
+fn check_size(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<StoredRaw, String> {
+    let (Region { x, y, width, height }, plane) = (stored.raw.image, &stored.raw.plane);
     let inside = |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
     if !(inside(x, width, plane.width()) && inside(y, height, plane.height())) {
         return Err(format!(
@@ -296,7 +296,7 @@ fn fitting(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<Stor
             plane.height()
         ));
     }
-    let own = sensor.picture_size(body.raster.width(), body.raster.height());
+    let own = sensor.image_size(body.raster.width(), body.raster.height());
     if own != (width, height) {
         return Err(format!(
             "its image has {width} × {height} pixels, but that of the camera file {} × {}",
@@ -312,8 +312,8 @@ mod tests {
 
     #[test]
     fn levels_are_a_range() {
-        let levels = |text: &str| text.parse::<Levels>();
-        assert_eq!(levels("63.5..4095"), Ok(Levels { black_dn: 63.5, white_dn: 4095.0 }));
+        let levels = |text: &str| text.parse::<RawLevels>();
+        assert_eq!(levels("63.5..4095"), Ok(RawLevels { black_dn: 63.5, white_dn: 4095.0 }));
         assert!(["64", "5..5", "-1..5", "0..inf", "a..b"].iter().all(|text| levels(text).is_err()));
     }
 }

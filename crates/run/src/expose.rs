@@ -1,7 +1,7 @@
 //! Exposes stored radiance with another lens and sensor.
 
-use crate::result_files::Files;
-use crate::results::frames::{Wanted, frames, write_frames};
+use crate::result_files::ResultFiles;
+use crate::results::frames::{FrameProducts, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use clap::Args;
@@ -12,11 +12,11 @@ use etendue_core::{Plane, SpectralCube};
 use etendue_io::exr::{SpectralImage, read_spectral};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
-use etendue_io::{Existing, OutputFolder, Provenance};
+use etendue_io::{ExistingFiles, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, OpticsError, PupilProjection};
-use etendue_pipeline::defocus::held_margin_px;
+use etendue_pipeline::defocus::available_margin_px;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::{CameraBody, Products, usual_raw_format};
+use etendue_pipeline::plan::{CameraBody, Products, default_raw_format};
 use etendue_pipeline::stored;
 use etendue_plan_report::{camera_facts, open_camera};
 use etendue_sensor::{FrameAddress, SensorState};
@@ -62,7 +62,7 @@ impl ExposeRequest {
 pub fn expose(
     request: &ExposeRequest,
     folder: &Path,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
@@ -70,8 +70,8 @@ pub fn expose(
     check_shutter(&body, &stored, request, observer)?;
     let name = camera_stem(&request.camera);
     let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
-    let files = Files::of(&products(&body), &body, &request.frames);
-    let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
+    let files = ResultFiles::for_products(&products(&body), &body, &request.frames);
+    let claimed = files.keys().map(String::as_str).chain([ResultFiles::SIDECAR]);
     let claimed: Vec<String> = claimed.map(|file| format!("{name}/{file}")).collect();
     folder.claim(claimed.iter().map(String::as_str)).map_err(Error::input)?;
     write(&body, &stored, request, observer, &mut ResultWriter { prefix: name, folder: &mut folder })?;
@@ -114,7 +114,7 @@ fn products(body: &CameraBody) -> Products {
         irradiance: true,
         ghosts: body.effects.ghosts().is_some(),
         raw: body.sensor.is_some(),
-        raw_format: usual_raw_format(body.sensor.as_ref()),
+        raw_format: default_raw_format(body.sensor.as_ref()),
         picture: body.development.is_some(),
         ..Products::default()
     }
@@ -128,7 +128,7 @@ fn write(
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
     let StoredRadiance { radiance, projection, distance, .. } = stored;
-    let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
+    let at_pupil = stored::StoredRadianceImage { projection, radiance, distance: distance.as_ref() };
     let refuse = |error: OpticsError| {
         let (radiance, camera) = (request.radiance.display(), request.camera.display());
         Error::coded(ErrorCode::UnsuitableFile, format!("{radiance} through {camera}: {error}{}", margin(body)))
@@ -138,13 +138,13 @@ fn write(
     let light = Light::at_pupil(body, &at_pupil, &depth_of_field).map_err(refuse)?;
     let seed = request.seed.unwrap_or(stored.provenance.seed);
     let facts = metadata::exposed_provenance(&stored.provenance, &writer.prefix, seed);
-    writer.irradiance(Files::IRRADIANCE, &light, false, &facts)?;
-    writer.ghosts(Files::GHOSTS, &light, &facts)?;
+    writer.irradiance(ResultFiles::IRRADIANCE, &light, false, &facts)?;
+    writer.ghosts(ResultFiles::GHOSTS, &light, &facts)?;
     let mut points = Vec::new();
     if let Some(captures) = light.captures() {
         let address = |frame| FrameAddress { seed, camera: stored.camera_index(), frame, capture: 0 };
         let products = products(body);
-        let wanted = Wanted {
+        let frame_products = FrameProducts {
             products: &products,
             camera: &writer.prefix.clone(),
             facts: &facts,
@@ -152,12 +152,12 @@ fn write(
             one_by_one: false,
             observer,
         };
-        let taken = frames(body, captures, request.frames.clone(), SensorState::default(), address, false);
-        points = write_frames(body, taken, address, wanted, writer)?;
+        let frames_taken = frames(body, captures, request.frames.clone(), SensorState::default(), address, false);
+        points = write_frames(body, frames_taken, address, frame_products, writer)?;
     }
     let mut facts = sidecar(body, stored, request, seed, &depth_of_field);
     facts["frames"] = points.into();
-    writer.json(Files::SIDECAR, &facts)
+    writer.json(ResultFiles::SIDECAR, &facts)
 }
 
 /// Describes the margin that the camera's effects need outside its image; empty if they need none.
@@ -194,7 +194,7 @@ fn depth_of_field(
             format!("`depth_of_field` physical has no effect: the lens of {} has no defocus", request.camera.display()),
         )
         .with_code(ErrorCode::NoEffect)),
-        Some(asked) => Ok(asked),
+        Some(requested) => Ok(requested),
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {
             if blurs {
@@ -213,11 +213,11 @@ fn warn_of_margin(
     depth_of_field: &DepthOfField,
     observer: &dyn Observer,
 ) -> Result<(), OpticsError> {
-    let wanted = body.blur_margin_px(depth_of_field);
-    let held = held_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
-    if held < wanted {
+    let needed = body.blur_margin_px(depth_of_field);
+    let available = available_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
+    if available < needed {
         observer.message(Message::Warning(&format!(
-            "depth of field needs {wanted} px around the image, but the file has {held}: blur is cut off at its \
+            "depth of field needs {needed} px around the image, but the file has {available}: blur is cut off at its \
              edges; render with more overscan"
         )));
     }
@@ -248,7 +248,7 @@ fn sidecar(
         "route": "pupil",
         "sampling": { "correlated_block_px": stored.correlated_block_px() },
         "depth_of_field": camera_facts::depth_of_field(depth_of_field),
-        "files": Files::of(&products(body), body, &request.frames),
+        "files": ResultFiles::for_products(&products(body), body, &request.frames),
         "time_s": stored.provenance.time_s,
     })
 }
@@ -310,7 +310,7 @@ fn blur_method(text: &str) -> Result<DepthOfField, String> {
 }
 
 fn blend(keys: &str) -> Result<FastBlend, String> {
-    let (mut near, mut far, mut blur_px) = (None, None, None);
+    let (mut near, mut distant, mut blur_px) = (None, None, None);
     for pair in keys.split(',') {
         let expected = || format!("expected blur_px=NUMBER, near_m=FROM..TO or far_m=FROM..TO, not '{pair}'");
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| expected());
@@ -322,16 +322,16 @@ fn blend(keys: &str) -> Result<FastBlend, String> {
         match key.trim() {
             "blur_px" => blur_px = Some(number(value)?),
             "near_m" => near = Some(range()?),
-            "far_m" => far = Some(range()?),
+            "far_m" => distant = Some(range()?),
             _ => return Err(expected()),
         }
     }
     let blur_px = blur_px.ok_or("the diameter of the blur is missing: add blur_px=NUMBER")?;
-    if near.is_none() && far.is_none() {
+    if near.is_none() && distant.is_none() {
         return Err("this blurs nothing: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
     }
     let (blurred_near_m, sharp_near_m) = near.unwrap_or((0.0, 0.0));
-    let (sharp_far_m, blurred_far_m) = far.unwrap_or((f64::INFINITY, f64::INFINITY));
+    let (sharp_far_m, blurred_far_m) = distant.unwrap_or((f64::INFINITY, f64::INFINITY));
     let parameters = FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px };
     FastBlend::new(parameters).map_err(|error| error.to_string())
 }
@@ -344,8 +344,8 @@ mod tests {
     fn depth_of_field_is_a_word_or_a_look_with_numbers() {
         assert_eq!(blur_method("physical"), Ok(DepthOfField::Physical));
         assert_eq!(blur_method("none"), Ok(DepthOfField::None));
-        let look = blur_method("fast:blur_px=8,far_m=10..40");
-        let Ok(DepthOfField::Fast(blend)) = look else { panic!("{look:?}") };
+        let parametric = blur_method("fast:blur_px=8,far_m=10..40");
+        let Ok(DepthOfField::Fast(blend)) = parametric else { panic!("{parametric:?}") };
         let p = blend.parameters();
         assert_eq!((p.blur_px, p.sharp_near_m, p.sharp_far_m, p.blurred_far_m), (8.0, 0.0, 10.0, 40.0));
         let wrong = [

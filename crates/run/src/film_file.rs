@@ -12,13 +12,13 @@ use crate::results::writer::write_exr;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
-use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
+use etendue_io::exr::{ExrFile, ExrImage, ExrLayer, ExrSamples, layers_image, read_exr_within};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Passes, TimeDependence};
-use etendue_pipeline::render::Shot;
+use etendue_pipeline::render::FrameCapture;
 use etendue_pipeline::tile::{Shard, tiles};
 use std::fs::DirEntry;
 use std::path::Path;
@@ -27,8 +27,8 @@ use std::path::Path;
 const FILM: &str = ".film.exr";
 
 /// File name of a camera's film; includes frame and capture where each has its own film.
-pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
-    let Shot { frame, capture } = shot;
+pub(crate) fn film_name(camera: &CameraPlan, frame_capture: FrameCapture) -> String {
+    let FrameCapture { frame, capture } = frame_capture;
     match camera.time {
         TimeDependence::None => format!("{}{FILM}", camera.name),
         TimeDependence::Lights | TimeDependence::Motion => format!("{}.{frame:04}.{capture}{FILM}", camera.name),
@@ -48,23 +48,23 @@ pub(crate) fn holds_state(folder: &Path) -> bool {
 /// The image of a film, ready to write.
 pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
     let mut layers = vec![
-        ("weight".to_owned(), Layer::Float(film.weight.samples())),
-        ("samples".to_owned(), Layer::Uint(film.samples.samples())),
-        ("not_finite".to_owned(), Layer::Uint(film.not_finite.samples())),
+        ("weight".to_owned(), ExrLayer::Float(film.weight.samples())),
+        ("samples".to_owned(), ExrLayer::Uint(film.samples.samples())),
+        ("not_finite".to_owned(), ExrLayer::Uint(film.not_finite.samples())),
     ];
     if let Some((bands, [mean, variance])) = film.bands() {
         for i in 0..bands.count() {
-            layers.push((format!("band.{i:04}.mean"), Layer::Band(mean, i)));
-            layers.push((format!("band.{i:04}.variance"), Layer::Band(variance, i)));
+            layers.push((format!("band.{i:04}.mean"), ExrLayer::Band(mean, i)));
+            layers.push((format!("band.{i:04}.variance"), ExrLayer::Band(variance, i)));
         }
     }
     if let Some(rate) = &film.electron_rate {
-        layers.push(("electron_rate.mean".to_owned(), Layer::Float(rate.mean.samples())));
-        layers.push(("electron_rate.variance".to_owned(), Layer::Float(rate.variance.samples())));
+        layers.push(("electron_rate.mean".to_owned(), ExrLayer::Float(rate.mean.samples())));
+        layers.push(("electron_rate.variance".to_owned(), ExrLayer::Float(rate.variance.samples())));
     }
     if let Some(watched) = &film.watched {
-        layers.push(("watched.mean".to_owned(), Layer::Float(watched.mean.samples())));
-        layers.push(("watched.variance".to_owned(), Layer::Float(watched.variance.samples())));
+        layers.push(("watched.mean".to_owned(), ExrLayer::Float(watched.mean.samples())));
+        layers.push(("watched.variance".to_owned(), ExrLayer::Float(watched.variance.samples())));
     }
     layers_image(film.weight.width(), film.weight.height(), &layers, facts)
 }
@@ -81,7 +81,7 @@ pub(crate) struct FilmOrigin<'a> {
     /// The first of the cameras that share the light.
     pub(crate) camera: &'a CameraPlan,
     /// Frame and capture.
-    pub(crate) shot: Shot,
+    pub(crate) frame_capture: FrameCapture,
     /// The tiles that the film holds.
     pub(crate) shard: Shard,
 }
@@ -89,34 +89,34 @@ pub(crate) struct FilmOrigin<'a> {
 impl FilmOrigin<'_> {
     /// The facts of the header.
     pub(crate) fn facts(&self) -> Provenance {
-        let mut facts = metadata::provenance(self.plan, self.camera, self.shot.frame);
-        facts.further.insert(CAPTURE.to_owned(), self.shot.capture.to_string());
+        let mut facts = metadata::provenance(self.plan, self.camera, self.frame_capture.frame);
+        facts.further.insert(CAPTURE.to_owned(), self.frame_capture.capture.to_string());
         facts.further.insert(SHARD.to_owned(), format!("{}/{}", self.shard.index(), self.shard.count()));
         facts
     }
 
     /// Describes the first fact of a header that differs.
-    fn difference(&self, found: &Provenance) -> Option<String> {
+    fn difference(&self, actual: &Provenance) -> Option<String> {
         let expected = self.facts();
         let further = |facts: &Provenance, name: &str| facts.further.get(name).cloned().unwrap_or_default();
         let pairs = [
-            ("plan", expected.plan_hash.clone(), found.plan_hash.clone()),
-            ("seed", expected.seed.to_string(), found.seed.to_string()),
-            ("camera", expected.camera.clone(), found.camera.clone()),
-            ("frame", expected.frame.to_string(), found.frame.to_string()),
-            (CAPTURE, further(&expected, CAPTURE), further(found, CAPTURE)),
-            (SHARD, further(&expected, SHARD), further(found, SHARD)),
+            ("plan", expected.plan_hash.clone(), actual.plan_hash.clone()),
+            ("seed", expected.seed.to_string(), actual.seed.to_string()),
+            ("camera", expected.camera.clone(), actual.camera.clone()),
+            ("frame", expected.frame.to_string(), actual.frame.to_string()),
+            (CAPTURE, further(&expected, CAPTURE), further(actual, CAPTURE)),
+            (SHARD, further(&expected, SHARD), further(actual, SHARD)),
         ];
-        let (name, expected, found) = pairs.into_iter().find(|(_, expected, found)| expected != found)?;
+        let (name, expected, actual) = pairs.into_iter().find(|(_, expected, actual)| expected != actual)?;
         if name == "plan" {
             return Some("it belongs to a run of another plan".to_owned());
         }
-        let stated = if found.is_empty() { format!("no {name}") } else { format!("the {name} {found}") };
-        Some(format!("its header states {stated}; expected {expected}"))
+        let raw_text = if actual.is_empty() { format!("no {name}") } else { format!("the {name} {actual}") };
+        Some(format!("its header states {raw_text}; expected {expected}"))
     }
 
     /// Describes an error in the numbers of a film.
-    fn fault(&self, film: &Film) -> Option<String> {
+    fn film_error(&self, film: &Film) -> Option<String> {
         let (width, height) = self.camera.film_size();
         let own = tiles(width, height, self.camera.settings.tile_px, self.shard);
         let sampled = |x: u32, y: u32| film.samples.at(x as usize, y as usize) > 0;
@@ -155,20 +155,20 @@ impl FilmOrigin<'_> {
 /// # Errors
 /// The file cannot be read, is of another origin, is incomplete, or has numbers that are not finite.
 pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result<(Film, Provenance), Error> {
-    let refused = |why: &str| Error::coded(ErrorCode::OtherRun, format!("{}: {why}; {remedy}", path.display()));
+    let error = |why: &str| Error::coded(ErrorCode::OtherRun, format!("{}: {why}; {remedy}", path.display()));
     let camera = origin.camera;
     let (width, height) = camera.film_size();
     // Most of a shard's film is black and compresses well.
-    let most_bytes = camera.film_layout().bytes(width as usize, height as usize) as u64;
-    let file = read_exr_within(path, most_bytes).map_err(Error::input)?;
+    let max_bytes = camera.film_layout().bytes(width as usize, height as usize) as u64;
+    let file = read_exr_within(path, max_bytes).map_err(Error::input)?;
     let facts = file.provenance();
     if let Some(why) = origin.difference(&facts) {
-        return Err(refused(&why));
+        return Err(error(&why));
     }
     let film = decode(&file, camera);
-    let film = film.ok_or_else(|| refused(&format!("this is not the film of camera {}", camera.name)))?;
-    match origin.fault(&film) {
-        Some(why) => Err(refused(&why)),
+    let film = film.ok_or_else(|| error(&format!("this is not the film of camera {}", camera.name)))?;
+    match origin.film_error(&film) {
+        Some(why) => Err(error(&why)),
         None => Ok((film, facts)),
     }
 }
@@ -201,7 +201,7 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
 
 fn fill<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, file: &ExrFile, name: &str) -> Option<()> {
     match file.channel(name)? {
-        Samples::Float(values) if values.len() == plane.samples().len() => {
+        ExrSamples::Float(values) if values.len() == plane.samples().len() => {
             plane.samples_mut().copy_from_slice(values);
             Some(())
         }
@@ -211,7 +211,7 @@ fn fill<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, file: &ExrFile, name: &
 
 fn fill_counts(plane: &mut Plane<Identity>, file: &ExrFile, name: &str) -> Option<()> {
     match file.channel(name)? {
-        Samples::Uint(values) if values.len() == plane.samples().len() => {
+        ExrSamples::Uint(values) if values.len() == plane.samples().len() => {
             plane.samples_mut().copy_from_slice(values);
             Some(())
         }
@@ -236,8 +236,8 @@ pub(crate) struct StoredPasses {
 }
 
 /// Path, within an output folder, of the stored state of a film.
-pub(crate) fn state_name(camera: &CameraPlan, shot: Shot) -> String {
-    format!("{STATE_FOLDER}/{}", film_name(camera, shot))
+pub(crate) fn state_name(camera: &CameraPlan, frame_capture: FrameCapture) -> String {
+    format!("{STATE_FOLDER}/{}", film_name(camera, frame_capture))
 }
 
 /// Removes the state in an output folder: the films, and their folder if it is then empty.
@@ -250,9 +250,9 @@ pub(crate) fn remove_state(folder: &OutputFolder) -> Result<(), etendue_io::Erro
 }
 
 /// Refuses a folder with the state of another run that the run may neither resume nor replace, and a link in place of the state.
-pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(), Error> {
+pub(crate) fn check_state(folder: &OutputFolder, existing: ExistingFiles) -> Result<(), Error> {
     folder.files_in(STATE_FOLDER).map_err(Error::input)?;
-    if existing != Existing::Refuse || !holds_state(folder.path()) {
+    if existing != ExistingFiles::Refuse || !holds_state(folder.path()) {
         return Ok(());
     }
     Err(Error::coded(
@@ -269,7 +269,7 @@ pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(
 /// # Errors
 /// It is of another origin, or cannot be read.
 pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Option<(Film, StoredPasses)>, Error> {
-    let path = folder.join(state_name(origin.camera, origin.shot));
+    let path = folder.join(state_name(origin.camera, origin.frame_capture));
     if !path.exists() {
         return Ok(None);
     }
@@ -277,7 +277,7 @@ pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Optio
     let (film, facts) = read(&path, origin, remedy)?;
     let fact = |name: &str| facts.further.get(name);
     let replicates = fact(REPLICATES).and_then(|text| text.parse().ok());
-    let passes = fact(PASSES).zip(replicates).and_then(|(text, replicates)| Passes::of_text(text, replicates));
+    let passes = fact(PASSES).zip(replicates).and_then(|(text, replicates)| Passes::from_text(text, replicates));
     let elapsed_s = fact(SECONDS).and_then(|text| text.parse().ok()).filter(|s: &f64| s.is_finite() && *s >= 0.0);
     match (passes, replicates, elapsed_s) {
         (Some(passes), Some(replicates), Some(elapsed_s)) if !passes.list().is_empty() => {
@@ -301,5 +301,5 @@ pub(crate) fn write_state(
     facts.further.insert(PASSES.to_owned(), stored.passes.text());
     facts.further.insert(REPLICATES.to_owned(), stored.replicates.to_string());
     facts.further.insert(SECONDS.to_owned(), stored.elapsed_s.to_string());
-    write_exr(folder, &state_name(origin.camera, origin.shot), image(film, &facts))
+    write_exr(folder, &state_name(origin.camera, origin.frame_capture), image(film, &facts))
 }

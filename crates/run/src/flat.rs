@@ -1,18 +1,18 @@
 //! Uniform illumination on a camera's bare sensor.
 
-use crate::result_files::Files;
-use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
+use crate::result_files::ResultFiles;
+use crate::results::frames::{FrameProducts, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::failure::{check_number, check_whole};
+use etendue_io::failure::{check_number, check_integer};
 use etendue_io::paths::camera_stem;
-use etendue_io::{Existing, OutputFolder, Provenance};
-use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
-use etendue_pipeline::plan::{CameraBody, Products, usual_raw_format};
+use etendue_io::{ExistingFiles, OutputFolder, Provenance};
+use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, FrameStack};
+use etendue_pipeline::plan::{CameraBody, Products, default_raw_format};
 use etendue_plan_report::camera_facts;
 use etendue_plan_report::open_camera;
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
@@ -173,8 +173,8 @@ impl FlatRequest {
             FlatSource::Irradiance { w_m2 } => check_number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
             FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
-                check_whole("photon_transfer", levels, LEVELS)?;
-                check_whole("stack", stack, LEVELS)
+                check_integer("photon_transfer", levels, LEVELS)?;
+                check_integer("stack", stack, LEVELS)
             }
         }
     }
@@ -188,14 +188,14 @@ impl FlatRequest {
 pub fn flat(
     request: &FlatRequest,
     folder: &Path,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     request.check()?;
     let body = body(request)?;
     let name = camera_stem(&request.camera);
     let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
-    let task = Task { request, body: &body, sensor: body.sensor.as_ref().expect("checked above"), observer };
+    let task = FlatRun { request, body: &body, sensor: body.sensor.as_ref().expect("checked above"), observer };
     let mut writer = ResultWriter { prefix: name, folder: &mut folder };
     match request.source {
         FlatSource::PhotonTransfer { levels, stack } => {
@@ -203,8 +203,8 @@ pub fn flat(
                 Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", request.camera.display()))
             })?;
             let frames = series.stacks.iter().flat_map(|stack| stack.frames.clone()).map(|n| task.file(n));
-            let mut files = frames.chain([DESCRIPTOR.to_owned(), Files::SIDECAR.to_owned()]);
-            files.try_for_each(|file| writer.claim(&file))?;
+            let mut files = frames.chain([DESCRIPTOR.to_owned(), ResultFiles::SIDECAR.to_owned()]);
+            files.try_for_each(|file| writer.check_absent(&file))?;
             task.series(&series, &mut writer)?;
         }
         FlatSource::Irradiance { w_m2 } => {
@@ -212,7 +212,7 @@ pub fn flat(
             task.single(light, &format!("`irradiance_w_m2` {w_m2:e}"), &mut writer)?;
         }
         FlatSource::Photons { per_pixel } => {
-            let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel).map_err(|error| {
+            let light = FlatLight::from_photons(task.sensor, request.wavelength_nm, per_pixel).map_err(|error| {
                 Error::argument("photons", format!("`photons` {per_pixel}: {error}")).with_code(ErrorCode::OutOfRange)
             })?;
             task.single(light, &format!("`photons` {per_pixel:e}"), &mut writer)?;
@@ -223,28 +223,28 @@ pub fn flat(
 
 fn body(request: &FlatRequest) -> Result<CameraBody, Error> {
     let body = open_camera(&request.camera, &request.set)?;
-    let lack = || {
+    let absent_reason = || {
         Error::coded(
             ErrorCode::MissingKey,
             format!("{}: the sensor has no electronics: add them", request.camera.display()),
         )
     };
-    flat::bare(&body).ok_or_else(lack)
+    flat::bare(&body).ok_or_else(absent_reason)
 }
 
 /// The request with the compiled camera and its output.
-struct Task<'a> {
+struct FlatRun<'a> {
     request: &'a FlatRequest,
     body: &'a CameraBody,
     sensor: &'a Sensor,
     observer: &'a dyn Observer,
 }
 
-impl Task<'_> {
+impl FlatRun<'_> {
     fn products(&self) -> Products {
         Products {
             raw: true,
-            raw_format: usual_raw_format(Some(self.sensor)),
+            raw_format: default_raw_format(Some(self.sensor)),
             signal_breakdown: self.request.signal_breakdown,
             picture: self.body.development.is_some(),
             ..Products::default()
@@ -252,7 +252,7 @@ impl Task<'_> {
     }
 
     fn file(&self, frame: u32) -> String {
-        Files::raw(frame, self.products().raw_format)
+        ResultFiles::raw(frame, self.products().raw_format)
     }
 
     fn seed(&self) -> u64 {
@@ -264,17 +264,17 @@ impl Task<'_> {
     }
 
     /// Single frames of one light; `given` is its description in the facts.
-    fn single(&self, light: FlatLight, given: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let files = Files::of(&self.products(), self.body, &self.request.frames);
-        files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
+    fn single(&self, light: FlatLight, key: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let files = ResultFiles::for_products(&self.products(), self.body, &self.request.frames);
+        files.keys().map(String::as_str).chain([ResultFiles::SIDECAR]).try_for_each(|file| writer.check_absent(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
-        if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
+        if let Some(electrons_e) = electrons.samples().iter().find(|e| **e > MAX_E) {
             let why =
-                format!("gives {most:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
-            return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
+                format!("gives {electrons_e:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
+            return Err(Error::coded(ErrorCode::OutOfRange, format!("{key}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
-        let wanted = Wanted {
+        let frame_products = FrameProducts {
             products: &products,
             camera: &camera,
             facts: &facts,
@@ -284,14 +284,14 @@ impl Task<'_> {
         };
         let steady = CaptureLight::steady(&electrons);
         let (numbers, before) = (self.request.frames.clone(), SensorState::default());
-        let taken = frames(self.body, steady, numbers, before, |n| self.address(n), products.signal_breakdown);
-        let points = write_frames(self.body, taken, |n| self.address(n), wanted, writer)?;
+        let captured = frames(self.body, steady, numbers, before, |n| self.address(n), products.signal_breakdown);
+        let points = write_frames(self.body, captured, |n| self.address(n), frame_products, writer)?;
         let mut facts = self.sidecar(light);
         facts["light"]["photons_per_pixel"] =
             flat::photons(self.sensor, light, self.sensor.parameters().exposure.exposure_s).into();
         facts["files"] = json!(files);
         facts["frames"] = points.into();
-        writer.json(Files::SIDECAR, &facts)
+        writer.json(ResultFiles::SIDECAR, &facts)
     }
 
     /// The series of EMVA 1288.
@@ -307,15 +307,15 @@ impl Task<'_> {
         }
         writer.write(DESCRIPTOR, Ok(self.descriptor(series, columns, rows).into_bytes()))?;
         let mut facts = self.sidecar(series.light);
-        let stack = |s: &Stack| json!({ "exposure_s": s.exposure_s, "photons_per_pixel": s.photons, "frames": [s.frames.start, s.frames.end] });
+        let stack = |s: &FrameStack| json!({ "exposure_s": s.exposure_s, "photons_per_pixel": s.photons, "frames": [s.frames.start, s.frames.end] });
         facts["stacks"] = series.stacks.iter().map(stack).collect();
-        writer.json(Files::SIDECAR, &facts)
+        writer.json(ResultFiles::SIDECAR, &facts)
     }
 
     /// Writes the frames of a stack; returns their size.
-    fn stack(&self, stack: &Stack, light: FlatLight, writer: &mut ResultWriter<'_>) -> Result<(usize, usize), Error> {
-        let lit = f64::from(u8::from(stack.photons > 0.0));
-        let light = FlatLight { irradiance_w_m2: lit * light.irradiance_w_m2, ..light };
+    fn stack(&self, stack: &FrameStack, light: FlatLight, writer: &mut ResultWriter<'_>) -> Result<(usize, usize), Error> {
+        let light_factor = f64::from(u8::from(stack.photons > 0.0));
+        let light = FlatLight { irradiance_w_m2: light_factor * light.irradiance_w_m2, ..light };
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         let (mut state, mut size) = (SensorState::default(), (0, 0));
         for number in stack.frames.clone() {

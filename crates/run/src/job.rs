@@ -3,14 +3,14 @@
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
 use crate::memory_limits;
-use crate::results::{CameraResults, Results, Sequence};
+use crate::results::{CameraResults, Results, FrameSequence};
 use crate::rig;
 use crate::run::Run;
 use crate::run::films::check_frames;
 use crate::run::store::{NoStore, RunFolder};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
-use etendue_io::{CacheUse, Existing, OutputFolder, complete_assets};
+use etendue_io::{CacheUse, ExistingFiles, OutputFolder, complete_assets};
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::report::RunMemory;
 use etendue_pipeline::report::effects::PlannedEffect;
@@ -37,9 +37,9 @@ impl JobRequest {
     /// All errors of the job and of the files that it names.
     pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
         self.check()?;
-        let sandbox = self.folders()?.noting();
+        let sandbox = self.folders()?.recording();
         let description = Description::load(&self.job, &|path| files.read(path, &sandbox), &self.overrides());
-        let description = description.map_err(|faults| Error::inputs(faults.list()))?;
+        let description = description.map_err(|errors| Error::inputs(errors.as_slice()))?;
         let assets = complete_assets(files.assets().clone(), &description.assets(), &self.texture_memory(), &sandbox);
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
@@ -47,7 +47,7 @@ impl JobRequest {
         // Scratch files are removed at the end.
         let stays = self.textures.cache_use == CacheUse::KeepInOutput;
         plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref().filter(|_| !stays)));
-        let (plan, mut files) = (Arc::new(plan), sandbox.looked_for());
+        let (plan, mut files) = (Arc::new(plan), sandbox.requested_files());
         files.retain(|path| path.is_file());
         Ok(Job { request: self, plan, files: files.into() })
     }
@@ -91,7 +91,7 @@ impl Job {
     /// The plan as machine-readable data.
     #[must_use]
     pub fn report(&self) -> PlanReport {
-        PlanReport::of(&self.request.job, &self.plan)
+        PlanReport::new(&self.request.job, &self.plan)
     }
 
     /// All effects that can cost time or change a frame, by camera: whether each is modelled, its cost, and the changes of keys ([`JobRequest::set`]) that
@@ -103,8 +103,8 @@ impl Job {
 
     /// Settings of the job file that the request overrides, one sentence each.
     #[must_use]
-    pub fn notices(&self) -> &[String] {
-        &self.plan.notices
+    pub fn overridden_settings(&self) -> &[String] {
+        &self.plan.overridden_keys
     }
 
     /// The files that were read: the job and all files that it names, by the paths used. Files in memory are not included.
@@ -116,7 +116,7 @@ impl Job {
     /// Names of all files of a complete run, relative to its output folder.
     #[must_use]
     pub fn file_names(&self, frames: &Range<u32>) -> Vec<String> {
-        Sequence::new(&self.plan, frames.clone()).file_names(&self.plan)
+        FrameSequence::new(&self.plan, frames.clone()).file_names(&self.plan)
     }
 
     /// Renders all cameras and keeps their light. For many large cameras [`render_each`](Self::render_each) holds one at a time.
@@ -145,7 +145,7 @@ impl Job {
         mut take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut run = self.run(options, observer)?;
-        while let Some(results) = run.next_results(&mut NoStore)? {
+        while let Some(results) = run.next_camera_results(&mut NoStore)? {
             take(results)?;
         }
         Ok(())
@@ -161,12 +161,12 @@ impl Job {
         &self,
         options: &RenderOptions,
         folder: &Path,
-        existing: Existing,
+        existing: ExistingFiles,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         let mut folder = RunFolder::open(&self.request, &self.plan, options, folder, existing, observer)?;
         let mut run = self.run(options, observer)?;
-        while let Some(results) = run.next_results(&mut folder)? {
+        while let Some(results) = run.next_camera_results(&mut folder)? {
             folder.write(&results)?;
         }
         folder.finish()
@@ -188,7 +188,7 @@ impl Job {
         &self,
         frames: &Range<u32>,
         folder: &Path,
-        existing: Existing,
+        existing: ExistingFiles,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         check_frames(&self.plan, frames)?;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 const MIN_TIME_S: f64 = 10.0;
 
 /// Folder of texture tiles in an output folder; not a legal camera name.
-const TILES: &str = ".texture-cache";
+const TILE_FOLDER: &str = ".texture-cache";
 
 /// A job file with its changes: sufficient to make the same plan again.
 #[derive(Args, Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -122,7 +122,7 @@ impl JobRequest {
     #[must_use]
     pub fn into_output(mut self, folder: &Path) -> Self {
         if self.sandbox.is_some() && self.textures.cache.is_none() {
-            self.textures.cache = Some(folder.join(TILES));
+            self.textures.cache = Some(folder.join(TILE_FOLDER));
             self.textures.cache_use = CacheUse::KeepInOutput;
         }
         self
@@ -147,7 +147,7 @@ impl JobRequest {
     /// Folders in which the files of the job may lie.
     pub(crate) fn folders(&self) -> Result<Sandbox, Error> {
         let Some(further) = &self.sandbox else { return Ok(Sandbox::NONE) };
-        Sandbox::about(&self.job, further)
+        Sandbox::for_job(&self.job, further)
     }
 
     /// Refuses options that exclude one another, and a time that is too short.
@@ -181,8 +181,8 @@ impl JobRequest {
     /// The changes to the description; options are checked in the same way as their keys.
     pub(crate) fn overrides(&self) -> Overrides {
         let mut overrides = Overrides::new(&self.set);
-        let mut flag = |name: &str, key, value: String, shown: &str| {
-            overrides.push_render(&format!("`{name}` {shown}"), key, &value);
+        let mut flag = |name: &str, key, value: String, spelling: &str| {
+            overrides.add_render(&format!("`{name}` {spelling}"), key, &value);
         };
         if let Some(spp) = self.spp {
             flag("spp", "spp", spp.to_string(), &spp.to_string());

@@ -21,10 +21,10 @@ use crate::result_files::write_file;
 use clap::Args;
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;
-use etendue_io::failure::check_whole;
+use etendue_io::failure::check_integer;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
-use etendue_io::{Existing, load_assets};
+use etendue_io::{ExistingFiles, load_assets};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::flat::{FlatLight, PhotonTransfer, bare, photon_transfer, photons};
 use etendue_pipeline::plan::CameraBody;
@@ -39,20 +39,20 @@ use std::path::{Path, PathBuf};
 
 const WAVELENGTH_NM: f64 = 550.0;
 /// Dark-current electrons in the longest exposure of the flat series, and in the longest dark exposure.
-const LITTLE_E: f64 = 0.25;
-const MUCH_E: f64 = 200.0;
+const MIN_DARK_E: f64 = 0.25;
+const MAX_DARK_E: f64 = 200.0;
 /// Long dark exposures as fractions of the longest, and frames of each.
-const LONG: [f64; 3] = [0.25, 0.5, 1.0];
+const LONG_EXPOSURE_RATIO: [f64; 3] = [0.25, 0.5, 1.0];
 const LONG_FRAMES: u32 = 4;
 /// Seed offset between exposures: their frames have independent noise.
-const SEEDS_APART: u64 = 1 << 20;
+const SEED_STRIDE: u64 = 1 << 20;
 /// Minimum width of a checkerboard square seen from the front, px.
 const SQUARE_PX: u32 = 24;
 /// Minimum image width per column of slanted-edge squares, px; twice that for a mosaic.
 const EDGES_PX: u32 = 64;
 /// Height of a row of slanted-edge squares, in widths of a column.
 const SQUARE_AND_MARGIN: f64 = 1.25;
-const DECLARED: &str = "declared.toml";
+const CAMERA_FILE: &str = "declared.toml";
 const JOB: &str = "job.toml";
 
 /// Ranges of levels, frames of a stack and views of a laboratory.
@@ -100,31 +100,31 @@ impl LaboratoryRequest {
 pub fn laboratory(
     request: &LaboratoryRequest,
     folder: &Path,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
-    check_whole("levels", request.levels, LEVELS)?;
-    check_whole("stack", request.stack, STACK)?;
-    check_whole("views", request.views, VIEWS)?;
-    let camera = declared(request)?;
+    check_integer("levels", request.levels, LEVELS)?;
+    check_integer("stack", request.stack, STACK)?;
+    check_integer("views", request.views, VIEWS)?;
+    let camera = camera_with_changes(request)?;
     let has_frame_period = camera.sensor.electronics.as_ref().is_some_and(|e| e.frame_period_s.is_some());
     let has_isp = camera.isp.is_some();
-    let body = compiled(&camera)?;
-    let declared = folder.join(DECLARED);
+    let body = compile_without_series(&camera)?;
+    let declared = folder.join(CAMERA_FILE);
     let head = "The camera that captured this laboratory folder; no program reads this copy.";
     write_file(&declared, File::new(camera.to_table()).head(head).to_string().as_bytes(), existing)?;
-    let sensor = bare(&body).and_then(|bare| bare.sensor).ok_or_else(|| lacks(request))?;
-    let bench = Bench { request, folder, existing, declared, has_frame_period, has_isp, observer };
-    let mut files = vec![bench.declared.clone()];
-    let series = bench.even_light(&sensor);
+    let sensor = bare(&body).and_then(|bare| bare.sensor).ok_or_else(|| missing_period(request))?;
+    let bench = LaboratoryRun { request, folder, existing, camera_file: declared, has_frame_period, has_isp, observer };
+    let mut files = vec![bench.camera_file.clone()];
+    let series = bench.uniform_light(&sensor);
     // Without a series there is no laboratory.
-    files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
+    files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.camera_file)))?);
     files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
     files.extend(bench.lens(sensor.parameters().channels.len() > 1, body.raster.width(), body.raster.height())?);
     Ok(files)
 }
 
-fn lacks(request: &LaboratoryRequest) -> Error {
+fn missing_period(request: &LaboratoryRequest) -> Error {
     Error::coded(
         ErrorCode::MissingKey,
         format!("{}: the sensor has no electronics: add them", request.camera.display()),
@@ -132,35 +132,35 @@ fn lacks(request: &LaboratoryRequest) -> Error {
 }
 
 /// The camera with the changes, a fixed unit number and a constant exposure. Paths of its files are absolute.
-fn declared(request: &LaboratoryRequest) -> Result<Camera, Error> {
+fn camera_with_changes(request: &LaboratoryRequest) -> Result<Camera, Error> {
     let file = request.camera.canonicalize();
     let file = file
         .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", request.camera.display())))?;
     let camera = load_camera(&file, &read_text, &Overrides::new(&request.set));
-    let mut camera = camera.map_err(|faults| Error::inputs(faults.list()))?;
-    let electronics = camera.sensor.electronics.as_mut().ok_or_else(|| lacks(request))?;
+    let mut camera = camera.map_err(|errors| Error::inputs(errors.as_slice()))?;
+    let electronics = camera.sensor.electronics.as_mut().ok_or_else(|| missing_period(request))?;
     electronics.auto_exposure = None;
     electronics.non_uniformity.get_or_insert_with(NonUniformity::default).seed.get_or_insert(1.into());
     Ok(camera)
 }
 
-fn compiled(camera: &Camera) -> Result<CameraBody, Error> {
-    let assets = load_assets(&named_files::of_camera(camera)).map_err(Error::inputs)?;
+fn compile_without_series(camera: &Camera) -> Result<CameraBody, Error> {
+    let assets = load_assets(&named_files::camera_files(camera)).map_err(Error::inputs)?;
     compile_camera(camera, &assets).map_err(Error::inputs)
 }
 
 /// The laboratory's folder, camera and options.
-struct Bench<'a> {
+struct LaboratoryRun<'a> {
     request: &'a LaboratoryRequest,
     folder: &'a Path,
-    existing: Existing,
-    declared: PathBuf,
+    existing: ExistingFiles,
+    camera_file: PathBuf,
     has_frame_period: bool,
     has_isp: bool,
     observer: &'a dyn Observer,
 }
 
-impl Bench<'_> {
+impl LaboratoryRun<'_> {
     /// Frames of uniform illumination, or dark frames.
     fn flat(
         &self,
@@ -178,18 +178,18 @@ impl Bench<'_> {
             set.push(format!("sensor.frame_period_s={:e}", 2.0 * exposure_s));
         }
         let source = FlatSource::Irradiance { w_m2: irradiance_w_m2 };
-        let request = FlatRequest { set, frames, seed, ..FlatRequest::new(&self.declared, WAVELENGTH_NM, source) };
+        let request = FlatRequest { set, frames, seed, ..FlatRequest::new(&self.camera_file, WAVELENGTH_NM, source) };
         flat(&request, &self.folder.join(part), self.existing, self.observer)
     }
 
     /// `flat/`, and the frames of `dark/` with the same exposures.
-    fn even_light(&self, sensor: &Sensor) -> Result<Vec<PathBuf>, Error> {
+    fn uniform_light(&self, sensor: &Sensor) -> Result<Vec<PathBuf>, Error> {
         let PhotonTransfer { light, stacks } = self.series(sensor)?;
         let mut files = Vec::new();
         for (i, stack) in stacks.iter().enumerate() {
-            let lit = stack.photons > 0.0;
-            let part = format!("{}/{:02}", if lit { "flat" } else { "dark" }, i + 1);
-            let irradiance_w_m2 = if lit { light.irradiance_w_m2 } else { 0.0 };
+            let is_lit = stack.photons > 0.0;
+            let part = format!("{}/{:02}", if is_lit { "flat" } else { "dark" }, i + 1);
+            let irradiance_w_m2 = if is_lit { light.irradiance_w_m2 } else { 0.0 };
             files.extend(self.flat(
                 &part,
                 stack.exposure_s,
@@ -199,10 +199,10 @@ impl Bench<'_> {
             )?);
         }
         let photons_per_s = photons(sensor, light, 1.0);
-        let stated = StatedLight::new(photons_per_s, WAVELENGTH_NM);
-        let stated = record::Laboratory { flat: Some(stated), ..record::Laboratory::default() };
+        let flat_light = StatedLight::new(photons_per_s, WAVELENGTH_NM);
+        let laboratory = record::Laboratory { flat: Some(flat_light), ..record::Laboratory::default() };
         let file = self.folder.join("laboratory.toml");
-        write_file(&file, File::new(stated.to_table()).to_string().as_bytes(), self.existing)?;
+        write_file(&file, File::new(laboratory.to_table()).to_string().as_bytes(), self.existing)?;
         files.push(file);
         Ok(files)
     }
@@ -210,7 +210,7 @@ impl Bench<'_> {
     /// The series of EMVA 1288, with exposures as short as the dark current requires.
     fn series(&self, sensor: &Sensor) -> Result<PhotonTransfer, Error> {
         let parameters = sensor.parameters();
-        let longest_s = parameters.exposure.exposure_s.min(LITTLE_E / parameters.charge.dark.mean_e_s().max(1e-9));
+        let longest_s = parameters.exposure.exposure_s.min(MIN_DARK_E / parameters.charge.dark.mean_e_s().max(1e-9));
         let scale = longest_s / parameters.exposure.exposure_s;
         let message = |error: etendue_pipeline::flat::FlatError| {
             Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", self.request.camera.display()))
@@ -218,7 +218,7 @@ impl Bench<'_> {
         let series =
             photon_transfer(sensor, WAVELENGTH_NM, self.request.levels, self.request.stack).map_err(message)?;
         let light = FlatLight { irradiance_w_m2: series.light.irradiance_w_m2 / scale, ..series.light };
-        let shorter = |stack: etendue_pipeline::flat::Stack| etendue_pipeline::flat::Stack {
+        let shorter = |stack: etendue_pipeline::flat::FrameStack| etendue_pipeline::flat::FrameStack {
             exposure_s: scale * stack.exposure_s,
             ..stack
         };
@@ -226,13 +226,13 @@ impl Bench<'_> {
     }
 
     fn long_exposures(&self, dark_current_e_s: f64) -> Result<Vec<PathBuf>, Error> {
-        let longest_s = MUCH_E / dark_current_e_s.max(MUCH_E);
-        let longest_s = if dark_current_e_s > 0.0 { MUCH_E / dark_current_e_s } else { longest_s };
+        let longest_s = MAX_DARK_E / dark_current_e_s.max(MAX_DARK_E);
+        let longest_s = if dark_current_e_s > 0.0 { MAX_DARK_E / dark_current_e_s } else { longest_s };
         let mut files = Vec::new();
-        for (i, share) in LONG.iter().enumerate() {
+        for (i, fraction) in LONG_EXPOSURE_RATIO.iter().enumerate() {
             let first = i as u32 * LONG_FRAMES;
             let (part, frames) = (format!("dark/long-{}", i + 1), first..first + LONG_FRAMES);
-            files.extend(self.flat(&part, share * longest_s, 0.0, frames, self.request.seed ^ SEEDS_APART)?);
+            files.extend(self.flat(&part, fraction * longest_s, 0.0, frames, self.request.seed ^ SEED_STRIDE)?);
         }
         Ok(files)
     }
@@ -257,14 +257,14 @@ impl Bench<'_> {
         }
         let mut files = Vec::new();
         for (i, (name, chart, views)) in (2..).zip(charts) {
-            files.extend(self.photographed(name, chart, views, self.request.seed ^ (i * SEEDS_APART))?);
+            files.extend(self.capture_chart(name, chart, views, self.request.seed ^ (i * SEED_STRIDE))?);
         }
         Ok(files)
     }
 
-    fn photographed(&self, name: &str, chart: Chart, views: u32, seed: u64) -> Result<Vec<PathBuf>, Error> {
+    fn capture_chart(&self, name: &str, chart: Chart, views: u32, seed: u64) -> Result<Vec<PathBuf>, Error> {
         let folder = self.folder.join(name);
-        let camera = self.declared.display().to_string();
+        let camera = self.camera_file.display().to_string();
         let request = ChartRequest { views, hand_held: views > 1, seed, ..ChartRequest::new(chart, camera) };
         let mut files = make(&request, &folder, self.existing)?;
         let mut job = JobRequest::new(folder.join(JOB));

@@ -2,7 +2,7 @@
 
 use etendue_io::Sandbox;
 use etendue_io::failure::{Error, ErrorCode, Problem};
-use etendue_io::hash::of_bytes;
+use etendue_io::hash::hash_bytes;
 use etendue_io::source::read_text;
 use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, SlotMaterial};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Triangles and the attributes of their vertices, in the unit that the job's mesh states (metres by default).
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Triangles<'a> {
+pub struct MeshTriangles<'a> {
     /// Vertices.
     pub positions: &'a [[f32; 3]],
     /// Three vertex indices per triangle, counter-clockwise as seen from the front.
@@ -45,7 +45,7 @@ impl MemoryFiles {
     /// # Errors
     /// There is no triangle, an index has no vertex, a number is not finite, or the number of normals or texture coordinates is not that of the
     /// vertices.
-    pub fn add_mesh(&mut self, path: impl Into<PathBuf>, mesh: &Triangles<'_>) -> Result<(), Error> {
+    pub fn add_mesh(&mut self, path: impl Into<PathBuf>, mesh: &MeshTriangles<'_>) -> Result<(), Error> {
         let path = path.into();
         check(mesh).map_err(|why| Error::coded(ErrorCode::UnreadableFile, format!("{}: {why}", path.display())))?;
         let asset = MeshAsset {
@@ -56,11 +56,11 @@ impl MemoryFiles {
             triangles: mesh.triangles.to_vec(),
             slots: vec![0; mesh.triangles.len()],
             slot_materials: vec![SlotMaterial { name: String::new(), surface: None }],
-            pictures: Vec::new(),
+            embedded_images: Vec::new(),
             report: Vec::new(),
             warnings: Vec::new(),
             missing_libraries: Vec::new(),
-            hash: of_bytes(&bytes(mesh)),
+            hash: hash_bytes(&bytes(mesh)),
         };
         self.assets.mesh_frames.insert(path.clone(), frame(mesh, asset.hash));
         self.assets.meshes.insert(path, asset);
@@ -81,9 +81,9 @@ impl MemoryFiles {
 }
 
 /// The mesh as a frame of an animated mesh.
-fn frame(mesh: &Triangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
+fn frame(mesh: &MeshTriangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
     let vertices = mesh.triangles.as_flattened().to_vec();
-    let named = |is_given: bool| if is_given { vertices.clone() } else { Vec::new() };
+    let named = |is_present: bool| if is_present { vertices.clone() } else { Vec::new() };
     let part = MeshFramePart {
         material: String::new(),
         arities: vec![3; mesh.triangles.len()],
@@ -97,7 +97,7 @@ fn frame(mesh: &Triangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
     MeshFrameAsset { parts: vec![part], vertices: mesh.positions.len(), triangles, hash }
 }
 
-fn check(mesh: &Triangles<'_>) -> Result<(), String> {
+fn check(mesh: &MeshTriangles<'_>) -> Result<(), String> {
     let vertices = mesh.positions.len();
     if mesh.triangles.is_empty() {
         return Err("the mesh has no triangles".to_owned());
@@ -118,7 +118,7 @@ fn check(mesh: &Triangles<'_>) -> Result<(), String> {
 }
 
 /// The bytes of the arrays that the hash of a plan covers.
-fn bytes(mesh: &Triangles<'_>) -> Vec<u8> {
+fn bytes(mesh: &MeshTriangles<'_>) -> Vec<u8> {
     let lengths = [mesh.positions.len(), mesh.triangles.len(), mesh.normals.len(), mesh.uvs.len()];
     let floats = [mesh.positions.as_flattened(), mesh.normals.as_flattened(), mesh.uvs.as_flattened()];
     let lengths = lengths.into_iter().flat_map(|n| (n as u64).to_le_bytes());

@@ -3,7 +3,7 @@
 use etendue_io::ScratchFolder;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{CameraPlan, FilmLimit};
+use etendue_pipeline::plan::{CameraPlan, FilmMemoryLimit};
 use etendue_pipeline::report::RunMemory;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -65,9 +65,9 @@ impl Default for FilmMemory {
 
 impl FilmMemory {
     /// The limit as the plan receives it, with texture tiles in `cache`.
-    pub(crate) fn limit(&self, cache: Option<&PathBuf>) -> FilmLimit {
+    pub(crate) fn limit(&self, cache: Option<&PathBuf>) -> FilmMemoryLimit {
         let folder = self.scratch.as_ref().or(cache).map(PathBuf::as_path);
-        FilmLimit { bytes: self.limit_bytes, store: Arc::new(ScratchFolder::new(folder)) }
+        FilmMemoryLimit { bytes: self.limit_bytes, store: Arc::new(ScratchFolder::new(folder)) }
     }
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> R
     if memory.beyond_program() <= free as f64 {
         return Ok(());
     }
-    let camera = memory.largest().and_then(|(name, _)| plan.camera(name));
+    let camera = memory.largest_camera().and_then(|(name, _)| plan.camera(name));
     Err(Error::coded(
         ErrorCode::NotEnoughMemory,
         format!(
@@ -98,14 +98,14 @@ fn remedies(camera: &CameraPlan) -> String {
     let name = &camera.name;
     let products = &camera.products;
     let spectra = products.needs_radiance() || products.irradiance;
-    let products_made = [
+    let products_of_film = [
         (products.ground_truth, "output.ground_truth = false"),
         (products.radiance, "output.radiance = false"),
         (products.irradiance, "output.irradiance = false"),
         (products.undistorted.is_some(), "no output.undistorted"),
         (products.signal_breakdown, "output.signal_breakdown = false"),
     ];
-    let product_keys = products_made.into_iter().filter(|(is_made, _)| *is_made).map(|(_, key)| key.to_owned());
+    let product_keys = products_of_film.into_iter().filter(|(is_requested, _)| *is_requested).map(|(_, key)| key.to_owned());
     let size = format!("smaller width_px and height_px of [sensor] of camera {name}");
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();

@@ -3,7 +3,7 @@
 use etendue_core::RawFormat;
 use etendue_core::quantity::Quantity;
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 use etendue_pipeline::plan::{Development, PictureFormat, raw_extension};
 use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
@@ -21,9 +21,9 @@ pub(crate) fn entry_of<Q: Quantity>() -> Value {
 
 /// Names and entries of the files that a camera can deliver.
 #[derive(Clone, Copy, Debug)]
-pub struct Files;
+pub struct ResultFiles;
 
-impl Files {
+impl ResultFiles {
     /// Spectral radiance.
     pub const RADIANCE: &str = "radiance.exr";
     /// Spectral irradiance on the sensor plane.
@@ -122,7 +122,7 @@ impl Files {
 ///
 /// # Errors
 /// The file cannot be written, or exists and must not be replaced.
-pub fn write_file(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Error> {
+pub fn write_file(path: &Path, bytes: &[u8], existing: ExistingFiles) -> Result<(), Error> {
     let name = path.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| {
         Error::coded(ErrorCode::InvalidArgument, format!("{}: expected the name of a file", path.display()))

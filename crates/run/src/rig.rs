@@ -7,7 +7,7 @@
 //! | `kalibr/camchain-NAME.yaml` | the cameras that one frame carries, beginning with NAME |
 //! | `colmap/cameras.txt`, `images.txt`, `points3D.txt` | all cameras, and the pose of every frame in the world |
 
-use crate::result_files::Files;
+use crate::result_files::ResultFiles;
 use etendue_core::CameraPose;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;
@@ -17,7 +17,7 @@ use etendue_optics::{Front, Lens};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, TimeDependence};
 use etendue_projection::model::Perspective;
 use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, CameraMatrix, Model, Sense};
+use etendue_projection::{Calibration, CameraMatrix, Model, DistortionDirection};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -30,23 +30,23 @@ pub(crate) struct RigFiles {
     /// Names within the output folder, with the text of each file.
     pub(crate) files: Vec<(String, String)>,
     /// One sentence for each camera that a format cannot describe.
-    pub(crate) left_out: Vec<String>,
+    pub(crate) omitted: Vec<String>,
 }
 
 /// A camera that has a calibration.
-struct Calibrated<'a> {
+struct CalibratedCamera<'a> {
     plan: &'a CameraPlan,
     calibration: Calibration,
 }
 
-impl Calibrated<'_> {
+impl CalibratedCamera<'_> {
     fn named(&self) -> NamedCamera<'_> {
         NamedCamera { name: &self.plan.name, calibration: &self.calibration }
     }
 }
 
 /// Files of the cameras of a plan that request them, over frames; empty if no camera does.
-pub(crate) fn asked_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
+pub(crate) fn requested_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
     let cameras: Vec<&CameraPlan> = plan.cameras.iter().filter(|c| c.products.calibration_files).collect();
     if cameras.is_empty() { RigFiles::default() } else { rig_files(plan, &cameras, frames) }
 }
@@ -58,24 +58,24 @@ pub(crate) fn all_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
 
 /// Writes the files, and reports the omitted cameras.
 pub(crate) fn write(rig: &RigFiles, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
-    rig.left_out.iter().for_each(|told| observer.message(Message::Warning(told)));
+    rig.omitted.iter().for_each(|warning| observer.message(Message::Warning(warning)));
     rig.files.iter().try_for_each(|(name, text)| folder.write(name, text.as_bytes()).map_err(Error::run))
 }
 
 /// The files of some cameras of a plan.
 fn rig_files(plan: &Plan, cameras: &[&CameraPlan], frames: &Range<u32>) -> RigFiles {
     let mut rig = RigFiles::default();
-    let mut found = Vec::new();
+    let mut calibrated = Vec::new();
     for camera in cameras {
         match calibration(&camera.body) {
-            Ok(calibration) => found.push(Calibrated { plan: camera, calibration }),
-            Err(why) => rig.left_out.push(format!("calibration files omit camera {}: {why}", camera.name)),
+            Ok(calibration) => calibrated.push(CalibratedCamera { plan: camera, calibration }),
+            Err(why) => rig.omitted.push(format!("calibration files omit camera {}: {why}", camera.name)),
         }
     }
-    let none = rig.left_out.clone();
-    add_ros(plan, cameras, &found, &mut rig);
-    add_kalibr(&found, &none, &mut rig);
-    add_colmap(&found, &none, frames, &mut rig);
+    let none = rig.omitted.clone();
+    add_ros(plan, cameras, &calibrated, &mut rig);
+    add_kalibr(&calibrated, &none, &mut rig);
+    add_colmap(&calibrated, &none, frames, &mut rig);
     rig
 }
 
@@ -84,17 +84,17 @@ fn add(rig: &mut RigFiles, name: &str, text: String) {
 }
 
 /// Records the reason for which a format omits a camera; returns the sentence.
-fn leave_out(rig: &mut RigFiles, camera: &str, why: &str) -> String {
+fn omit(rig: &mut RigFiles, camera: &str, why: &str) -> String {
     let message = format!("camera {camera}: {why}");
-    rig.left_out.push(format!("calibration files: {message}"));
+    rig.omitted.push(format!("calibration files: {message}"));
     message
 }
 
-fn add_ros(plan: &Plan, cameras: &[&CameraPlan], found: &[Calibrated<'_>], rig: &mut RigFiles) {
-    for camera in found {
+fn add_ros(plan: &Plan, cameras: &[&CameraPlan], calibrated: &[CalibratedCamera<'_>], rig: &mut RigFiles) {
+    for camera in calibrated {
         match ros::camera_info(&camera.named(), base_m(plan, camera.plan)) {
             Ok(text) => add(rig, &format!("ros/{}.yaml", camera.plan.name), text),
-            Err(why) => drop(leave_out(rig, &camera.plan.name, &why)),
+            Err(why) => drop(omit(rig, &camera.plan.name, &why)),
         }
     }
     let (mut transforms, mut left_out) = (Vec::new(), Vec::new());
@@ -103,14 +103,14 @@ fn add_ros(plan: &Plan, cameras: &[&CameraPlan], found: &[Calibrated<'_>], rig: 
         let child = ros::optical_frame(&camera.name);
         match camera.mount.pose {
             Some(pose) => transforms.push(ros::StaticTransform { parent, child, pose }),
-            None => left_out.push(leave_out(rig, &camera.name, &moves(parent))),
+            None => left_out.push(omit(rig, &camera.name, &moving_reason(parent))),
         }
     }
     add(rig, "ros/static_transforms.yaml", ros::static_transforms(&transforms, &left_out));
 }
 
 /// Reason for which a camera has no fixed pose.
-fn moves(parent: &str) -> String {
+fn moving_reason(parent: &str) -> String {
     format!("it moves in \"{parent}\", so no fixed transform describes it; attach it to a frame")
 }
 
@@ -123,26 +123,26 @@ fn base_m(plan: &Plan, camera: &CameraPlan) -> f64 {
             return from.point_to_camera(to.position_m).x;
         }
         let at = |time_s: f64| left.path.at(time_s).point_to_camera(camera.path.at(time_s).position_m).x;
-        let bases_m: Vec<f64> = left.times_beside_s(camera).into_iter().map(at).collect();
-        let is_kept = bases_m.iter().all(|base_m| (base_m - bases_m[0]).abs() <= 1e-9 * bases_m[0].abs());
-        if is_kept { bases_m[0] } else { 0.0 }
+        let bases_m: Vec<f64> = left.comparison_times_s(camera).into_iter().map(at).collect();
+        let is_equal = bases_m.iter().all(|base_m| (base_m - bases_m[0]).abs() <= 1e-9 * bases_m[0].abs());
+        if is_equal { bases_m[0] } else { 0.0 }
     })
 }
 
-fn add_kalibr(found: &[Calibrated<'_>], none: &[String], rig: &mut RigFiles) {
+fn add_kalibr(calibrated: &[CalibratedCamera<'_>], none: &[String], rig: &mut RigFiles) {
     let mut frames: Vec<Option<&str>> = Vec::new();
-    for frame in found.iter().map(|camera| camera.plan.mount.frame.as_deref()) {
+    for frame in calibrated.iter().map(|camera| camera.plan.mount.frame.as_deref()) {
         if !frames.contains(&frame) {
             frames.push(frame);
         }
     }
     for frame in frames {
         let (mut links, mut left_out) = (Vec::new(), none.to_vec());
-        for camera in found.iter().filter(|camera| camera.plan.mount.frame.as_deref() == frame) {
+        for camera in calibrated.iter().filter(|camera| camera.plan.mount.frame.as_deref() == frame) {
             match (camera.plan.mount.pose, kalibr::intrinsics(&camera.named())) {
-                (Some(pose), Ok(intrinsics)) => links.push(kalibr::Link { camera: camera.named(), intrinsics, pose }),
-                (None, _) => left_out.push(format!("camera {}: {}", camera.plan.name, moves(frame.unwrap_or(WORLD)))),
-                (_, Err(why)) => left_out.push(leave_out(rig, &camera.plan.name, &why)),
+                (Some(pose), Ok(intrinsics)) => links.push(kalibr::ChainLink { camera: camera.named(), intrinsics, pose }),
+                (None, _) => left_out.push(format!("camera {}: {}", camera.plan.name, moving_reason(frame.unwrap_or(WORLD)))),
+                (_, Err(why)) => left_out.push(omit(rig, &camera.plan.name, &why)),
             }
         }
         if let Some(first) = links.first() {
@@ -152,20 +152,20 @@ fn add_kalibr(found: &[Calibrated<'_>], none: &[String], rig: &mut RigFiles) {
     }
 }
 
-fn add_colmap(found: &[Calibrated<'_>], none: &[String], frames: &Range<u32>, rig: &mut RigFiles) {
+fn add_colmap(calibrated: &[CalibratedCamera<'_>], none: &[String], frames: &Range<u32>, rig: &mut RigFiles) {
     let (mut lines, mut images, mut left_out) = (Vec::new(), Vec::new(), none.to_vec());
-    for camera in found {
+    for camera in calibrated {
         match colmap::camera(&camera.named()) {
             Ok(line) => {
                 lines.push(line);
-                let of_camera = frames.clone().map(|frame| colmap::Image {
+                let of_camera = frames.clone().map(|frame| colmap::ColmapImage {
                     camera: lines.len(),
                     pose: pose(camera.plan, frame),
                     file: picture(camera.plan, frame),
                 });
                 images.extend(of_camera);
             }
-            Err(why) => left_out.push(leave_out(rig, &camera.plan.name, &why)),
+            Err(why) => left_out.push(omit(rig, &camera.plan.name, &why)),
         }
     }
     add(rig, "colmap/cameras.txt", colmap::cameras(&lines, &left_out));
@@ -183,8 +183,8 @@ pub(crate) fn pose(camera: &CameraPlan, frame: u32) -> CameraPose {
 fn picture(camera: &CameraPlan, frame: u32) -> String {
     let products = &camera.products;
     let file = match products.raw && !products.picture {
-        true => Files::raw(frame, products.raw_format),
-        false => Files::picture(frame, camera.body.picture_format()),
+        true => ResultFiles::raw(frame, products.raw_format),
+        false => ResultFiles::picture(frame, camera.body.picture_format()),
     };
     format!("{}/{file}", camera.name)
 }
@@ -218,7 +218,7 @@ pub fn camera_mount(camera: &CameraPlan) -> Option<CameraPose> {
 /// Maximum distance, px, between a point's image by the calibration and by the camera.
 const TOLERANCE_PX: f64 = 1e-6;
 /// Number of test positions along each side of the image.
-const PLACES: u32 = 9;
+const TEST_POSITIONS: u32 = 9;
 
 /// The calibration that agrees with the camera in every direction.
 ///
@@ -233,7 +233,7 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
         return Err("its images are cropped, binned or subsampled, so their pixel grid is not that of the full sensor"
             .to_owned());
     }
-    let found = match &body.lens {
+    let own = match &body.lens {
         Lens::Calibrated(lens) => lens.parameters().calibration.clone(),
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) => paraxial(body)?,
         Lens::Prescription(_) => {
@@ -247,8 +247,8 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
         }
         Lens::Telecentric(_) => return Err("its rays are parallel".to_owned()),
     };
-    match farthest_px(body, &found) {
-        off if off <= TOLERANCE_PX => Ok(found),
+    match farthest_px(body, &own) {
+        off if off <= TOLERANCE_PX => Ok(own),
         off => Err(format!("its projection differs from every model by {off:.2e} px")),
     }
 }
@@ -258,10 +258,10 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
 /// # Errors
 /// There is none: the rest of a sentence that begins with the camera.
 fn pinhole(body: &CameraBody) -> Result<CameraMatrix, String> {
-    let found = calibration(body)?;
+    let own = calibration(body)?;
     let straight = Perspective::new(DistortionTerms::default(), [0.0; 2]).map_err(|error| error.to_string())?;
-    match found.model() {
-        Model::Perspective(model) if *model == straight => Ok(found.matrix()),
+    match own.model() {
+        Model::Perspective(model) if *model == straight => Ok(own.matrix()),
         _ => Err("its images are distorted, but the format has only a camera matrix".to_owned()),
     }
 }
@@ -272,7 +272,7 @@ fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
     let principal_mm = lens.principal_distance_mm();
     let mut terms = DistortionTerms::default();
     if let Some(distortion) = lens.distortion() {
-        if distortion.sense() == Sense::ObservedToIdeal {
+        if distortion.sense() == DistortionDirection::ObservedToIdeal {
             return Err("its distortion is a polynomial from observed to ideal points, but calibration files use the \
                         opposite direction"
                 .to_owned());
@@ -291,11 +291,11 @@ fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
 fn farthest_px(body: &CameraBody, calibration: &Calibration) -> f64 {
     let raster = &body.raster;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);
-    let last = f64::from(PLACES - 1);
-    let places = (0..PLACES * PLACES).map(|i| DVec2::new(f64::from(i % PLACES), f64::from(i / PLACES)) / last * size);
+    let last = f64::from(TEST_POSITIONS - 1);
+    let places = (0..TEST_POSITIONS * TEST_POSITIONS).map(|i| DVec2::new(f64::from(i % TEST_POSITIONS), f64::from(i / TEST_POSITIONS)) / last * size);
     let off = |at_px: DVec2| {
         let direction = body.lens.direction(raster.sensor_mm(at_px))?;
-        Some(calibration.project(direction).map_or(f64::INFINITY, |seen| (seen - at_px).length()))
+        Some(calibration.project(direction).map_or(f64::INFINITY, |image_px| (image_px - at_px).length()))
     };
     places.filter_map(off).fold(0.0, f64::max)
 }

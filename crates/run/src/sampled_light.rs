@@ -8,7 +8,7 @@ use etendue_core::random::Pixel;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
-use etendue_pipeline::render::{FilmKeeping, Request, Shot, light};
+use etendue_pipeline::render::{FilmStorage, LightRequest, FrameCapture, light};
 use etendue_pipeline::tile::{Tile, tiles};
 use etendue_sensor::{Sensor, TemporalNoise};
 use etendue_tracer::accel::Simd;
@@ -100,15 +100,15 @@ impl Job {
         (settings.spp, settings.replicates, settings.seed) = (sampling.spp, sampling.replicates, sampling.seed);
         settings.tile_px = settings.blocks.tile_px(sampling.tile_px);
         // Only of a few tiles; the others take no memory.
-        let keeping = FilmKeeping::Memory;
-        let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()?, keeping };
-        let film = light(self.plan(), &camera, request, &Silent(observer));
+        let keeping = FilmStorage::Memory;
+        let request = LightRequest { frame_capture: FrameCapture::default(), simd, shard: sampling.shard.shard()?, keeping };
+        let film = light(self.plan(), &camera, request, &SilentObserver(observer));
         let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
         check_textures(self.plan())?;
         check_finite(&camera, &film)?;
         let (width, height) = camera.film_size();
         let tiles = tiles(width, height, camera.settings.tile_px, request.shard);
-        Ok(SampledLight::of(&camera, &film, &tiles))
+        Ok(SampledLight::from_film(&camera, &film, &tiles))
     }
 
     /// Returns the number of tiles of a camera's film for this side, columns and rows: an upper limit of useful shards.
@@ -142,9 +142,9 @@ impl Job {
 }
 
 /// Forwards cancellation only.
-struct Silent<'a>(&'a dyn Observer);
+struct SilentObserver<'a>(&'a dyn Observer);
 
-impl etendue_pipeline::Observer for Silent<'_> {
+impl etendue_pipeline::Observer for SilentObserver<'_> {
     fn tiles(&self, _: usize, _: usize) {}
 
     fn cancelled(&self) -> bool {
@@ -165,8 +165,8 @@ fn signal_of(camera: &CameraPlan) -> LightSignal {
 }
 
 impl SampledLight {
-    fn of(camera: &CameraPlan, film: &Film, tiles: &[Tile]) -> Self {
-        let reading = Reading::of(camera);
+    fn from_film(camera: &CameraPlan, film: &Film, tiles: &[Tile]) -> Self {
+        let reading = SignalReader::new(camera);
         let mut sampled = Self { pixels: Vec::new(), signal: Vec::new(), variance: Vec::new() };
         for (number, tile) in tiles.iter().enumerate() {
             for at in tile.pixels() {
@@ -182,35 +182,35 @@ impl SampledLight {
 }
 
 /// Computes a pixel's signal from a film.
-struct Reading {
+struct SignalReader {
     exposure_s: f64,
     /// Columns and rows of the colour filter's tile, and of the film's margin before the image.
     filter: [u32; 2],
     margin_px: [u32; 2],
     /// For each position of the filter: electrons per second by the bands' irradiances. Empty without such positions.
-    of_bands: Vec<Vec<f64>>,
+    band_response: Vec<Vec<f64>>,
 }
 
-impl Reading {
-    fn of(camera: &CameraPlan) -> Self {
+impl SignalReader {
+    fn new(camera: &CameraPlan) -> Self {
         let margin_px = match camera.settings.route {
             Route::Lens => camera.body.effects.margin_px().map(|px| px as u32),
             Route::Pupil(_) => [0, 0],
         };
         let Some(sensor) = sensor_of(camera) else {
-            return Self { exposure_s: 1.0, filter: [1, 1], margin_px, of_bands: Vec::new() };
+            return Self { exposure_s: 1.0, filter: [1, 1], margin_px, band_response: Vec::new() };
         };
         let p = sensor.parameters();
         let width = p.cfa.width();
         let filter = [width as u32, (p.cfa.channels().len() / width) as u32];
-        let of_bands = camera.settings.bands.filter(|_| !camera.settings.folded).map_or_else(Vec::new, |bands| {
+        let of_bands = camera.settings.bands.filter(|_| !camera.settings.accumulates_electrons).map_or_else(Vec::new, |bands| {
             let rates = sensor.rate_responsivities();
             let of = |channel: &usize| {
                 rates[*channel].band_means(bands).iter().map(|mean| mean * bands.width_nm()).collect()
             };
             p.cfa.channels().iter().map(of).collect()
         });
-        Self { exposure_s: p.exposure.exposure_s, filter, margin_px, of_bands }
+        Self { exposure_s: p.exposure.exposure_s, filter, margin_px, band_response: of_bands }
     }
 
     fn colour(&self, at: Pixel) -> usize {
@@ -231,7 +231,7 @@ impl Reading {
         }
         let Some(cube) = film.cube() else { return (0.0, f64::NAN) };
         let bands = cube.mean.planes().iter().map(|plane| f64::from(plane.at(x, y)));
-        match self.of_bands.get(colour) {
+        match self.band_response.get(colour) {
             Some(weights) => {
                 (bands.zip(weights).map(|(value, weight)| value * weight).sum::<f64>() * self.exposure_s, f64::NAN)
             }

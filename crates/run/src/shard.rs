@@ -13,7 +13,7 @@ use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
-use etendue_io::{Existing, OutputFolder, sidecar};
+use etendue_io::{ExistingFiles, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
@@ -72,7 +72,7 @@ pub struct ShardRequest {
 impl ShardRequest {
     /// All films of a shard.
     #[must_use]
-    pub fn whole(spec: ShardSpec, frames: Range<u32>) -> Self {
+    pub fn all_films(spec: ShardSpec, frames: Range<u32>) -> Self {
         Self { spec, frames, films: Vec::new() }
     }
 }
@@ -84,7 +84,7 @@ impl Job {
     pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
         let mut names = Vec::new();
         for group in self.plan().by_light() {
-            names.extend(shots_of(group[0], frames).into_iter().map(|shot| film_name(group[0], shot)));
+            names.extend(shots_of(group[0], frames).into_iter().map(|frame_capture| film_name(group[0], frame_capture)));
         }
         names
     }
@@ -96,10 +96,10 @@ impl Job {
     /// A film is not one of the job's, the observer cancels, light is not finite, or the folder cannot be written.
     pub fn save_shard(
         &self,
-        asked: &ShardRequest,
+        request: &ShardRequest,
         simd: Simd,
         folder: &Path,
-        existing: Existing,
+        existing: ExistingFiles,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         if self.request().progressive || self.request().time_s.is_some() {
@@ -108,24 +108,24 @@ impl Job {
                 "a shard is rendered in the passes of its job: set render.passes instead of `progressive` or `time_s`",
             ));
         }
-        let names = self.asked_films(asked)?;
-        let manifest = self.manifest(asked);
+        let names = self.requested_films(request)?;
+        let manifest = self.manifest(request);
         // The manifest of an earlier film of the same shard is equal.
-        let is_there = !asked.films.is_empty() && manifest.is_beside(folder)?;
-        let manifest = if is_there { None } else { Some(manifest.encoded()?) };
+        let is_there = !request.films.is_empty() && manifest.has_films(folder)?;
+        let manifest = if is_there { None } else { Some(manifest.to_bytes()?) };
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder
             .claim(names.iter().map(String::as_str).chain(manifest.as_ref().map(|_| MANIFEST)))
             .map_err(Error::input)?;
         let mut interruption = InterruptionNote::new(&folder, observer);
-        let shard = asked.spec.shard()?;
+        let shard = request.spec.shard()?;
         self.warn(observer);
         self.check_shard_memory()?;
-        let options = RenderOptions { frames: asked.frames.clone(), simd };
-        let is_asked = |camera: &CameraPlan, shot| names.contains(&film_name(camera, shot));
-        let mut run = Run::of_shard(self.shared_plan(), &options, shard, is_asked, observer)?;
+        let options = RenderOptions { frames: request.frames.clone(), simd };
+        let is_requested = |camera: &CameraPlan, frame_capture| names.contains(&film_name(camera, frame_capture));
+        let mut run = Run::for_shard(self.shared_plan(), &options, shard, is_requested, observer)?;
         while let Some((origin, film)) = run.next_film(&mut NoStore)? {
-            let name = film_name(origin.camera, origin.shot);
+            let name = film_name(origin.camera, origin.frame_capture);
             write_exr(&mut folder, &name, film_file::image(&film, &origin.facts()))?;
         }
         if let Some(manifest) = &manifest {
@@ -140,27 +140,27 @@ impl Job {
     ///
     /// # Errors
     /// A name is not one of the job's films.
-    fn asked_films(&self, asked: &ShardRequest) -> Result<Vec<String>, Error> {
-        let mut names = self.film_names(&asked.frames);
-        if let Some(unknown) = asked.films.iter().find(|name| !names.contains(name)) {
-            let some = names.iter().take(MAX_TOLD).cloned().collect::<Vec<_>>().join(", ");
+    fn requested_films(&self, request: &ShardRequest) -> Result<Vec<String>, Error> {
+        let mut names = self.film_names(&request.frames);
+        if let Some(unknown) = request.films.iter().find(|name| !names.contains(name)) {
+            let some = names.iter().take(MAX_NAMED_FILMS).cloned().collect::<Vec<_>>().join(", ");
             let more =
-                names.len().checked_sub(MAX_TOLD + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
+                names.len().checked_sub(MAX_NAMED_FILMS + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
             return Err(Error::argument(
                 "films",
                 format!("`films` {unknown}: no film of these frames; available: {some}{more}"),
             )
             .with_code(ErrorCode::UnknownName));
         }
-        names.retain(|name| asked.films.is_empty() || asked.films.contains(name));
+        names.retain(|name| request.films.is_empty() || request.films.contains(name));
         Ok(names)
     }
 
-    fn manifest(&self, asked: &ShardRequest) -> Manifest {
-        let ShardSpec { index, count } = asked.spec;
+    fn manifest(&self, request: &ShardRequest) -> Manifest {
+        let ShardSpec { index, count } = request.spec;
         Manifest {
             request: self.request().clone(),
-            frames: asked.frames.clone(),
+            frames: request.frames.clone(),
             index,
             count,
             plan_hash: self.plan().hash_text(),
@@ -170,7 +170,7 @@ impl Job {
 }
 
 /// Maximum number of films named in a message.
-const MAX_TOLD: usize = 6;
+const MAX_NAMED_FILMS: usize = 6;
 
 /// File name of a shard's manifest in its folder.
 const MANIFEST: &str = "shard.json";
@@ -211,14 +211,14 @@ impl Manifest {
         let text = read_text(&path).map_err(|problem| explain(problem.words))?;
         let manifest: Self = serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is not a shard manifest of this version ({error})")))?;
-        match manifest.fault() {
+        match manifest.manifest_error() {
             Some(why) => Err(explain(why)),
             None => Ok(manifest),
         }
     }
 
     /// Describes an error that no valid manifest has.
-    fn fault(&self) -> Option<String> {
+    fn manifest_error(&self) -> Option<String> {
         let Self { index, count, frames, tile_px, .. } = self;
         if index >= count {
             return Some(format!("it states shard {index} of {count}; expected a number below the count"));
@@ -232,13 +232,13 @@ impl Manifest {
     }
 
     /// Returns true if films of this shard are in the folder; refuses a folder of another shard, because films that are rendered separately belong together.
-    fn is_beside(&self, folder: &Path) -> Result<bool, Error> {
+    fn has_films(&self, folder: &Path) -> Result<bool, Error> {
         let path = folder.join(MANIFEST);
         if !path.exists() {
             return Ok(false);
         }
         let there = Self::read(folder)?;
-        match there.index == self.index && there.is_of_run(self) {
+        match there.index == self.index && there.is_same_run(self) {
             true => Ok(true),
             false => Err(Error::coded(
                 ErrorCode::OtherRun,
@@ -251,16 +251,16 @@ impl Manifest {
     }
 
     /// Returns true if two shards are of one run: the same plan, cameras, frames and tiles.
-    fn is_of_run(&self, other: &Self) -> bool {
-        let cut = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
-        cut(self) == cut(other) && self.request.camera == other.request.camera
+    fn is_same_run(&self, other: &Self) -> bool {
+        let run_key = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
+        run_key(self) == run_key(other) && self.request.camera == other.request.camera
     }
 
     /// Bytes of the file.
     ///
     /// # Errors
     /// A path is not valid text.
-    fn encoded(&self) -> Result<Vec<u8>, Error> {
+    fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         sidecar::encode(self).map_err(|error| {
             let job = self.request.job.display();
             Error::coded(ErrorCode::InvalidArgument, format!(
@@ -280,7 +280,7 @@ pub fn merge(
     job: Option<&Path>,
     simd: Simd,
     folder: &Path,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let mut shards = MergedShards::read(shards)?;
@@ -291,9 +291,9 @@ pub fn merge(
     let job = manifest.request.clone().into_output(folder).open()?;
     check_same_plan(job.plan(), &manifest)?;
     let options = RenderOptions { frames: manifest.frames, simd };
-    let mut folder = RunFolder::of_shards(job.shared_plan(), &options, folder, existing, observer)?;
+    let mut folder = RunFolder::for_shards(job.shared_plan(), &options, folder, existing, observer)?;
     let mut run = Run::new(job.shared_plan(), &options, None, observer)?;
-    while let Some(results) = run.next_results(&mut shards)? {
+    while let Some(results) = run.next_camera_results(&mut shards)? {
         folder.write(&results)?;
     }
     folder.finish()
@@ -306,16 +306,16 @@ struct ShardFolder<'a> {
 }
 
 impl ShardFolder<'_> {
-    fn refused(&self, why: &str) -> Error {
+    fn error(&self, why: &str) -> Error {
         Error::coded(ErrorCode::OtherRun, format!("{}: {why}", self.path.display()))
     }
 
     /// Reads the shard's part of a film.
-    fn film(&self, whole: &FilmOrigin<'_>) -> Result<(Shard, Film), Error> {
+    fn film(&self, expected: &FilmOrigin<'_>) -> Result<(Shard, Film), Error> {
         let shard = Shard::new(self.manifest.index, self.manifest.count);
-        let shard = shard.ok_or_else(|| self.refused("its manifest is damaged; render the shard again"))?;
-        let path = self.path.join(film_name(whole.camera, whole.shot));
-        let (film, _) = film_file::read(&path, &FilmOrigin { shard, ..*whole }, "render the shard again")?;
+        let shard = shard.ok_or_else(|| self.error("its manifest is damaged; render the shard again"))?;
+        let path = self.path.join(film_name(expected.camera, expected.frame_capture));
+        let (film, _) = film_file::read(&path, &FilmOrigin { shard, ..*expected }, "render the shard again")?;
         Ok((shard, film))
     }
 }
@@ -326,7 +326,7 @@ struct MergedShards<'a> {
 }
 
 /// Number of shards read in parallel: each takes the memory of the whole film.
-const AT_ONCE: usize = 4;
+const PARALLEL_SHARDS: usize = 4;
 
 impl<'a> MergedShards<'a> {
     /// Reads the manifests of shards.
@@ -340,19 +340,19 @@ impl<'a> MergedShards<'a> {
         let (Some(first), Some(last)) = (shards.first(), shards.last()) else {
             return Err(Error::coded(ErrorCode::MissingArgument, "no shards: give the folders of all shards"));
         };
-        if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_of_run(&first.manifest)) {
-            return Err(other.refused("it is a shard of another run; give the shards of one run"));
+        if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_same_run(&first.manifest)) {
+            return Err(other.error("it is a shard of another run; give the shards of one run"));
         }
         let count = first.manifest.count;
         for (expected, shard) in shards.iter().enumerate() {
             if shard.manifest.index as usize != expected {
                 let missing = format!("shard {expected} of {count} is missing or given twice; give each once");
-                return Err(shard.refused(&missing));
+                return Err(shard.error(&missing));
             }
         }
         if shards.len() != count as usize {
-            let given = format!("{} of {count} shards are given; give the folders of all shards", shards.len());
-            return Err(last.refused(&given));
+            let problem = format!("{} of {count} shards are given; give the folders of all shards", shards.len());
+            return Err(last.error(&problem));
         }
         Ok(Self { shards })
     }
@@ -360,13 +360,13 @@ impl<'a> MergedShards<'a> {
 
 impl RunStore for MergedShards<'_> {
     /// Returns the film with the tiles of all shards.
-    fn light(&self, whole: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
-        let camera = whole.camera;
+    fn light(&self, expected: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        let camera = expected.camera;
         let (width, height) = camera.film_size();
         let settings = &camera.settings;
         let mut film = Film::new(width as usize, height as usize, &camera.film_layout(), settings.replicates);
-        for some in self.shards.chunks(AT_ONCE) {
-            let parts: Vec<Result<_, Error>> = some.par_iter().map(|shard| shard.film(whole)).collect();
+        for some in self.shards.chunks(PARALLEL_SHARDS) {
+            let parts: Vec<Result<_, Error>> = some.par_iter().map(|shard| shard.film(expected)).collect();
             for part in parts {
                 let (shard, part) = part?;
                 tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));

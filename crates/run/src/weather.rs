@@ -5,14 +5,14 @@ use crate::results::metadata;
 use clap::Args;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
-use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
+use etendue_io::exr::{EncodeError, LengthPlanes, encode_plane, encode_radiance, encode_spectral};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
-use etendue_io::{Existing, OutputFolder, load_assets};
+use etendue_io::{ExistingFiles, OutputFolder, load_assets};
 use etendue_pipeline::compile_weather;
 use etendue_pipeline::plan::Weather;
-use etendue_pipeline::stored::Stored;
-use etendue_pipeline::weather::Weathered;
+use etendue_pipeline::stored::StoredRadianceImage;
+use etendue_pipeline::weather::WeatheredImage;
 use etendue_scene::{load_weather, named_files};
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ const COVER: &str = "cover.exr";
 ///
 /// # Errors
 /// The image or the weather cannot be used, or the folder cannot be written.
-pub fn weather(request: &WeatherRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
+pub fn weather(request: &WeatherRequest, folder: &Path, existing: ExistingFiles) -> Result<Vec<PathBuf>, Error> {
     let weather = open(&request.weather)?;
     let mut stored = StoredRadiance::open(&request.radiance)?;
     expose(&weather, &mut stored, request)?;
@@ -51,8 +51,8 @@ pub fn weather(request: &WeatherRequest, folder: &Path, existing: Existing) -> R
     if weather.falling.is_some() {
         folder.claim([COVER]).map_err(Error::input)?;
     }
-    let seen = seen(&weather, &stored, &request.radiance)?;
-    for (name, bytes) in files(&seen, &stored) {
+    let weathered = apply_weather(&weather, &stored, &request.radiance)?;
+    for (name, bytes) in files(&weathered, &stored) {
         let bytes = bytes.map_err(|error| Error::Run(format!("{name}: {error}")))?;
         folder.write(name, &bytes).map_err(Error::run)?;
     }
@@ -79,12 +79,12 @@ fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherReque
 }
 
 fn open(file: &Path) -> Result<Weather, Error> {
-    let record = load_weather(file, &read_text).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&named_files::of_weather(&record)).map_err(Error::inputs)?;
+    let record = load_weather(file, &read_text).map_err(|f| Error::inputs(f.as_slice()))?;
+    let assets = load_assets(&named_files::weather_files(&record)).map_err(Error::inputs)?;
     compile_weather(&record, &assets).map_err(Error::inputs)
 }
 
-fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weathered, Error> {
+fn apply_weather(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<WeatheredImage, Error> {
     let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", file.display()));
     let pose = stored.provenance.camera_to_world.as_ref().map(CameraPose::from_rows).ok_or_else(|| {
         refuse("it does not state the position of its camera, which the weather needs; render it with a camera that does not move")
@@ -92,30 +92,30 @@ fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weath
     let moment = TimeInterval::at(stored.provenance.time_s)
         .ok_or_else(|| refuse("its time is not finite; expected radiance that etendue rendered"))?;
     let image =
-        Stored { projection: &stored.projection, radiance: &stored.radiance, distance: stored.distance.as_ref() };
-    weather.over(&image, &pose, moment).map_err(|why| refuse(&why.to_string()))
+        StoredRadianceImage { projection: &stored.projection, radiance: &stored.radiance, distance: stored.distance.as_ref() };
+    weather.apply(&image, &pose, moment).map_err(|why| refuse(&why.to_string()))
 }
 
-fn files(seen: &Weathered, stored: &StoredRadiance) -> Vec<(&'static str, Result<Vec<u8>, EncodeError>)> {
+fn files(weathered: &WeatheredImage, stored: &StoredRadiance) -> Vec<(&'static str, Result<Vec<u8>, EncodeError>)> {
     let facts = &stored.provenance;
-    let variance = stored.variance.as_ref().map(|variance| dimmed(variance, seen));
-    let lengths = stored.distance.as_ref().map(|distance| Lengths { distance, depth: &seen.depth });
+    let variance = stored.variance.as_ref().map(|variance| attenuated_variance(variance, weathered));
+    let lengths = stored.distance.as_ref().map(|distance| LengthPlanes { distance, depth: &weathered.depth });
     let mut files = vec![
-        (RADIANCE, encode_radiance(&seen.radiance, variance.as_ref(), lengths, facts)),
-        (TRANSMITTANCE, encode_spectral(&seen.transmittance, None, facts)),
-        (AIRLIGHT, encode_spectral(&seen.airlight, None, facts)),
+        (RADIANCE, encode_radiance(&weathered.radiance, variance.as_ref(), lengths, facts)),
+        (TRANSMITTANCE, encode_spectral(&weathered.transmittance, None, facts)),
+        (AIRLIGHT, encode_spectral(&weathered.airlight, None, facts)),
     ];
-    files.extend(seen.cover.as_ref().map(|cover| (COVER, encode_plane(cover, None, facts))));
+    files.extend(weathered.cover.as_ref().map(|cover| (COVER, encode_plane(cover, None, facts))));
     files
 }
 
 /// Variance scales with the square of the transmittance; the variance of an airlight from the sky is not added.
-fn dimmed(variance: &SpectralCube<Variance>, seen: &Weathered) -> SpectralCube<Variance> {
+fn attenuated_variance(variance: &SpectralCube<Variance>, weathered: &WeatheredImage) -> SpectralCube<Variance> {
     let mut dimmed = variance.clone();
-    for (plane, shares) in dimmed.planes_mut().iter_mut().zip(seen.transmittance.planes()) {
+    for (plane, transmittances) in dimmed.planes_mut().iter_mut().zip(weathered.transmittance.planes()) {
         let samples: Vec<f32> =
-            plane.samples().iter().zip(shares.samples()).map(|(variance, share)| variance * share * share).collect();
-        *plane = Plane::from_samples(shares.width(), shares.height(), samples).expect("as many samples as pixels");
+            plane.samples().iter().zip(transmittances.samples()).map(|(variance, transmittance)| variance * transmittance * transmittance).collect();
+        *plane = Plane::from_samples(transmittances.width(), transmittances.height(), samples).expect("as many samples as pixels");
     }
     dimmed
 }

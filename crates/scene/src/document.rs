@@ -8,7 +8,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::line_index::LineIndex;
 use crate::place::Place;
 
@@ -118,16 +118,16 @@ impl Node {
 }
 
 /// Maximum number of syntax errors reported per file: those after the first are often its consequence.
-const SYNTAX_FAULTS: usize = 3;
+const MAX_SYNTAX_ERRORS: usize = 3;
 
 /// Parses a file's text to its tree; reports its first syntax errors.
-pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
+pub(crate) fn parse(file: &Arc<Path>, text: &str, description_errors: &mut DescriptionErrors) -> Node {
     let (table, mut errors) = DeTable::parse_recoverable(text);
     errors.sort_by_key(|error| error.span().map_or(0, |s| s.start));
-    let builder = Builder { spots: Spots::File { file: file.clone(), lines: LineIndex::new(text) } };
-    for error in errors.iter().take(SYNTAX_FAULTS) {
+    let builder = Builder { spots: PlaceResolver::File { file: file.clone(), lines: LineIndex::new(text) } };
+    for error in errors.iter().take(MAX_SYNTAX_ERRORS) {
         let place = builder.spots.place(error.span().map_or(0, |s| s.start), &"".into());
-        faults.add(ErrorCode::InvalidToml, &place, format!("invalid TOML: {}", error.message()), "correct the syntax");
+        description_errors.add(ErrorCode::InvalidToml, &place, format!("invalid TOML: {}", error.message()), "correct the syntax");
     }
     let table = builder.table(table.into_inner(), &"".into());
     Node { place: Place::file_head(file.clone()), value: Value::Table(table) }
@@ -136,12 +136,12 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
 /// Parses the value of an override, with the place of the override throughout; `None` if it is no TOML value.
 pub(crate) fn parse_override(value: &str, key: &str, place: &dyn Fn(&Arc<str>) -> Place) -> Option<Node> {
     let parsed = DeValue::parse(value).ok()?;
-    let builder = Builder { spots: Spots::Override(place) };
+    let builder = Builder { spots: PlaceResolver::Override(place) };
     Some(builder.node(parsed, &key.into()))
 }
 
 /// Conversion of byte offsets to places.
-enum Spots<'a> {
+enum PlaceResolver<'a> {
     File {
         file: Arc<Path>,
         lines: LineIndex<'a>,
@@ -150,7 +150,7 @@ enum Spots<'a> {
     Override(&'a dyn Fn(&Arc<str>) -> Place),
 }
 
-impl Spots<'_> {
+impl PlaceResolver<'_> {
     fn place(&self, offset: usize, key: &Arc<str>) -> Place {
         match self {
             Self::Override(place) => place(key),
@@ -163,7 +163,7 @@ impl Spots<'_> {
 }
 
 struct Builder<'a> {
-    spots: Spots<'a>,
+    spots: PlaceResolver<'a>,
 }
 
 // Values are consumed as they are read: a large file is held once as text and once as a tree.
@@ -176,7 +176,7 @@ impl Builder<'_> {
     fn value(&self, value: DeValue<'_>, key: &Arc<str>) -> Value {
         match value {
             DeValue::Boolean(v) => Value::Flag(v),
-            DeValue::Integer(v) => whole(&v),
+            DeValue::Integer(v) => integer(&v),
             DeValue::Float(v) => {
                 v.as_str().parse().map_or(Value::Foreign("a number too large for 64 bits"), Value::Number)
             }
@@ -190,7 +190,7 @@ impl Builder<'_> {
     fn element(&self, index: usize, value: Spanned<DeValue<'_>>, list: &Arc<str>) -> Node {
         if !matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)) {
             let node = self.node(value, list);
-            return Node { place: node.place.of_element(index as u32), ..node };
+            return Node { place: node.place.with_element(index as u32), ..node };
         }
         let name = value.get_ref().get("name").and_then(|n| n.as_ref().as_str());
         let key = name.map_or_else(|| format!("{list}[{index}]"), |name| join(list, name));
@@ -215,7 +215,7 @@ pub(crate) fn join(parent: &str, key: &str) -> String {
     if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") }
 }
 
-fn whole(v: &toml::de::DeInteger<'_>) -> Value {
+fn integer(v: &toml::de::DeInteger<'_>) -> Value {
     match i64::from_str_radix(v.as_str(), v.radix()) {
         Ok(v) => Value::Whole(v),
         Err(error) => Value::Foreign(match error.kind() {

@@ -28,10 +28,10 @@ mod schema;
 mod suggest;
 pub mod written;
 
-pub use fault::{ErrorCode, Example, ExampleContext, Explanation, Fault, Faults, Problem, stated};
+pub use fault::{ErrorCode, Example, ExampleContext, Explanation, DescriptionError, DescriptionErrors, Problem, key_with_place};
 pub use load::named_files;
 pub use load::{
-    CameraSetup, Description, ReadText, Trigger, Unused, edit, load_camera, load_datasheet, load_laboratory,
+    CameraSetup, Description, ReadText, Trigger, UnusedNames, edit, load_camera, load_datasheet, load_laboratory,
     load_variations, load_weather, stated_render_keys,
 };
 pub use overrides::Overrides;

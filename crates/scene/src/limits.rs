@@ -15,7 +15,7 @@ pub struct Limit {
     /// Name on the command line; it ends in the unit of a size.
     pub name: &'static str,
     /// Limited quantity, in words.
-    pub about: &'static str,
+    pub meaning: &'static str,
     /// Default value.
     pub default: u64,
     /// Highest value to which it can be raised.
@@ -75,13 +75,13 @@ pub static TEXTURE_CACHE: Limit = Limit::new(
 pub static ALL: [&Limit; 7] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &BASES, &TEXTURE_CACHE];
 
 impl Limit {
-    const fn new(name: &'static str, about: &'static str, default: u64, highest: u64) -> Self {
-        Self { name, about, default, highest, raised: AtomicU64::new(0) }
+    const fn new(name: &'static str, meaning: &'static str, default: u64, highest: u64) -> Self {
+        Self { name, meaning: about: meaning, default, highest, raised: AtomicU64::new(0) }
     }
 
     /// Current value, in its unit.
     #[must_use]
-    pub fn most(&self) -> u64 {
+    pub fn current(&self) -> u64 {
         match self.raised.load(Ordering::Relaxed) {
             0 => self.default,
             raised => raised,
@@ -90,13 +90,13 @@ impl Limit {
 
     /// Current value of a limit in MiB, bytes.
     #[must_use]
-    pub fn most_bytes(&self) -> u64 {
-        self.most().saturating_mul(MIB)
+    pub fn max_bytes(&self) -> u64 {
+        self.current().saturating_mul(MIB)
     }
 
     /// Suggested value for a need of more than `number`, where the exact need is unknown: twice as much, or the highest.
     #[must_use]
-    pub fn next(&self, number: u64) -> u64 {
+    pub fn suggested(&self, number: u64) -> u64 {
         if number < self.highest { number.saturating_mul(2).min(self.highest) } else { u64::MAX }
     }
 
@@ -120,11 +120,11 @@ impl Limit {
     /// # Errors
     /// The size exceeds the limit.
     pub fn check_unpacked(&self, bytes: u64) -> Result<(), Problem> {
-        if bytes <= self.most_bytes() {
+        if bytes <= self.max_bytes() {
             return Ok(());
         }
-        let (size, most, remedy) = (bytes.div_ceil(MIB), self.most(), self.remedy_bytes(bytes.into()));
-        let words = format!("the file unpacks to {size} MiB, but {most} MiB are allowed; make it smaller, {remedy}");
+        let (size, max, remedy) = (bytes.div_ceil(MIB), self.current(), self.remedy_bytes(bytes.into()));
+        let words = format!("the file unpacks to {size} MiB, but {max} MiB are allowed; make it smaller, {remedy}");
         Err(Problem::new(ErrorCode::TooLarge, words))
     }
 
@@ -133,13 +133,13 @@ impl Limit {
     /// # Errors
     /// The size exceeds the limit.
     pub fn check_size(&self, bytes: u64) -> Result<(), Problem> {
-        if bytes <= self.most_bytes() {
+        if bytes <= self.max_bytes() {
             return Ok(());
         }
         let size = bytes.div_ceil(MIB);
-        let (most, remedy) = (self.most(), self.remedy_bytes(bytes.into()));
+        let (max, remedy) = (self.current(), self.remedy_bytes(bytes.into()));
         let words = format!(
-            "the file has {size} MiB, but files of its kind may have at most {most} MiB; make it smaller, {remedy}"
+            "the file has {size} MiB, but files of its kind may have at most {max} MiB; make it smaller, {remedy}"
         );
         Err(Problem::new(ErrorCode::TooLarge, words))
     }
@@ -167,12 +167,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_limit_is_told() {
+    fn an_unknown_limit_is_reported() {
         assert!(set("picture").expect_err("no number").starts_with("expected NAME=N, one of description-mib,"));
         assert!(set("picture-mb=5").expect_err("no name").contains("did you mean \"picture-mib\"?"));
         assert_eq!(set("bases=0").expect_err("zero"), "expected a whole number from 1 to 64, not '0'");
         assert_eq!(set("bases=65").expect_err("high"), "expected a whole number from 1 to 64, not '65'");
-        assert!(ALL.iter().all(|limit| limit.default <= limit.highest && limit.most() == limit.default));
+        assert!(ALL.iter().all(|limit| limit.default <= limit.highest && limit.current() == limit.default));
     }
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
         let message = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
         assert!(message.words.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{message}");
-        assert_eq!([16, 40, 64].map(|most| BASES.next(most)), [32, 64, u64::MAX]);
+        assert_eq!([16, 40, 64].map(|max| BASES.suggested(max)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }
 }

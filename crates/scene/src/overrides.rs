@@ -9,26 +9,26 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::document::{Entry, Node, Table, Value, join, parse_override};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Place;
 use crate::suggest::nearest;
 
 /// Changes to a description, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    texts: Vec<Text>,
+    texts: Vec<ChangeText>,
     flags: Vec<Flag>,
 }
 
 /// A `key=value`.
 #[derive(Clone, Debug)]
-struct Text {
+struct ChangeText {
     text: Arc<str>,
     /// Place in the file that states it; `None` for the command line.
     by: Option<Arc<Place>>,
 }
 
-impl Text {
+impl ChangeText {
     /// Place of a key of `file` that it changes.
     fn place(&self, file: &Path, key: &str) -> Place {
         match &self.by {
@@ -38,7 +38,7 @@ impl Text {
     }
 }
 
-impl From<&str> for Text {
+impl From<&str> for ChangeText {
     fn from(text: &str) -> Self {
         Self { text: text.into(), by: None }
     }
@@ -69,17 +69,17 @@ impl Overrides {
     }
 
     /// Adds `text`, a `key=value`, after the others.
-    pub fn push(&mut self, text: &str) {
+    pub fn add(&mut self, text: &str) {
         self.texts.push(text.into());
     }
 
     /// Adds a change that a file of changes states at `by`, where its errors are reported.
-    pub fn push_stated(&mut self, text: &str, by: &Place) {
-        self.texts.push(Text { text: text.into(), by: Some(Arc::new(by.clone())) });
+    pub fn add_stated(&mut self, text: &str, by: &Place) {
+        self.texts.push(ChangeText { text: text.into(), by: Some(Arc::new(by.clone())) });
     }
 
     /// Sets `key` of `[render]` for all cameras, over files and the other changes. Errors are reported at the flag `text` of the command line.
-    pub fn push_render(&mut self, text: &str, key: &'static str, value: &str) {
+    pub fn add_render(&mut self, text: &str, key: &'static str, value: &str) {
         self.flags.push(Flag { table: FlagTable::Render, key, value: value.to_owned(), text: text.into() });
     }
 
@@ -89,16 +89,16 @@ impl Overrides {
     }
 
     /// Applies the changes that select files to read (`early`), or the others.
-    pub(crate) fn apply(&self, document: &mut Node, early: bool, faults: &mut Faults) {
+    pub(crate) fn apply(&self, document: &mut Node, early: bool, errors: &mut DescriptionErrors) {
         for text in &self.texts {
-            let change = Change::parse(text);
-            let names_file = change.as_ref().is_some_and(Change::names_file);
+            let change = KeyOverride::parse(text);
+            let names_file = change.as_ref().is_some_and(KeyOverride::names_file);
             match change {
-                Some(change) if change.path.len() > DEEPEST && !early => {
-                    note_too_deep(document, text, change.path.len(), faults);
+                Some(change) if change.path.len() > MAX_KEY_PARTS && !early => {
+                    note_too_deep(document, text, change.path.len(), errors);
                 }
-                Some(change) if names_file == early => change.apply(document, faults),
-                None if !early => note_no_pair(document, text, faults),
+                Some(change) if names_file == early => change.apply(document, errors),
+                None if !early => note_missing_value(document, text, errors),
                 _ => {}
             }
         }
@@ -167,9 +167,9 @@ fn sensor_of_entry(entry: &mut Node) -> Option<&mut Node> {
     camera.get_mut("sensor")
 }
 
-fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
+fn note_missing_value(document: &Node, text: &ChangeText, errors: &mut DescriptionErrors) {
     let place = text.place(document.place.file(), "");
-    faults.add(
+    errors.add(
         ErrorCode::InvalidChange,
         &place,
         "expected key=value",
@@ -181,27 +181,27 @@ fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
 const REMOVED: &str = "null";
 
 /// Maximum number of parts of a key: the nesting depth of the TOML reader. No description comes near it.
-const DEEPEST: usize = 80;
+const MAX_KEY_PARTS: usize = 80;
 
-fn note_too_deep(document: &Node, text: &Text, parts: usize, faults: &mut Faults) {
+fn note_too_deep(document: &Node, text: &ChangeText, parts: usize, errors: &mut DescriptionErrors) {
     let place = text.place(document.place.file(), "");
-    let problem = format!("this key has {parts} parts; at most {DEEPEST} are possible");
-    faults.add(ErrorCode::InvalidChange, &place, problem, "correct the key: render.spp=16");
+    let problem = format!("this key has {parts} parts; at most {MAX_KEY_PARTS} are possible");
+    errors.add(ErrorCode::InvalidChange, &place, problem, "correct the key: render.spp=16");
 }
 
 /// One `key=value`.
-struct Change<'t> {
-    text: &'t Text,
+struct KeyOverride<'t> {
+    text: &'t ChangeText,
     path: Vec<&'t str>,
     value: &'t str,
 }
 
-impl<'t> Change<'t> {
-    fn parse(text: &'t Text) -> Option<Self> {
+impl<'t> KeyOverride<'t> {
+    fn parse(text: &'t ChangeText) -> Option<Self> {
         let (key, value) = text.text.split_once('=')?;
         let path: Vec<_> = key.trim().split('.').map(str::trim).collect();
-        let whole = path.iter().all(|part| !part.is_empty()) && !value.trim().is_empty();
-        whole.then_some(Self { text, path, value: value.trim() })
+        let is_complete = path.iter().all(|part| !part.is_empty()) && !value.trim().is_empty();
+        is_complete.then_some(Self { text, path, value: value.trim() })
     }
 
     /// True if the change selects a file to read.
@@ -220,19 +220,19 @@ impl<'t> Change<'t> {
         path
     }
 
-    fn apply(&self, document: &mut Node, faults: &mut Faults) {
+    fn apply(&self, document: &mut Node, errors: &mut DescriptionErrors) {
         let path = self.path_through_files(document);
-        let Some((last, way)) = path.split_last() else { return };
+        let Some((last, parents)) = path.split_last() else { return };
         let mut node = document;
-        for part in way {
-            let Some(next) = self.step(node, part, faults) else { return };
+        for part in parents {
+            let Some(next) = self.step(node, part, errors) else { return };
             node = next;
         }
-        if self.value == REMOVED { self.take_out(node, last, faults) } else { self.put(node, last, faults) }
+        if self.value == REMOVED { self.remove(node, last, errors) } else { self.set_value(node, last, errors) }
     }
 
     /// Removes the entry `last` from `node`; reports an error if it is absent.
-    fn take_out(&self, node: &mut Node, last: &str, faults: &mut Faults) {
+    fn remove(&self, node: &mut Node, last: &str, errors: &mut DescriptionErrors) {
         let place = self.text.place(node.place.file(), &join(&node.place.key(), last));
         let parent = node.place.key().into_owned();
         let is_taken = match &mut node.value {
@@ -252,19 +252,19 @@ impl<'t> Change<'t> {
         let hint = nearest(last, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let within = if parent.is_empty() { String::new() } else { format!(" in \"{parent}\"") };
         let problem = format!("there is no \"{last}\"{within} to remove");
-        faults.add(ErrorCode::InvalidChange, &place, problem, format!("{hint}correct the key, or omit the change"));
+        errors.add(ErrorCode::InvalidChange, &place, problem, format!("{hint}correct the key, or omit the change"));
     }
 
     /// Returns the entry `part` of `node`; an absent table is created.
-    fn step<'n>(&self, node: &'n mut Node, part: &str, faults: &mut Faults) -> Option<&'n mut Node> {
+    fn step<'n>(&self, node: &'n mut Node, part: &str, errors: &mut DescriptionErrors) -> Option<&'n mut Node> {
         let parent = node.place.key().into_owned();
         let place = self.text.place(node.place.file(), &join(&parent, part));
         match &mut node.value {
             Value::Table(table) => Some(entry_or_table(table, part, &place)),
-            Value::List(list) => entry_of_list(list, part, &place, faults),
+            Value::List(list) => entry_of_list(list, part, &place, errors),
             Value::Unreadable => None,
             _ => {
-                faults.add(
+                errors.add(
                     ErrorCode::InvalidChange,
                     &place,
                     format!("\"{parent}\" is not a table and has no key \"{part}\""),
@@ -275,7 +275,7 @@ impl<'t> Change<'t> {
         }
     }
 
-    fn put(&self, node: &mut Node, last: &str, faults: &mut Faults) {
+    fn set_value(&self, node: &mut Node, last: &str, errors: &mut DescriptionErrors) {
         let file: Arc<Path> = node.place.file().into();
         let key = join(&node.place.key(), last);
         let place = self.text.place(&file, &key);
@@ -287,12 +287,12 @@ impl<'t> Change<'t> {
                 None => table.entries.push(Entry { key: last.to_owned(), place, node: value }),
             },
             Value::List(list) => {
-                if let Some(old) = entry_of_list(list, last, &place, faults) {
+                if let Some(old) = entry_of_list(list, last, &place, errors) {
                     *old = value;
                 }
             }
             Value::Unreadable => {}
-            _ => faults.add(
+            _ => errors.add(
                 ErrorCode::InvalidChange,
                 &place,
                 format!("there is no table for \"{last}\""),
@@ -325,15 +325,15 @@ fn entry_or_table<'n>(table: &'n mut Table, part: &str, place: &Place) -> &'n mu
     &mut table.entries[index].node
 }
 
-fn entry_of_list<'n>(list: &'n mut [Node], part: &str, place: &Place, faults: &mut Faults) -> Option<&'n mut Node> {
-    let found = find_entry(list, part);
-    if found.is_none() {
-        note_no_entry(list, part, place, faults);
+fn entry_of_list<'n>(list: &'n mut [Node], part: &str, place: &Place, errors: &mut DescriptionErrors) -> Option<&'n mut Node> {
+    let entry = find_entry(list, part);
+    if entry.is_none() {
+        note_missing_entry(list, part, place, errors);
     }
-    found.map(|i| &mut list[i])
+    entry.map(|i| &mut list[i])
 }
 
-fn note_no_entry(list: &[Node], part: &str, place: &Place, faults: &mut Faults) {
+fn note_missing_entry(list: &[Node], part: &str, place: &Place, errors: &mut DescriptionErrors) {
     let names: Vec<_> = list.iter().filter_map(Node::name).collect();
     let hint = nearest(part, &names).map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
     let entries = if names.is_empty() { String::new() } else { format!(", or a name: {}", names.join(", ")) };
@@ -341,5 +341,5 @@ fn note_no_entry(list: &[Node], part: &str, place: &Place, faults: &mut Faults) 
         0 => "the list is empty; remove the override".to_owned(),
         n => format!("{hint}give a number from 0 to {}{entries}", n - 1),
     };
-    faults.add(ErrorCode::UnknownName, place, format!("there is no entry \"{part}\""), remedy);
+    errors.add(ErrorCode::UnknownName, place, format!("there is no entry \"{part}\""), remedy);
 }

@@ -13,14 +13,14 @@ use std::sync::{Arc, LazyLock};
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     file: Arc<Path>,
-    spot: Spot,
+    spot: SourcePosition,
     key: Arc<str>,
     /// Index of a value in the list `key`, from 0. This allows the values of a long list to share one text.
     element: Option<u32>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Spot {
+enum SourcePosition {
     At {
         line: u32,
         column: u32,
@@ -36,56 +36,56 @@ impl Place {
     /// Place of a value in no file: of a record that a program made.
     #[must_use]
     pub fn unstated() -> Self {
-        static UNSTATED: LazyLock<Place> = LazyLock::new(|| Place {
+        static WITHOUT_SOURCE: LazyLock<Place> = LazyLock::new(|| Place {
             file: Arc::from(Path::new("")),
-            spot: Spot::Unstated,
+            spot: SourcePosition::Unstated,
             key: "".into(),
             element: None,
         });
-        UNSTATED.clone()
+        WITHOUT_SOURCE.clone()
     }
 
     /// True if a file or the command line states the value.
     #[must_use]
-    pub fn is_stated(&self) -> bool {
-        self.spot != Spot::Unstated
+    pub fn has_source(&self) -> bool {
+        self.spot != SourcePosition::Unstated
     }
 
     /// The first character of `file`.
     #[must_use]
     pub fn file_head(file: impl Into<Arc<Path>>) -> Self {
-        Self { file: file.into(), spot: Spot::At { line: 1, column: 1 }, key: "".into(), element: None }
+        Self { file: file.into(), spot: SourcePosition::At { line: 1, column: 1 }, key: "".into(), element: None }
     }
 
     /// Line and column (from 1, columns in characters) of `file`, at the dotted `key`.
     pub(crate) fn at(file: Arc<Path>, line: u32, column: u32, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::At { line, column }, key, element: None }
+        Self { file, spot: SourcePosition::At { line, column }, key, element: None }
     }
 
     /// The override `--set text`, which changes `key` of `file`.
     pub(crate) fn set(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::Set(text), key, element: None }
+        Self { file, spot: SourcePosition::Set(text), key, element: None }
     }
 
     /// The flag of the command line, as typed, that changes `key` of `file`.
     pub(crate) fn flag(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::Flag(text), key, element: None }
+        Self { file, spot: SourcePosition::Flag(text), key, element: None }
     }
 
     /// A change of `key` of `file` that another file states at `by`.
     pub(crate) fn change(file: Arc<Path>, by: Arc<Place>, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::Change(by), key, element: None }
+        Self { file, spot: SourcePosition::Change(by), key, element: None }
     }
 
     /// The place of a value of the list at the key.
-    pub(crate) fn of_element(self, index: u32) -> Self {
+    pub(crate) fn with_element(self, index: u32) -> Self {
         Self { element: Some(index), ..self }
     }
 
     /// True if the command line states it, by an override, a flag or a file of changes.
     #[must_use]
     pub fn is_command_line(&self) -> bool {
-        matches!(self.spot, Spot::Set(_) | Spot::Flag(_) | Spot::Change(_))
+        matches!(self.spot, SourcePosition::Set(_) | SourcePosition::Flag(_) | SourcePosition::Change(_))
     }
 
     /// The file the value belongs to (for an override: the file it changes).
@@ -98,7 +98,7 @@ impl Place {
     #[must_use]
     pub fn stating_file(&self) -> &Path {
         match &self.spot {
-            Spot::Change(by) => by.stating_file(),
+            SourcePosition::Change(by) => by.stating_file(),
             _ => &self.file,
         }
     }
@@ -116,9 +116,9 @@ impl Place {
     #[must_use]
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self.spot {
-            Spot::At { line, column } => Some((line, column)),
-            Spot::Change(ref by) => by.line_column(),
-            Spot::Set(_) | Spot::Flag(_) | Spot::Unstated => None,
+            SourcePosition::At { line, column } => Some((line, column)),
+            SourcePosition::Change(ref by) => by.line_column(),
+            SourcePosition::Set(_) | SourcePosition::Flag(_) | SourcePosition::Unstated => None,
         }
     }
 
@@ -132,14 +132,14 @@ impl Place {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.spot {
-            Spot::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
-            Spot::Set(text) => return write_set(f, text),
-            Spot::Flag(text) => return f.write_str(text),
-            Spot::Change(by) => match by.line_column() {
+            SourcePosition::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
+            SourcePosition::Set(text) => return write_set(f, text),
+            SourcePosition::Flag(text) => return f.write_str(text),
+            SourcePosition::Change(by) => match by.line_column() {
                 Some((line, column)) => write!(f, "{}:{line}:{column}", by.file().display())?,
                 None => by.fmt(f)?,
             },
-            Spot::Unstated => return f.write_str("a value not stated by any file"),
+            SourcePosition::Unstated => return f.write_str("a value not stated by any file"),
         }
         let key = self.key();
         if key.is_empty() { Ok(()) } else { write!(f, ": {key}") }
@@ -148,8 +148,8 @@ impl fmt::Display for Place {
 
 /// Writes the override as typed; of a long one the first 160 characters.
 fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
-    const SHOWN: usize = 160;
-    match text.char_indices().nth(SHOWN) {
+    const MAX_SHOWN_LENGTH: usize = 160;
+    match text.char_indices().nth(MAX_SHOWN_LENGTH) {
         None => write!(f, "`set` {text}"),
         Some((end, _)) => write!(f, "`set` {}…", &text[..end]),
     }

@@ -31,19 +31,19 @@ pub enum FileKind {
 #[must_use]
 pub fn schema(kind: FileKind) -> Json {
     match kind {
-        FileKind::Scene => based::<Scene>("Étendue scene"),
-        FileKind::Camera => based::<Camera>("Étendue camera"),
-        FileKind::Job => based::<Job>("Étendue job"),
-        FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
-        FileKind::Weather => unbased::<Weather>("Étendue weather"),
-        FileKind::Variations => unbased::<Variations>("Étendue variations"),
-        FileKind::Laboratory => unbased::<Laboratory>("Étendue laboratory"),
+        FileKind::Scene => file_with_base::<Scene>("Étendue scene"),
+        FileKind::Camera => file_with_base::<Camera>("Étendue camera"),
+        FileKind::Job => file_with_base::<Job>("Étendue job"),
+        FileKind::DataSheet => complete_file::<DataSheet>("EMVA 1288 data sheet"),
+        FileKind::Weather => complete_file::<Weather>("Étendue weather"),
+        FileKind::Variations => complete_file::<Variations>("Étendue variations"),
+        FileKind::Laboratory => complete_file::<Laboratory>("Étendue laboratory"),
     }
 }
 
 /// A file that extends no other.
-fn unbased<T: Record>(title: &str) -> Json {
-    let mut schema = whole::<T>();
+fn complete_file<T: Record>(title: &str) -> Json {
+    let mut schema = record_at_head::<T>();
     head(&mut schema, title);
     schema
 }
@@ -54,14 +54,14 @@ fn head(schema: &mut Json, title: &str) {
 }
 
 /// A file that is complete, or extends another.
-fn based<T: Record>(title: &str) -> Json {
-    let mut schema = json!({ "if": { "required": ["base"] }, "then": derived::<T>(), "else": whole::<T>() });
+fn file_with_base<T: Record>(title: &str) -> Json {
+    let mut schema = json!({ "if": { "required": ["base"] }, "then": partial_file::<T>(), "else": record_at_head::<T>() });
     head(&mut schema, title);
     schema
 }
 
 /// The schema of a record at the head of a file.
-fn whole<T: Record>() -> Json {
+fn record_at_head<T: Record>() -> Json {
     let mut schema = record::<T>().schema();
     schema["properties"]["format"] = format();
     if let Some(required) = schema["required"].as_array_mut() {
@@ -71,7 +71,7 @@ fn whole<T: Record>() -> Json {
 }
 
 /// A file merged over another: any part of it may be missing, so only the names of its keys are given.
-fn derived<T: Record>() -> Json {
+fn partial_file<T: Record>() -> Json {
     let base = "The path of a file of this kind, which this file extends and overrides.";
     let removed = "Dotted keys of entries that are removed from the base: \"environment\", \"lights.sun\".";
     let mut properties = json!({

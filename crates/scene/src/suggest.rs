@@ -1,9 +1,9 @@
 //! The nearest valid word to a misspelt one.
 
 /// Returns the word nearest to `found` (optimal string alignment distance), if at most a third of its letters and one differ. Case is ignored.
-pub(crate) fn nearest<'w>(found: &str, words: &[&'w str]) -> Option<&'w str> {
-    let found = found.to_lowercase();
-    let scored = words.iter().map(|w| (distance(&found, &w.to_lowercase()), *w));
+pub(crate) fn nearest<'w>(name: &str, words: &[&'w str]) -> Option<&'w str> {
+    let name = name.to_lowercase();
+    let scored = words.iter().map(|w| (distance(&name, &w.to_lowercase()), *w));
     scored.filter(|(d, w)| *d <= w.chars().count() / 3 + 1).min_by_key(|(d, _)| *d).map(|(_, w)| w)
 }
 

@@ -37,7 +37,7 @@ impl<'a> CaptureLight<'a> {
     }
 
     /// The light of capture `k`, from 0.
-    pub(crate) fn of(&self, k: usize) -> &'a Plane<MeanElectrons> {
+    pub(crate) fn capture(&self, k: usize) -> &'a Plane<MeanElectrons> {
         k.checked_sub(1).and_then(|i| self.further.get(i)).unwrap_or(self.first)
     }
 }

@@ -1,7 +1,7 @@
 //! From a cube of spectral irradiance to mean electrons.
 
 use etendue_core::quantity::{Irradiance, MeanElectrons};
-use etendue_core::{Bands, KeptCube, Plane, SpectralCube};
+use etendue_core::{Bands, StoredCube, Plane, SpectralCube};
 use rayon::prelude::*;
 
 use crate::sensor::Sensor;
@@ -31,7 +31,7 @@ impl Sensor {
     ///
     /// # Errors
     /// If they cannot be read.
-    pub fn electrons_of(&self, irradiance: &KeptCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
+    pub fn electrons_of(&self, irradiance: &StoredCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
         let (width, height) = (irradiance.width(), irradiance.height());
         let mut plane = Plane::new(width, height);
         let weights = self.band_weights(irradiance.bands());
@@ -100,9 +100,9 @@ mod tests {
         }
         let electrons = sensor.electrons(&cube);
         for (x, y, channel) in [(0, 0, 1), (1, 0, 0), (2, 0, 1), (0, 1, 2), (1, 1, 1)] {
-            let want = sensor.responsivity(channel).integral(400.0, 700.0) * f64::from(1e-3_f32);
+            let expected = sensor.responsivity(channel).integral(400.0, 700.0) * f64::from(1e-3_f32);
             // Stored as f32.
-            assert!((f64::from(electrons.at(x, y)) / want - 1.0).abs() < 1e-6);
+            assert!((f64::from(electrons.at(x, y)) / expected - 1.0).abs() < 1e-6);
         }
     }
 }

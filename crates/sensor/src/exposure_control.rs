@@ -111,22 +111,22 @@ mod tests {
     /// Levels and operating points over frames of a scene with `mean` electrons in the described exposure.
     fn frames(sensor: &Sensor, mean: f32, count: u32) -> Vec<(u32, OperatingPoint)> {
         let mut state = SensorState::default();
-        let mut seen = Vec::new();
+        let mut exposures = Vec::new();
         for frame in 0..count {
             let (next, raw) = sensor.step(state, &Plane::filled(8, 8, mean), FrameAddress { frame, ..ADDRESS });
-            seen.push((raw.plane.at(3, 3), raw.operating_point));
+            exposures.push((raw.plane.at(3, 3), raw.operating_point));
             state = next;
         }
-        seen
+        exposures
     }
 
     #[test]
     fn it_converges_from_dark_and_from_bright() {
         for (mean, damping, count) in [(1500.0, 1.0, 4), (1e7, 1.0, 14), (3000.0, 0.5, 12), (1400.0, 0.5, 14)] {
-            let seen = frames(&controlled(damping), mean, count);
-            let (dn, _) = *seen.last().expect("frames");
+            let exposures = frames(&controlled(damping), mean, count);
+            let (dn, _) = *exposures.last().expect("frames");
             // Half of the well, to a rounding of the measured level.
-            assert!((f64::from(dn) / 5000.0 - 1.0).abs() < 0.02, "{mean}: {seen:?}");
+            assert!((f64::from(dn) / 5000.0 - 1.0).abs() < 0.02, "{mean}: {exposures:?}");
         }
     }
 

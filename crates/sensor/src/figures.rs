@@ -24,7 +24,7 @@
 
 use etendue_core::maths::f64::{log2, log10};
 
-use crate::reading::{Reading, readings};
+use crate::reading::{CaptureReading, readings};
 use crate::{capture::OperatingPoint, parameters::SensorParameters, sensor::Sensor};
 
 /// Variance of rounding, DN².
@@ -62,16 +62,16 @@ pub fn bit(ratio: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DynamicRange {
     /// The signal at a signal-to-noise ratio of 1, e⁻.
-    pub least_e: f64,
+    pub lower_e: f64,
     /// The signal that reaches the white level, e⁻.
-    pub most_e: f64,
+    pub upper_e: f64,
     /// Switches to the next capture.
-    pub switches: Vec<Switch>,
+    pub switches: Vec<CaptureTransition>,
 }
 
 /// A switch from a capture to the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Switch {
+pub struct CaptureTransition {
     /// The signal at the switch, e⁻ of the first capture.
     pub at_e: f64,
     /// Signal-to-noise ratio of the capture before.
@@ -84,7 +84,7 @@ impl DynamicRange {
     /// The range, dB.
     #[must_use]
     pub fn db(&self) -> f64 {
-        db(self.most_e / self.least_e)
+        db(self.upper_e / self.lower_e)
     }
 }
 
@@ -96,12 +96,12 @@ impl Sensor {
         let captures = readings(p, p.described_point());
         let variance = captures[0].dark_variance_e2(0.0);
         let pairs = captures.windows(2).map(|pair| {
-            let at_e = pair[0].signal_e(p.hdr.switch());
-            Switch { at_e, before: pair[0].ratio(at_e), after: pair[1].ratio(at_e) }
+            let at_e = pair[0].signal_e(p.hdr.transition_level_or_default());
+            CaptureTransition { at_e, before: pair[0].ratio(at_e), after: pair[1].ratio(at_e) }
         });
         DynamicRange {
-            least_e: 0.5 * (1.0 + (1.0 + 4.0 * variance).sqrt()),
-            most_e: captures[captures.len() - 1].signal_e(1.0),
+            lower_e: 0.5 * (1.0 + (1.0 + 4.0 * variance).sqrt()),
+            upper_e: captures[captures.len() - 1].signal_e(1.0),
             switches: pairs.collect(),
         }
     }
@@ -138,14 +138,14 @@ impl Sensor {
         let point = most_sensitive(p);
         let wells = p.wells_read();
         let controlled = p.exposure.control.is_some();
-        let of = |(reading, fraction): (&Reading<'_>, f64)| CaptureNoise {
+        let of = |(reading, fraction): (&CaptureReading<'_>, f64)| CaptureNoise {
             light: reading.light,
             wells,
             dark_e2: if p.noise { reading.dark_variance_e2(0.0) } else { reading.quantisation_e2() },
             up_to_e: if controlled { f64::INFINITY } else { reading.signal_e(fraction) / wells },
         };
         let readings = readings(p, point);
-        let switches = std::iter::repeat_n(p.hdr.switch(), readings.len() - 1).chain([1.0]);
+        let switches = std::iter::repeat_n(p.hdr.transition_level_or_default(), readings.len() - 1).chain([1.0]);
         let captures = readings.iter().zip(switches).map(of).collect();
         TemporalNoise { captures, exposure_s: p.exposure.exposure_s, counts: p.noise }
     }
@@ -162,7 +162,7 @@ fn most_sensitive(p: &SensorParameters) -> OperatingPoint {
 impl TemporalNoise {
     /// The noise of one capture of `exposure_s` with photon noise and a constant variance (e⁻²), white at `white_e` electrons.
     #[must_use]
-    pub fn of_one_capture(exposure_s: f64, dark_e2: f64, white_e: f64) -> Self {
+    pub fn from_one_capture(exposure_s: f64, dark_e2: f64, white_e: f64) -> Self {
         Self {
             captures: vec![CaptureNoise { light: 1.0, wells: 1.0, dark_e2, up_to_e: white_e }],
             exposure_s,
@@ -172,7 +172,7 @@ impl TemporalNoise {
 
     /// The same for a sensor that never saturates.
     #[must_use]
-    pub fn never_white(mut self) -> Self {
+    pub fn without_saturation(mut self) -> Self {
         self.captures.iter_mut().for_each(|capture| capture.up_to_e = f64::INFINITY);
         self
     }
@@ -230,7 +230,7 @@ mod tests {
         let variance: f64 = 25.0 + 16.0 / 12.0;
         let approximate = variance.sqrt() + 0.5;
         // The standard's approximation misses by 1/(8 σ).
-        assert!((range.least_e - approximate).abs() < 0.03 && (range.most_e - 60_000.0).abs() < 1e-6);
+        assert!((range.lower_e - approximate).abs() < 0.03 && (range.upper_e - 60_000.0).abs() < 1e-6);
         assert!((range.db() - 80.5).abs() < 0.05 && range.switches.is_empty(), "{}", range.db());
     }
 
@@ -239,12 +239,12 @@ mod tests {
         let mut p = ideal();
         (p.charge.dark.current_e_s, p.exposure.exposure_s) = (100.0, 1.0);
         (p.charge.full_well.capacity_e, p.read_out.gain_dn_e) = (10_000.0, 1.0);
-        let of = crate::layout::BinningOf::Charge;
+        let of = crate::layout::BinningMode::Charge;
         p.read_out.layout.binning = Some(crate::layout::Binning { columns: 2, rows: 2, of });
         let range = Sensor::new(p).expect("legal").dynamic_range();
         let variance = 25.0 + 400.0 + 1.0 / 12.0;
-        let least = 0.5 * (1.0 + f64::sqrt(1.0 + 4.0 * variance));
-        assert!((range.most_e - 39_600.0).abs() < 1e-6 && (range.least_e - least).abs() < 1e-9, "{range:?}");
+        let minimum = 0.5 * (1.0 + f64::sqrt(1.0 + 4.0 * variance));
+        assert!((range.upper_e - 39_600.0).abs() < 1e-6 && (range.lower_e - minimum).abs() < 1e-9, "{range:?}");
     }
 
     #[test]
@@ -255,7 +255,7 @@ mod tests {
         p.hdr.bits = Some(24);
         let range = Sensor::new(p).expect("legal").dynamic_range();
         let switch = range.switches[0];
-        assert!((switch.at_e - 54_000.0).abs() < 1e-6 && (range.most_e - 960_000.0).abs() < 1e-3);
+        assert!((switch.at_e - 54_000.0).abs() < 1e-6 && (range.upper_e - 960_000.0).abs() < 1e-3);
         // Shot noise alone, except for 1/12: √54 000 and √(54 000/16).
         assert!((switch.before / 232.38 - 1.0).abs() < 1e-4 && (switch.after / 58.095 - 1.0).abs() < 1e-4);
     }

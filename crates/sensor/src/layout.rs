@@ -44,7 +44,7 @@ pub struct Region {
 
 /// Quantity combined by binning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BinningOf {
+pub enum BinningMode {
     /// Charge is added before it is read.
     Charge,
     /// Digital numbers are averaged.
@@ -59,7 +59,7 @@ pub struct Binning {
     /// Pixels of a column.
     pub rows: usize,
     /// Quantity combined.
-    pub of: BinningOf,
+    pub of: BinningMode,
 }
 
 /// The pixels that are read, and those that are read together.
@@ -89,7 +89,7 @@ impl Effect for Layout {
             parts.push(format!("{} rows above and {} columns left are optically black", dark.rows, dark.columns));
         }
         if let Some(Binning { columns, rows, of }) = binning {
-            let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
+            let how = if of == BinningMode::Charge { "charge is added" } else { "digital numbers are averaged" };
             parts.push(format!("{columns} × {rows} pixels of one colour are binned: {how}"));
         }
         if let Some(Skipping { columns, rows }) = skipping {
@@ -138,16 +138,16 @@ impl Layout {
             return checks.errors;
         }
         let (w, h) = (w * n, h * m);
-        let whole = |columns: usize, rows: usize| columns.is_multiple_of(w) && rows.is_multiple_of(h);
+        let is_divisible = |columns: usize, rows: usize| columns.is_multiple_of(w) && rows.is_multiple_of(h);
         let multiples =
             || format!("columns must be multiples of {w} and rows of {h} (the colour tile times the {key})");
-        checks.agree(key, whole(width, height), multiples);
+        checks.agree(key, is_divisible(width, height), multiples);
         let dark = self.optical_black;
-        checks.agree("optical_black", whole(dark.columns, dark.rows), multiples);
+        checks.agree("optical_black", is_divisible(dark.columns, dark.rows), multiples);
         if let Some(r) = self.region {
             checks.agree(
                 "roi_px",
-                whole(r.x, r.y) && whole(r.width, r.height) && r.width > 0 && r.height > 0,
+                is_divisible(r.x, r.y) && is_divisible(r.width, r.height) && r.width > 0 && r.height > 0,
                 multiples,
             );
             let ends_inside =
@@ -163,28 +163,28 @@ impl Layout {
     }
 
     /// The whole array: the image with its optical-black pixels. `None` if there are none.
-    pub(crate) fn with_optical_black(&self, picture: &Plane<MeanElectrons>) -> Option<Plane<MeanElectrons>> {
+    pub(crate) fn with_optical_black(&self, image: &Plane<MeanElectrons>) -> Option<Plane<MeanElectrons>> {
         let OpticalBlack { rows, columns } = self.optical_black;
         if rows == 0 && columns == 0 {
             return None;
         }
-        let (width, height) = (picture.width(), picture.height());
+        let (width, height) = (image.width(), image.height());
         let mut array = Plane::new(width + columns, height + rows);
         for y in 0..height {
             let start = (y + rows) * (width + columns) + columns;
-            array.samples_mut()[start..start + width].copy_from_slice(&picture.samples()[y * width..(y + 1) * width]);
+            array.samples_mut()[start..start + width].copy_from_slice(&image.samples()[y * width..(y + 1) * width]);
         }
         Some(array)
     }
 
     /// The binning of charge, if any.
     pub(crate) fn charge_binning(&self) -> Option<Binning> {
-        self.binning.filter(|b| b.of == BinningOf::Charge)
+        self.binning.filter(|b| b.of == BinningMode::Charge)
     }
 
     /// The binning of digital numbers, if any.
     pub(crate) fn number_binning(&self) -> Option<Binning> {
-        self.binning.filter(|b| b.of == BinningOf::Numbers)
+        self.binning.filter(|b| b.of == BinningMode::Numbers)
     }
 
     /// Columns and rows of the array per pixel of the result.
@@ -200,14 +200,14 @@ impl Layout {
     }
 
     /// Position of the image in a raw of `width` × `height` pixels.
-    pub(crate) fn picture_in_raw(&self, width: usize, height: usize) -> Region {
+    pub(crate) fn image_in_raw(&self, width: usize, height: usize) -> Region {
         let (n, m) = self.steps();
         let (x, y) = (self.optical_black.columns / n, self.optical_black.rows / m);
         Region { x, y, width: width - x, height: height - y }
     }
 
     /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels.
-    pub(crate) fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
+    pub(crate) fn image_size(&self, width: usize, height: usize) -> (usize, usize) {
         let (n, m) = self.steps();
         let (width, height) = self.region.map_or((width, height), |r| (r.width, r.height));
         (width / n, height / m)
@@ -215,7 +215,7 @@ impl Layout {
 
     /// Maps a point of the sensor (pixels, the top left corner is 0, 0) to the delivered image. With skipping, tiles of more than one pixel keep
     /// their centre.
-    pub(crate) fn in_picture(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn to_image(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
         let (n, m) = self.steps();
         let (left, top) = self.region.map_or((0, 0), |r| (r.x, r.y));
         let middle = |tile: usize| if self.skipping.is_some() { 0.5 * tile as f64 } else { 0.0 };
@@ -244,10 +244,10 @@ impl Layout {
 }
 
 /// Quantities that are summed over pixels read together.
-pub(crate) trait AddsUp: Quantity<Sample = f32> {}
+pub(crate) trait Summable: Quantity<Sample = f32> {}
 
-impl AddsUp for Charge {}
-impl AddsUp for SignalPart {}
+impl Summable for Charge {}
+impl Summable for SignalPart {}
 
 impl Binning {
     /// Samples of the same colour combined by `fold`.
@@ -269,7 +269,7 @@ impl Binning {
     }
 
     /// The sum of charge, or of its parts.
-    pub(crate) fn added<Q: AddsUp>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
+    pub(crate) fn added<Q: Summable>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         self.folded(cfa, plane, |q| q.iter().map(|q| f64::from(*q)).sum::<f64>() as f32)
     }
 
@@ -287,7 +287,7 @@ impl Binning {
 
 impl Region {
     /// The rectangle of a plane.
-    pub(crate) fn of<Q: Quantity>(&self, plane: &Plane<Q>) -> Plane<Q> {
+    pub(crate) fn crop<Q: Quantity>(&self, plane: &Plane<Q>) -> Plane<Q> {
         let rows = plane.samples().chunks(plane.width()).skip(self.y).take(self.height);
         let samples = rows.flat_map(|row| row[self.x..self.x + self.width].iter().copied()).collect();
         Plane::from_samples(self.width, self.height, samples).expect("a checked region")
@@ -305,7 +305,7 @@ pub struct Skipping {
 
 impl Skipping {
     /// The samples that are read.
-    pub(crate) fn of<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
+    pub(crate) fn read<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         let (width, height) = (plane.width() / self.columns, plane.height() / self.rows);
         let row = |y: usize| {
             let y = first_of(y, cfa.height(), self.rows);

@@ -12,7 +12,7 @@ impl Sensor {
     /// Effective responsivities of all channels under uniform illumination, e⁻ per W·m⁻² during the exposure; during a second if that is zero, as
     /// colour computations accept any common scale.
     #[must_use]
-    pub fn picture_responsivities(&self) -> Vec<Spectrum> {
+    pub fn image_responsivities(&self) -> Vec<Spectrum> {
         let own = self.colour_responsivities();
         let mixed = |weights: &Vec<f64>| {
             Spectrum::from_fn(|nm| own.iter().zip(weights).map(|(r, weight)| weight * f64::from(r.at(nm as f32))).sum())
@@ -23,7 +23,7 @@ impl Sensor {
     /// Effective quantum efficiencies of all channels on a pixel's whole square under uniform illumination, at a wavelength, nm: the quantity that
     /// photon transfer measures.
     #[must_use]
-    pub fn picture_quantum_efficiencies(&self, nm: f64) -> Vec<f64> {
+    pub fn image_quantum_efficiencies(&self, nm: f64) -> Vec<f64> {
         let p = self.parameters();
         let own: Vec<f64> = p.channels.iter().map(|c| f64::from(c.quantum_efficiency.at(nm as f32))).collect();
         let mixed = |weights: &Vec<f64>| weights.iter().zip(&own).map(|(weight, own)| weight * own).sum::<f64>();
@@ -36,13 +36,13 @@ impl Sensor {
         let exchanges = [p.light.crosstalk.map(|c| c.0), p.voltage.capacitance.map(|c| c.0)];
         let one_hot = |channel: &usize| (0..p.channels.len()).map(|c| f64::from(u8::from(c == *channel))).collect();
         let tile: Vec<Vec<f64>> = p.cfa.channels().iter().map(one_hot).collect();
-        let tile = exchanges.iter().flatten().fold(tile, |tile, neighbours| exchanged(&p.cfa, &tile, neighbours));
+        let tile = exchanges.iter().flatten().fold(tile, |tile, neighbours| with_exchange(&p.cfa, &tile, neighbours));
         (0..p.channels.len()).map(|channel| mean_of(channel, &p.cfa, &tile)).collect()
     }
 }
 
 /// The weights of each tile position after an exchange with the eight neighbours.
-fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], neighbours: &Neighbours) -> Vec<Vec<f64>> {
+fn with_exchange(cfa: &Cfa, tile: &[Vec<f64>], neighbours: &Neighbours) -> Vec<Vec<f64>> {
     let (width, height) = (cfa.width(), cfa.height());
     let place = |i: usize| {
         let mut sum = vec![0.0; tile[i].len()];
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn without_exchange_they_are_the_channels_own() {
         let sensor = Sensor::new(bayer(BayerPhase::Rggb)).expect("legal");
-        assert_eq!(sensor.picture_responsivities(), sensor.responsivities());
+        assert_eq!(sensor.image_responsivities(), sensor.responsivities());
     }
 
     /// By hand for Bayer: red has four adjacent greens and four diagonal blues.
@@ -96,14 +96,14 @@ mod tests {
         p.light.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
         let sensor = Sensor::new(p).expect("legal");
         let of = |c: usize| f64::from(sensor.responsivity(c).at(500.0));
-        let red = f64::from(sensor.picture_responsivities()[0].at(500.0));
+        let red = f64::from(sensor.image_responsivities()[0].at(500.0));
         let expected = 0.86 * of(0) + 0.1 * of(1) + 0.04 * of(2);
         assert!((red / expected - 1.0).abs() < 1e-6, "{red} {expected}");
     }
 
     /// Equal to the numbers that the sensor delivers under uniform illumination, channel by channel.
     #[test]
-    fn an_even_picture_has_them() {
+    fn a_uniform_image_has_them() {
         let mut p = bayer(BayerPhase::Grbg);
         p.light.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
         p.voltage.capacitance =
@@ -116,7 +116,7 @@ mod tests {
             means.set(i % 8, i / 8, level(sensor.responsivity(p.cfa.channel_at(i % 8, i / 8))) as f32);
         }
         let raw = run(&p, &means, ADDRESS);
-        for (channel, mixed) in sensor.picture_responsivities().iter().enumerate() {
+        for (channel, mixed) in sensor.image_responsivities().iter().enumerate() {
             let inside = (2..6).flat_map(|y| (2..6).map(move |x| (x, y)));
             let of: Vec<f64> = inside
                 .filter(|(x, y)| p.cfa.channel_at(*x, *y) == channel)
@@ -127,7 +127,7 @@ mod tests {
             assert!((mean - level(mixed) * p.read_out.gain_dn_e).abs() < 0.6, "{channel}: {mean} {}", level(mixed));
             // The same as an efficiency: electrons over those of a channel of known efficiency.
             let own = f64::from(p.channels[1].quantum_efficiency.at(500.0)) * p.pixel.fill_factor;
-            let efficiency = sensor.picture_quantum_efficiencies(500.0)[channel];
+            let efficiency = sensor.image_quantum_efficiencies(500.0)[channel];
             assert!((efficiency - own * level(mixed) / 1e5).abs() < 1e-6, "{channel}: {efficiency}");
         }
     }

@@ -4,7 +4,7 @@ use etendue_spectra::Spectrum;
 
 use crate::capture::{OperatingPoint, Operation};
 use crate::effect::{Effect, SensorEffect, SensorFacts, SignalLevels, Visitor};
-use crate::effects::converter::{self, Converter};
+use crate::effects::converter::{self, Adc};
 use crate::effects::{ChargeEffects, LightEffects, VoltageEffects};
 use crate::{
     cfa::Cfa, effects::dark_current::DarkCurrent, effects::full_well::FullWell, effects::offset_pattern::ReadNoise,
@@ -72,7 +72,7 @@ pub struct SensorParameters {
     /// Exposure of a frame.
     pub exposure: Exposure,
     /// Unit (individual sensor) of the fixed patterns. `None`: the one of the camera's place in the job.
-    pub specimen: Option<u64>,
+    pub unit: Option<u64>,
     /// Effects on light before it is counted.
     pub light: LightEffects,
     /// Effects on charge in its pixel.
@@ -94,7 +94,7 @@ impl SensorParameters {
         let dark = &self.read_out.layout.optical_black;
         SensorFacts {
             noise: self.noise,
-            specimen: self.specimen,
+            unit: self.unit,
             pitch_um: self.pixel.pitch_um,
             first_lit: [dark.columns, dark.rows],
             exposure_s: self.exposure.exposure_s,
@@ -117,7 +117,7 @@ impl SensorParameters {
     }
 
     /// The operating point of the smallest possible gain.
-    pub(crate) fn least_point(&self) -> OperatingPoint {
+    pub(crate) fn min_operating_point(&self) -> OperatingPoint {
         let point = self.described_point();
         let analogue_gain = self.exposure.control.map_or(point.analogue_gain, |control| control.analogue_gain[0]);
         OperatingPoint { analogue_gain, ..point }
@@ -142,9 +142,9 @@ impl SensorParameters {
     }
 
     /// The ADC at the gain of a capture.
-    pub(crate) fn converter(&self, operation: &Operation) -> Converter {
+    pub(crate) fn converter(&self, operation: &Operation) -> Adc {
         let ReadOut { black_level_dn, bits, digital_gain, .. } = self.read_out;
-        Converter { gain_dn_e: operation.gain_dn_e, black_level_dn, bits, digital_gain }
+        Adc { gain_dn_e: operation.gain_dn_e, black_level_dn, bits, digital_gain }
     }
 
     /// Number of pixels whose charge is read together.
@@ -173,9 +173,9 @@ impl SensorParameters {
     /// The exposure, s, that smear adds to every pixel of a uniformly and steadily lit image of this number of rows. Shielded rows take their time as
     /// well and add nothing.
     #[must_use]
-    pub fn even_smear_s(&self, rows: usize) -> f64 {
+    pub fn uniform_smear_s(&self, rows: usize) -> f64 {
         let all = rows + self.read_out.layout.optical_black.rows;
-        self.light.smear.map_or(0.0, |smear| smear.even_s(self.exposure.frame_period_s, rows, all))
+        self.light.smear.map_or(0.0, |smear| smear.uniform_smear_s(self.exposure.frame_period_s, rows, all))
     }
 
     /// Visits all effects in physical order, with the ADC at the gain of the first capture as described. Checks and plans are built from this list,
@@ -227,7 +227,7 @@ impl ChargeEffects {
     #[must_use]
     pub fn plain(full_well_e: f64, dark_current_e_s: f64) -> Self {
         Self {
-            dark: DarkCurrent::even(dark_current_e_s),
+            dark: DarkCurrent::uniform(dark_current_e_s),
             full_well: FullWell { capacity_e: full_well_e, blooming: None },
             ..Self::default()
         }
@@ -270,7 +270,7 @@ pub(crate) mod tests {
             channels: vec![Channel { name: "mono".into(), quantum_efficiency: Spectrum::constant(1.0) }],
             cfa: Cfa::mono(),
             exposure: Exposure { exposure_s: 0.01, frame_period_s: None, control: None },
-            specimen: None,
+            unit: None,
             light: LightEffects::default(),
             charge: ChargeEffects::plain(60_000.0, 0.0),
             voltage: VoltageEffects::plain(5.0),

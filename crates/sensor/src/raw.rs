@@ -20,7 +20,7 @@ pub struct Raw {
     /// The companding curve of the numbers.
     pub companding: Option<Companding>,
     /// The lit part of the plane.
-    pub picture: Region,
+    pub image: Region,
     /// Exposure time and gain of the frame.
     pub operating_point: OperatingPoint,
     /// Balance of charge at the full well: for each capture with its own charge, with its index.
@@ -46,18 +46,18 @@ pub struct LinearRaw<'a> {
 impl Raw {
     /// The rows above the image, or else the columns left of it.
     fn shielded(&self) -> Option<Region> {
-        let Region { x, y, width, height } = self.picture;
+        let Region { x, y, width, height } = self.image;
         let above = Region { x, y: 0, width, height: y };
-        let beside = Region { x: 0, y, width: x, height };
-        [above, beside].into_iter().find(|region| region.width > 0 && region.height > 0)
+        let side_columns = Region { x: 0, y, width: x, height };
+        [above, side_columns].into_iter().find(|region| region.width > 0 && region.height > 0)
     }
 
     /// The image without optical black and without companding.
     #[must_use]
     pub fn linear(&self) -> LinearRaw<'_> {
-        let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());
-        let part = if whole { Cow::Borrowed(&self.plane) } else { Cow::Owned(self.picture.of(&self.plane)) };
-        let optical_black = self.shielded().map(|region| region.of(&self.plane));
+        let is_uncropped = (self.image.width, self.image.height) == (self.plane.width(), self.plane.height());
+        let part = if is_uncropped { Cow::Borrowed(&self.plane) } else { Cow::Owned(self.image.crop(&self.plane)) };
+        let optical_black = self.shielded().map(|region| region.crop(&self.plane));
         let Some(curve) = &self.companding else {
             let (black_level_dn, white_level_dn) = (self.black_level_dn, self.white_level_dn);
             return LinearRaw { plane: part, black_level_dn, white_level_dn, optical_black };

@@ -4,7 +4,7 @@ use crate::capture::{OperatingPoint, Operation};
 use crate::parameters::SensorParameters;
 
 /// One capture and its fraction of the first one's light.
-pub(crate) struct Reading<'a> {
+pub(crate) struct CaptureReading<'a> {
     p: &'a SensorParameters,
     operation: Operation,
     /// Fraction of the light of the described exposure.
@@ -14,16 +14,16 @@ pub(crate) struct Reading<'a> {
 }
 
 /// The captures of a frame that is taken at an operating point.
-pub(crate) fn readings(p: &SensorParameters, point: OperatingPoint) -> Vec<Reading<'_>> {
+pub(crate) fn readings(p: &SensorParameters, point: OperatingPoint) -> Vec<CaptureReading<'_>> {
     let of = |operation: Operation| {
         let dark = &p.charge.dark;
         let dark_e = p.wells_read() * dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
-        Reading { p, operation, light: operation.light, dark_e }
+        CaptureReading { p, operation, light: operation.light, dark_e }
     };
     p.hdr.operations(p.operation(point)).into_iter().map(of).collect()
 }
 
-impl Reading<'_> {
+impl CaptureReading<'_> {
     /// The signal (e⁻ of the first capture) that brings this one to a fraction of its range.
     pub(crate) fn signal_e(&self, fraction: f64) -> f64 {
         let (response, converter) = (&self.p.read_out.response, self.p.converter(&self.operation));

@@ -67,7 +67,7 @@ impl Sensor {
 
     /// True if light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
     #[must_use]
-    pub fn spills(&self) -> bool {
+    pub fn has_spatial_coupling(&self) -> bool {
         let p = &self.parameters;
         p.charge.full_well.blooming.is_some() || p.light.smear.is_some() || p.light.crosstalk.is_some()
     }
@@ -87,20 +87,20 @@ impl Sensor {
 
     /// Errors for an image of `width` × `height` pixels: tile, binning, skipping and region must fit it.
     #[must_use]
-    pub fn misfits(&self, width: usize, height: usize) -> Vec<SensorError> {
+    pub fn image_size_errors(&self, width: usize, height: usize) -> Vec<SensorError> {
         self.parameters.read_out.layout.errors(&self.parameters.cfa, width, height)
     }
 
     /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels: those of its region that are read, binned.
     #[must_use]
-    pub fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
-        self.parameters.read_out.layout.picture_size(width, height)
+    pub fn image_size(&self, width: usize, height: usize) -> (usize, usize) {
+        self.parameters.read_out.layout.image_size(width, height)
     }
 
     /// Maps a point of the sensor to the delivered image; raster coordinates of both, px.
     #[must_use]
-    pub fn in_picture(&self, raster_px: [f64; 2]) -> [f64; 2] {
-        self.parameters.read_out.layout.in_picture(&self.parameters.cfa, raster_px)
+    pub fn to_image(&self, raster_px: [f64; 2]) -> [f64; 2] {
+        self.parameters.read_out.layout.to_image(&self.parameters.cfa, raster_px)
     }
 
     /// Bits of the delivered numbers: those of the ADC, or those after merging and companding.
@@ -124,8 +124,8 @@ impl Sensor {
 
     /// The same at the smallest gain that exposure control can reach.
     #[must_use]
-    pub fn least_white_level_dn(&self) -> f64 {
-        self.white_level_at(self.parameters.least_point())
+    pub fn min_white_level_dn(&self) -> f64 {
+        self.white_level_at(self.parameters.min_operating_point())
     }
 
     /// The same at another exposure and gain.
@@ -141,7 +141,7 @@ impl Sensor {
 
     /// True if a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
     #[must_use]
-    pub fn remembers(&self) -> bool {
+    pub fn has_memory(&self) -> bool {
         let p = &self.parameters;
         let jumps = p.charge.dark.dark_current_rts.is_some() || p.voltage.rts_noise.is_some();
         p.exposure.control.is_some() || !p.charge.lag.traps.is_empty() || jumps
@@ -152,8 +152,8 @@ impl Sensor {
     pub fn effects(&self) -> Vec<SensorEffect> {
         let range = self.dynamic_range();
         // For the smallest signal, ½ (1 + √(1 + 4 σ²)).
-        let dark_variance_e2 = range.least_e * (range.least_e - 1.0);
-        self.parameters.effects(SignalLevels { grey_e: GREY * range.most_e, dark_variance_e2 })
+        let dark_variance_e2 = range.lower_e * (range.lower_e - 1.0);
+        self.parameters.effects(SignalLevels { grey_e: GREY * range.upper_e, dark_variance_e2 })
     }
 }
 
@@ -203,9 +203,9 @@ mod tests {
         p.exposure.exposure_s = 0.0;
         let dark = Sensor::new(p.clone()).expect("legal");
         p.exposure.exposure_s = 1.0;
-        let lit = Sensor::new(p).expect("legal");
+        let illuminated = Sensor::new(p).expect("legal");
         assert_eq!(dark.responsivity(0).max_value(), 0.0);
-        assert_eq!(dark.colour_responsivities(), lit.colour_responsivities());
+        assert_eq!(dark.colour_responsivities(), illuminated.colour_responsivities());
     }
 
     #[test]

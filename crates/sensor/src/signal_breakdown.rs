@@ -83,7 +83,7 @@ impl SignalBreakdown {
     }
 
     /// Adds the difference of a plane after and before an effect.
-    pub(crate) fn note<Q: Quantity<Sample = f32>>(
+    pub(crate) fn add_change<Q: Quantity<Sample = f32>>(
         &mut self,
         component: SignalComponent,
         before: &Plane<Q>,
@@ -131,7 +131,7 @@ pub(crate) struct SignalComponentRow<'a> {
 
 impl SignalComponentRow<'_> {
     /// Adds the difference of a row after and before an effect.
-    pub(crate) fn note(&mut self, component: SignalComponent, before: &[f64], after: &[f64]) {
+    pub(crate) fn add_change(&mut self, component: SignalComponent, before: &[f64], after: &[f64]) {
         for (layer, (before, after)) in self.layers[component as usize].iter_mut().zip(before.iter().zip(after)) {
             *layer += (after - before) as f32;
         }
@@ -168,7 +168,7 @@ pub(crate) struct RowTally {
 
 impl ChargeAccount {
     /// The sums over rows, in their order.
-    pub(crate) fn of_rows(rows: &[RowTally]) -> Self {
+    pub(crate) fn from_rows(rows: &[RowTally]) -> Self {
         let sum = |of: fn(&RowTally) -> f64| rows.iter().map(of).sum();
         Self {
             generated_e: sum(|row| row.generated_e),

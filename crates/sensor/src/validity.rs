@@ -86,7 +86,7 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
         });
     }
     if let Some(period_s) = p.exposure.frame_period_s {
-        let sum_s = longest_s(p);
+        let sum_s = max_exposure_s(p);
         checks.agree("hdr.captures", sum_s <= period_s, || {
             format!("the exposures of a photodiode follow each other and take {sum_s} s in total, more than frame_period_s, {period_s} s")
         });
@@ -95,7 +95,7 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
 
 /// The total time of the consecutive exposures of one photodiode, s, the largest of all photodiodes; captures of equal sensitivity share a
 /// photodiode.
-fn longest_s(p: &SensorParameters) -> f64 {
+fn max_exposure_s(p: &SensorParameters) -> f64 {
     let exposed =
         p.hdr.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
     let all: Vec<(f64, f64)> = core::iter::once((1.0, 1.0)).chain(exposed).collect();
@@ -133,10 +133,10 @@ fn check_bits(p: &SensorParameters, checks: &mut Checks) {
 /// Each capture must extend beyond the range used of the previous one. At a larger gain, where the ADC saturates before the well, this holds all the
 /// more.
 fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
-    let operations = p.hdr.operations(p.operation(p.least_point()));
+    let operations = p.hdr.operations(p.operation(p.min_operating_point()));
     let ranges: Vec<f64> = (0..).zip(&operations).map(|(k, operation)| p.merged_range_dn(k, operation)).collect();
     for (k, pair) in ranges.windows(2).enumerate() {
-        let used = p.hdr.switch() * pair[0];
+        let used = p.hdr.transition_level_or_default() * pair[0];
         checks.agree("hdr.captures", pair[1] > used, || {
             format!(
                 "entry {k} (from 0) is saturated {:.0} merged DN above black, and the one before it is used up to {used:.0}: give it a larger \
@@ -149,7 +149,7 @@ fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
 
 /// Checks that the range of light spans at least one digital number.
 fn check_range(p: &SensorParameters, checks: &mut Checks) {
-    let white = p.merged_white_dn(p.least_point());
+    let white = p.merged_white_dn(p.min_operating_point());
     checks.agree("gain_dn_per_e", white > p.read_out.black_level_dn, || {
         format!(
             "the gain is so small that a full pixel has the digital number of a dark one, {white} DN: give a larger one"
@@ -166,16 +166,16 @@ mod tests {
     use etendue_spectra::Spectrum;
 
     #[test]
-    fn every_contradiction_is_told() {
+    fn every_contradiction_is_reported() {
         let mut p = ideal();
         p.exposure.exposure_s = -1.0;
         p.voltage.noise.white_e = f64::NAN;
         p.read_out.bits = 33;
         p.channels[0].quantum_efficiency = Spectrum::constant(1.5);
         p.channels.push(Channel { name: "r".into(), quantum_efficiency: Spectrum::constant(0.5) });
-        let found = errors(&p);
-        assert_eq!(found.len(), 5, "{found:?}");
-        assert_eq!(found[0].to_string(), "exposure_s is -1, but a finite number of at least 0 is needed");
+        let errors_found = errors(&p);
+        assert_eq!(errors_found.len(), 5, "{errors_found:?}");
+        assert_eq!(errors_found[0].to_string(), "exposure_s is -1, but a finite number of at least 0 is needed");
         let mut p = ideal();
         p.read_out.gain_dn_e = 1e-30;
         assert!(errors(&p)[0].to_string().starts_with("gain_dn_per_e: the gain is so small"), "{:?}", errors(&p));

@@ -5,7 +5,7 @@
 
 use std::sync::LazyLock;
 
-use crate::{Outside, Spectrum, spectrum::embedded};
+use crate::{Extrapolation, Spectrum, spectrum::embedded};
 
 /// Relative sensitivities of a camera's three channels.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,13 +32,13 @@ static TABLES: LazyLock<Vec<Sensitivity>> = LazyLock::new(|| {
 });
 
 fn sensitivity(text: &str) -> Sensitivity {
-    let [r, g, b] = embedded::<4>(text, Outside::Zero).try_into().expect("three columns");
+    let [r, g, b] = embedded::<4>(text, Extrapolation::Zero).try_into().expect("three columns");
     Sensitivity { r, g, b }
 }
 
 /// A camera by name; `None` for one not in [`names`].
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Sensitivity> {
+pub fn by_name(name: &str) -> Option<&'static Sensitivity> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
@@ -55,13 +55,13 @@ mod tests {
     #[test]
     fn channels_peak_in_their_colours() {
         for name in names() {
-            let Sensitivity { r, g, b } = named(name).expect("a camera of the list");
+            let Sensitivity { r, g, b } = by_name(name).expect("a camera of the list");
             let [r, g, b] = [r, g, b].map(|s| {
                 assert!(s.min_value() >= 0.0 && s.at(900.0) == 0.0, "{name}");
                 300 + s.nodes().iter().position(|v| *v == s.max_value()).unwrap_or(0)
             });
             assert!((580..=640).contains(&r) && (510..=560).contains(&g) && (430..=480).contains(&b), "{name}");
         }
-        assert!(named("brownie").is_none());
+        assert!(by_name("brownie").is_none());
     }
 }

@@ -190,8 +190,8 @@ fn response(t: f64) -> f64 {
 pub fn ciede2000(first: Lab, second: Lab) -> f64 {
     let mean_chroma = (chroma(first) + chroma(second)) / 2.0;
     let stretch = 1.0 + 0.5 * (1.0 - seventh_share(mean_chroma));
-    let (one, two) = (Polar::new(first, stretch), Polar::new(second, stretch));
-    let mean = Polar {
+    let (one, two) = (LabPolar::new(first, stretch), LabPolar::new(second, stretch));
+    let mean = LabPolar {
         lightness: (one.lightness + two.lightness) / 2.0,
         chroma: (one.chroma + two.chroma) / 2.0,
         hue_rad: mean_hue_rad(one, two),
@@ -204,13 +204,13 @@ pub fn ciede2000(first: Lab, second: Lab) -> f64 {
 
 /// A colour by lightness, (stretched) chroma and hue angle.
 #[derive(Clone, Copy)]
-struct Polar {
+struct LabPolar {
     lightness: f64,
     chroma: f64,
     hue_rad: f64,
 }
 
-impl Polar {
+impl LabPolar {
     fn new(lab: Lab, stretch: f64) -> Self {
         let stretched = Lab { a: lab.a * stretch, ..lab };
         let angle = maths_f64::atan2(stretched.b, stretched.a);
@@ -229,7 +229,7 @@ fn seventh_share(chroma: f64) -> f64 {
 }
 
 /// The signed hue difference as a length: 2 √(C₁ C₂) sin(Δh/2).
-fn hue_difference(one: Polar, two: Polar) -> f64 {
+fn hue_difference(one: LabPolar, two: LabPolar) -> f64 {
     let turn = two.hue_rad - one.hue_rad;
     let turn = if turn > PI {
         turn - TAU
@@ -242,7 +242,7 @@ fn hue_difference(one: Polar, two: Polar) -> f64 {
 }
 
 /// The mean hue along the shorter arc; the sum if one colour has no hue.
-fn mean_hue_rad(one: Polar, two: Polar) -> f64 {
+fn mean_hue_rad(one: LabPolar, two: LabPolar) -> f64 {
     let sum = one.hue_rad + two.hue_rad;
     if one.chroma * two.chroma == 0.0 {
         sum
@@ -266,7 +266,7 @@ fn hue_weight(hue_rad: f64) -> f64 {
 }
 
 /// The rotation term of the blue region.
-fn rotation(mean: Polar) -> f64 {
+fn rotation(mean: LabPolar) -> f64 {
     let offset = (mean.hue_rad.to_degrees() - 275.0) / 25.0;
     let turn_deg = 30.0 * maths_f64::exp(-offset * offset);
     -maths_f64::sin((2.0 * turn_deg).to_radians()) * 2.0 * seventh_share(mean.chroma)

@@ -33,7 +33,7 @@ fn plastic(b: f64, c: f64) -> ComplexIndex {
 
 /// A clear material; `None` for a name not in [`names`].
 #[must_use]
-pub fn named(name: &str) -> Option<&'static ComplexIndex> {
+pub fn by_name(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
@@ -58,7 +58,7 @@ mod tests {
     use etendue_core::maths;
 
     fn index(name: &str, nm: f32) -> f32 {
-        named(name).expect("a name of the list").n.at(nm)
+        by_name(name).expect("a name of the list").n.at(nm)
     }
 
     #[test]
@@ -69,14 +69,14 @@ mod tests {
         }
         for name in names() {
             assert!(index(name, 400.0) > index(name, 700.0), "{name} disperses normally");
-            assert!(named(name).is_some_and(|i| i.k.min_value() >= 0.0));
+            assert!(by_name(name).is_some_and(|i| i.k.min_value() >= 0.0));
         }
-        assert!(named("gold").is_none());
+        assert!(by_name("gold").is_none());
     }
 
     /// Light transmittance of a pane of a thickness in m under D65, with both faces reflecting: (1 − R)² e^(−αd).
     fn pane(name: &str, metres: f64) -> f64 {
-        let absorption = named(name).expect("a glass").absorption();
+        let absorption = by_name(name).expect("a glass").absorption();
         let face = 4.0 * 1.5233 / (2.5233 * 2.5233);
         let through = |nm: f64| face * face * maths::f64::exp(-f64::from(absorption.at(nm as f32)) * metres);
         observer::xyz_of_reflectance(&Spectrum::from_fn(through), illuminant::d65())[1]
@@ -93,9 +93,9 @@ mod tests {
     #[test]
     fn absorption_is_that_of_the_extinction() {
         // 4π · 2.2e-7 / 550 nm; stored in single precision.
-        let glass = named("glass").expect("glass").absorption();
+        let glass = by_name("glass").expect("glass").absorption();
         assert!((f64::from(glass.at(550.0)) / (4.0 * PI * 2.2e-7 / 550e-9) - 1.0).abs() < 1e-6);
-        let water = named("water").expect("water").absorption();
+        let water = by_name("water").expect("water").absorption();
         assert!(water.at(500.0) < 0.05 && water.at(975.0) > 20.0, "clear in the green, dark in the infrared");
     }
 }

@@ -17,7 +17,7 @@
 
 use std::sync::LazyLock;
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 
 /// The helium d line, nm: the wavelength of n_d.
 pub const LINE_D_NM: f64 = 587.5618;
@@ -108,7 +108,7 @@ impl Dispersion {
     ///
     /// # Errors
     /// If no glass has these numbers.
-    pub fn of_abbe(index: f64, abbe: f64) -> Result<Self, GlassError> {
+    pub fn from_abbe(index: f64, abbe: f64) -> Result<Self, GlassError> {
         if !(index > 1.0 && index <= 5.0 && abbe > 5.0 && abbe.is_finite()) {
             return Err(GlassError::Abbe { index, abbe });
         }
@@ -130,7 +130,7 @@ impl Dispersion {
     /// # Errors
     /// If the index leaves 1 to 5 between 300 and 1 100 nm.
     pub fn checked(self) -> Result<Self, GlassError> {
-        let grid = (SHORTEST_NM as u32..=MAX_NM as u32).map(f64::from);
+        let grid = (MIN_NM as u32..=MAX_NM as u32).map(f64::from);
         let outside = grid.map(|nm| (nm, self.index(nm))).find(|(_, n)| !(1.0..=5.0).contains(n));
         outside.map_or(Ok(self), |(nm, n)| Err(GlassError::Range { nm, n }))
     }
@@ -201,20 +201,20 @@ pub fn catalogue() -> &'static [CatalogueGlass] {
 ///
 /// # Errors
 /// If no catalogue of the crate has the name: the error lists the nearest ones.
-pub fn named(name: &str) -> Result<&'static CatalogueGlass, GlassError> {
-    let found = CATALOGUE.iter().find(|glass| glass.name.eq_ignore_ascii_case(name.trim()));
-    found.ok_or_else(|| GlassError::Unknown { name: name.to_owned(), near: near(name) })
+pub fn by_name(name: &str) -> Result<&'static CatalogueGlass, GlassError> {
+    let entry = CATALOGUE.iter().find(|glass| glass.name.eq_ignore_ascii_case(name.trim()));
+    entry.ok_or_else(|| GlassError::Unknown { name: name.to_owned(), near: near(name) })
 }
 
 /// Names that contain the letters and digits of `name` (such as the new N- or S- glass for an old name).
 fn near(name: &str) -> Vec<&'static str> {
     let letters =
         |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
-    let wanted = letters(name);
-    if wanted.len() < 2 {
+    let target = letters(name);
+    if target.len() < 2 {
         return Vec::new();
     }
-    CATALOGUE.iter().map(|glass| glass.name).filter(|known| letters(known).contains(&wanted)).take(4).collect()
+    CATALOGUE.iter().map(|glass| glass.name).filter(|known| letters(known).contains(&target)).take(4).collect()
 }
 
 #[cfg(test)]
@@ -222,7 +222,7 @@ mod tests {
     use super::*;
 
     fn glass(name: &str) -> Dispersion {
-        named(name).expect("a name of the catalogue").dispersion
+        by_name(name).expect("a name of the catalogue").dispersion
     }
 
     #[test]
@@ -232,7 +232,7 @@ mod tests {
             assert!((glass(name).index(LINE_D_NM) - n).abs() < 1e-5, "{name} {}", glass(name).index(LINE_D_NM));
             assert!((glass(name).abbe() - v).abs() < 0.01, "{name} {}", glass(name).abbe());
         }
-        assert_eq!(named("n-bk7").map(|g| g.name), Ok("N-BK7"), "capitals do not matter");
+        assert_eq!(by_name("n-bk7").map(|g| g.name), Ok("N-BK7"), "capitals do not matter");
         assert_eq!(catalogue().len(), 378);
     }
 
@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn index_and_abbe_number_give_a_curve_that_has_both() {
         for (n, v) in [(1.517, 64.2), (1.805, 25.4), (1.497, 81.6), (1.62, 36.3)] {
-            let curve = Dispersion::of_abbe(n, v).expect("a glass");
+            let curve = Dispersion::from_abbe(n, v).expect("a glass");
             // Rounding of the two linear equations.
             assert!((curve.index(LINE_D_NM) - n).abs() < 1e-14);
             assert!((curve.abbe() / v - 1.0).abs() < 1e-12, "{}", curve.abbe());
@@ -260,7 +260,7 @@ mod tests {
         let (mut sum, mut count, mut worst) = (0.0, 0.0, 0.0_f64);
         for glass in catalogue() {
             let real = glass.dispersion;
-            let model = Dispersion::of_abbe(real.index(LINE_D_NM), real.abbe()).expect("a glass");
+            let model = Dispersion::from_abbe(real.index(LINE_D_NM), real.abbe()).expect("a glass");
             for nm in (400..=700).step_by(10).map(f64::from) {
                 let error = model.index(nm) - real.index(nm);
                 sum += error * error;
@@ -286,11 +286,11 @@ mod tests {
 
     #[test]
     fn faults_say_what_to_do() {
-        let unknown = named("BK7X").expect_err("no such glass").to_string();
+        let unknown = by_name("BK7X").expect_err("no such glass").to_string();
         assert!(unknown.starts_with("no glass is called `BK7X`; give a name"), "{unknown}");
-        let old = named("LAK8").expect_err("an old name").to_string();
+        let old = by_name("LAK8").expect_err("an old name").to_string();
         assert!(old.contains("(near it: N-LAK8"), "{old}");
-        assert!(Dispersion::of_abbe(0.9, 50.0).is_err() && Dispersion::of_abbe(1.5, f64::NAN).is_err());
+        assert!(Dispersion::from_abbe(0.9, 50.0).is_err() && Dispersion::from_abbe(1.5, f64::NAN).is_err());
         let in_nm = Dispersion::Cauchy { a: 1.5, b_um2: 4000.0, c_um4: 0.0 }.checked().expect_err("unit").to_string();
         assert!(in_nm.contains("check the coefficients' unit"), "{in_nm}");
     }

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use etendue_core::maths;
 
-use crate::{Outside, Spectrum, spectrum::embedded};
+use crate::{Extrapolation, Spectrum, spectrum::embedded};
 
 macro_rules! tables {
     ($($name:literal $file:literal;)*) => {
@@ -39,12 +39,12 @@ tables! {
 }
 
 fn relative_power(text: &str) -> Spectrum {
-    embedded::<2>(text, Outside::Zero).swap_remove(0)
+    embedded::<2>(text, Extrapolation::Zero).swap_remove(0)
 }
 
 /// The relative spectral power of an illuminant or lamp; zero outside its table. `None` for a name not in [`names`].
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Spectrum> {
+pub fn by_name(name: &str) -> Option<&'static Spectrum> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
@@ -58,7 +58,7 @@ pub fn names() -> &'static [&'static str] {
 /// CIE standard illuminant D65, relative power.
 #[must_use]
 pub fn d65() -> &'static Spectrum {
-    named("D65").expect("D65 is in the list")
+    by_name("D65").expect("D65 is in the list")
 }
 
 /// Solar spectral irradiance of ASTM G-173, W·m⁻²·nm⁻¹.
@@ -76,7 +76,7 @@ pub struct SolarIrradiance {
 #[must_use]
 pub fn solar() -> &'static SolarIrradiance {
     static SOLAR: LazyLock<SolarIrradiance> = LazyLock::new(|| {
-        let table = embedded::<4>(include_str!("../data/astm_g173_solar.csv"), Outside::Zero);
+        let table = embedded::<4>(include_str!("../data/astm_g173_solar.csv"), Extrapolation::Zero);
         let [extraterrestrial, global_tilt, direct] = table.try_into().expect("three columns");
         SolarIrradiance { extraterrestrial, global_tilt, direct }
     });
@@ -117,11 +117,11 @@ mod tests {
     #[test]
     fn every_name_has_a_light() {
         for name in names() {
-            let light = named(name).expect("a name of the list");
+            let light = by_name(name).expect("a name of the list");
             assert!(light.min_value() >= 0.0 && light.max_value() > 0.0, "{name}");
             assert_eq!((light.at(1000.0), light.at(840.0)), (0.0, 0.0), "{name} is zero outside its table");
         }
-        assert!(named("d65").is_none());
+        assert!(by_name("d65").is_none());
     }
 
     /// π ∫ B dλ = σT⁴, by Simpson's rule in ln λ from 100 nm to 20 mm.

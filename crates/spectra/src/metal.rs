@@ -4,7 +4,7 @@
 
 use std::sync::LazyLock;
 
-use crate::{Outside, Spectrum, spectrum::embedded};
+use crate::{Extrapolation, Spectrum, spectrum::embedded};
 
 /// A complex refractive index over wavelength.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ static TABLES: LazyLock<Vec<ComplexIndex>> = LazyLock::new(|| {
 });
 
 pub(crate) fn complex_index(text: &str) -> ComplexIndex {
-    let [n, k] = embedded::<3>(text, Outside::Hold).try_into().expect("two columns");
+    let [n, k] = embedded::<3>(text, Extrapolation::Hold).try_into().expect("two columns");
     ComplexIndex { n, k }
 }
 
@@ -43,15 +43,15 @@ pub(crate) fn complex_index(text: &str) -> ComplexIndex {
 /// directions is that of Schlick's approximation, which glTF uses to define its metals: within 0.02 for r of 0.02 and above, and up to 0.05 less
 /// below.
 #[must_use]
-pub fn of_reflectance(normal: &Spectrum) -> ComplexIndex {
+pub fn from_reflectance(normal: &Spectrum) -> ComplexIndex {
     let at = |nm: f64| index_of(f64::from(normal.at(nm as f32)));
     ComplexIndex { n: Spectrum::from_fn(|nm| at(nm).0), k: Spectrum::from_fn(|nm| at(nm).1) }
 }
 
 /// n and k of a reflectance at normal incidence.
 fn index_of(r: f64) -> (f64, f64) {
-    const MOST: f64 = 0.999;
-    let r = r.clamp(0.0, MOST);
+    const MAX_REFLECTANCE: f64 = 0.999;
+    let r = r.clamp(0.0, MAX_REFLECTANCE);
     let g = 1.0 - (1.0 - r) * (1.0 - r) * (1.0 - r);
     let n = g * (1.0 - r) / (1.0 + r) + (1.0 - g) * (1.0 + r.sqrt()) / (1.0 - r.sqrt());
     let k2 = (r * (n + 1.0) * (n + 1.0) - (n - 1.0) * (n - 1.0)) / (1.0 - r);
@@ -60,7 +60,7 @@ fn index_of(r: f64) -> (f64, f64) {
 
 /// A metal by its chemical symbol; `None` for one not in [`names`].
 #[must_use]
-pub fn named(name: &str) -> Option<&'static ComplexIndex> {
+pub fn by_name(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
@@ -105,7 +105,7 @@ mod tests {
 
     /// Reflectance at normal incidence, ((n − 1)² + k²)/((n + 1)² + k²).
     fn mirror(name: &str, nm: f32) -> f32 {
-        let index = named(name).expect("a metal");
+        let index = by_name(name).expect("a metal");
         let (n, k) = (index.n.at(nm), index.k.at(nm));
         ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k)
     }
@@ -119,7 +119,7 @@ mod tests {
         assert!(mirror("Au", 650.0) > 0.9 && mirror("Au", 450.0) < 0.45);
         assert!(mirror("Cu", 650.0) > 0.9 && mirror("Cu", 450.0) < 0.65);
         assert!((0.5..0.75).contains(&mirror("Cr", 550.0)) && (0.45..0.7).contains(&mirror("Fe", 550.0)));
-        assert!(names().iter().all(|name| named(name).is_some()) && named("Pb").is_none());
-        assert_eq!(named("Ag").map(|m| m.n.at(1100.0)), Some(0.04), "the end value is held");
+        assert!(names().iter().all(|name| by_name(name).is_some()) && by_name("Pb").is_none());
+        assert_eq!(by_name("Ag").map(|m| m.n.at(1100.0)), Some(0.04), "the end value is held");
     }
 }

@@ -64,13 +64,13 @@ impl Mul for Complex {
 
 /// Scattering by one sphere.
 #[derive(Clone, Debug)]
-pub struct Sphere {
+pub struct MieSphere {
     /// a_j and b_j, j from 1.
     coefficients: Vec<(Complex, Complex)>,
     x: f64,
 }
 
-impl Sphere {
+impl MieSphere {
     /// A sphere of size parameter `x` = π d/λ (positive) and index `n` − i `k` relative to its surroundings.
     #[must_use]
     pub fn new(x: f64, n: f64, k: f64) -> Self {
@@ -115,7 +115,7 @@ impl Sphere {
     /// (|S₁|² + |S₂|²)/2 at scattering angles of these cosines; divided by k² = (2π/λ)² it is the differential cross section.
     #[must_use]
     pub fn intensities(&self, cosines: &[f64]) -> Vec<f64> {
-        let mut angles: Vec<_> = cosines.iter().map(|cos| Angle::new(*cos)).collect();
+        let mut angles: Vec<_> = cosines.iter().map(|cos| AngleAmplitudes::new(*cos)).collect();
         for (j, pair) in (1_u32..).zip(&self.coefficients) {
             let order = f64::from(j);
             angles.iter_mut().for_each(|angle| angle.add(order, pair.0, pair.1));
@@ -125,7 +125,7 @@ impl Sphere {
 }
 
 /// The amplitudes at one angle, term by term.
-struct Angle {
+struct AngleAmplitudes {
     cos: f64,
     /// π of the term before, and of this one.
     pi: [f64; 2],
@@ -133,7 +133,7 @@ struct Angle {
     s2: Complex,
 }
 
-impl Angle {
+impl AngleAmplitudes {
     fn new(cos: f64) -> Self {
         Self { cos, pi: [0.0, 1.0], s1: Complex::default(), s2: Complex::default() }
     }
@@ -186,25 +186,25 @@ const REACH: f64 = 3.5;
 impl Droplets {
     /// Water droplets (n = 1.333, k = 2e-9), with the usual spread, 1.35.
     #[must_use]
-    pub fn of_water(diameter_um: f64) -> Self {
+    pub fn from_water(diameter_um: f64) -> Self {
         Self { diameter_um, spread: 1.35, n: 1.333, k: 2e-9 }
     }
 
     /// The phase function of unpolarised light, 1/sr, at scattering angles of these cosines, at a wavelength; its integral over all directions is 1.
     #[must_use]
     pub fn phase(&self, nm: f64, cosines: &[f64]) -> Vec<f64> {
-        let (mut of, mut whole) = (vec![0.0; cosines.len()], 0.0);
+        let (mut of, mut total) = (vec![0.0; cosines.len()], 0.0);
         let log_spread = ln(self.spread);
         for i in 0..SIZES {
             // By area, sizes are log-normal about a diameter larger by twice the variance.
             let deviation = REACH * (2.0 * (f64::from(i) + 0.5) / f64::from(SIZES) - 1.0) + 2.0 * log_spread;
             let diameter_um = self.diameter_um * exp(deviation * log_spread);
-            let sphere = Sphere::new(PI * diameter_um * 1e3 / nm, self.n, self.k);
-            let share = exp(-0.5 * deviation * deviation);
-            whole += share * PI * sphere.x * sphere.x * sphere.scattering_efficiency();
-            of.iter_mut().zip(sphere.intensities(cosines)).for_each(|(sum, intensity)| *sum += share * intensity);
+            let sphere = MieSphere::new(PI * diameter_um * 1e3 / nm, self.n, self.k);
+            let weight = exp(-0.5 * deviation * deviation);
+            total += weight * PI * sphere.x * sphere.x * sphere.scattering_efficiency();
+            of.iter_mut().zip(sphere.intensities(cosines)).for_each(|(sum, intensity)| *sum += weight * intensity);
         }
-        of.iter().map(|sum| sum / whole).collect()
+        of.iter().map(|sum| sum / total).collect()
     }
 }
 
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn the_sphere_of_bohren_and_huffman() {
         let x = 2.0 * PI * 0.525 / 0.6328;
-        let sphere = Sphere::new(x, 1.55, 0.0);
+        let sphere = MieSphere::new(x, 1.55, 0.0);
         assert!((sphere.scattering_efficiency() - 3.105_43).abs() < 1e-5, "{}", sphere.scattering_efficiency());
         assert!((sphere.extinction_efficiency() - 3.105_43).abs() < 1e-5);
         let back = 4.0 * sphere.intensities(&[-1.0])[0] / (x * x);
@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn small_spheres_scatter_as_rayleigh_says() {
         let (x, n) = (0.01_f64, 1.333_f64);
-        let sphere = Sphere::new(x, n, 0.0);
+        let sphere = MieSphere::new(x, n, 0.0);
         let lorentz = (n * n - 1.0) / (n * n + 2.0);
         let expected = 8.0 / 3.0 * pow(x, 4.0) * lorentz * lorentz;
         assert!((sphere.scattering_efficiency() / expected - 1.0).abs() < 1e-3);
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn absorbing_spheres_extinguish_more_than_they_scatter() {
-        let sphere = Sphere::new(40.0, 1.5, 0.1);
+        let sphere = MieSphere::new(40.0, 1.5, 0.1);
         assert!(sphere.extinction_efficiency() > 1.5 * sphere.scattering_efficiency());
         assert!((sphere.extinction_efficiency() - 2.0).abs() < 0.3, "{}", sphere.extinction_efficiency());
     }
@@ -248,7 +248,7 @@ mod tests {
     /// efficiency, by the optical theorem Q_ext = 4/x² Re S(0).
     #[test]
     fn light_scattered_in_all_directions_is_all_that_is_scattered() {
-        let sphere = Sphere::new(25.0, 1.333, 0.0);
+        let sphere = MieSphere::new(25.0, 1.333, 0.0);
         let n = 20_000_u32;
         let cosines: Vec<_> = (0..n).map(|i| -1.0 + 2.0 * (f64::from(i) + 0.5) / f64::from(n)).collect();
         let sum: f64 = sphere.intensities(&cosines).iter().sum();
@@ -267,9 +267,9 @@ mod tests {
             (12.0, [335.628, 1.57484, 0.181_216, 0.002_461_14, 0.021_293_7, 0.011_034_2, 0.052_552_6]),
             (20.0, [919.557, 1.19069, 0.182_001, 0.001_858_18, 0.026_694_0, 0.008_299_25, 0.054_028_4]),
         ] {
-            let phase = Droplets::of_water(diameter_um).phase(550.0, &cosines);
-            for ((got, expected), degrees) in phase.iter().zip(expected).zip(degrees) {
-                assert!((got / expected - 1.0).abs() < 0.03, "{diameter_um} µm, {degrees}°: {got} {expected}");
+            let phase = Droplets::from_water(diameter_um).phase(550.0, &cosines);
+            for ((actual, expected), degrees) in phase.iter().zip(expected).zip(degrees) {
+                assert!((actual / expected - 1.0).abs() < 0.03, "{diameter_um} µm, {degrees}°: {actual} {expected}");
             }
         }
     }

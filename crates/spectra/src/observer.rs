@@ -8,13 +8,13 @@ use std::sync::LazyLock;
 
 use etendue_core::Bands;
 
-use crate::{Outside, Spectrum, spectrum::embedded};
+use crate::{Extrapolation, Spectrum, spectrum::embedded};
 
 /// Luminous efficacy of the standard observer at its peak, lm/W.
 pub const LUMINOUS_EFFICACY_LM_W: f64 = 683.0;
 
 static FUNCTIONS: LazyLock<[Spectrum; 3]> = LazyLock::new(|| {
-    let table = embedded::<4>(include_str!("../data/cie_1931_2deg_1nm.csv"), Outside::Zero);
+    let table = embedded::<4>(include_str!("../data/cie_1931_2deg_1nm.csv"), Extrapolation::Zero);
     table.try_into().expect("three functions")
 });
 
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_candela() {
         let line = [(554.0, 0.0), (555.0, 1.0 / 683.0), (556.0, 0.0)];
-        let line = Spectrum::from_points(&line, Outside::Zero).expect("a table");
+        let line = Spectrum::from_points(&line, Extrapolation::Zero).expect("a table");
         assert!((luminance(&line) - 1.0).abs() < 1e-7);
         // In a band the neighbours of the peak contribute: ȳ(554) = 0.9998, ȳ(556) = 0.99983 (CIE table).
         let bands = Bands::new(554.0, 2.0, 1).expect("a band");
@@ -104,23 +104,23 @@ mod tests {
 
     #[test]
     fn bands_approach_the_sum_over_nodes() {
-        let light = illuminant::named("A").expect("A");
+        let light = illuminant::by_name("A").expect("A");
         let exact = xyz(light);
         // The error of means of width h is about h²/12 S″/S, over nodes of 1 nm 1/4 S″/S; S″/S of A is 1e-4 in the blue.
         for (width, tolerance) in [(5.0, 3e-4), (1.0, 3e-5)] {
             let bands = Bands::covering(360.0, 830.0, width).expect("bands");
             let means: Vec<f32> = light.band_means(bands).into_iter().map(|v| v as f32).collect();
-            let got = xyz_of_bands(&means, bands);
-            assert!((0..3).all(|c| (got[c] / exact[c] - 1.0).abs() < tolerance), "{width} nm: {got:?} {exact:?}");
+            let actual = xyz_of_bands(&means, bands);
+            assert!((0..3).all(|c| (actual[c] / exact[c] - 1.0).abs() < tolerance), "{width} nm: {actual:?} {exact:?}");
         }
     }
 
     #[test]
     fn a_lamp_takes_the_luminance_asked_for_and_infrared_none() {
-        let lamp = with_luminance(illuminant::named("sodium-low-pressure").expect("a lamp"), 250.0).expect("bright");
-        assert!((luminance(&lamp) / 250.0 - 1.0).abs() < 1e-6);
+        let spectrum = with_luminance(illuminant::by_name("sodium-low-pressure").expect("a lamp"), 250.0).expect("bright");
+        assert!((luminance(&spectrum) / 250.0 - 1.0).abs() < 1e-6);
         let infrared = [(900.0, 1.0), (1000.0, 1.0)];
-        let infrared = Spectrum::from_points(&infrared, Outside::Zero).expect("a table");
+        let infrared = Spectrum::from_points(&infrared, Extrapolation::Zero).expect("a table");
         assert!(with_luminance(&infrared, 1.0).is_none());
     }
 }

@@ -15,16 +15,16 @@
 use std::sync::LazyLock;
 
 use crate::spectrum::{embedded, embedded_names};
-use crate::{Outside, Spectrum, table};
+use crate::{Extrapolation, Spectrum, table};
 
 /// A spectrum of the table.
-struct Entry {
+struct ReflectanceEntry {
     name: &'static str,
     source: &'static str,
     spectrum: Spectrum,
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+static ENTRIES: LazyLock<Vec<ReflectanceEntry>> = LazyLock::new(|| {
     let (_, entries) = include_str!("../data/reflectance.txt").split_once("\n[").expect("entries");
     entries.split("\n[").map(entry).collect()
 });
@@ -32,12 +32,12 @@ static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
 static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| ENTRIES.iter().map(|entry| entry.name).collect());
 
 /// An entry's text: `name] source`, then pairs of wavelength and value, separated by commas.
-fn entry(text: &'static str) -> Entry {
+fn entry(text: &'static str) -> ReflectanceEntry {
     let (head, values) = text.split_once('\n').expect("a head line");
     let (name, source) = head.split_once("] ").expect("a name and a source");
     let points: Vec<_> = values.split(',').map(point).collect();
-    table::check(&points, table::Place::Point).expect("a table of the crate is in order");
-    Entry { name, source, spectrum: Spectrum::from_checked(&points, Outside::Hold) }
+    table::check(&points, table::TablePlace::Point).expect("a table of the crate is in order");
+    ReflectanceEntry { name, source, spectrum: Spectrum::from_checked(&points, Extrapolation::Hold) }
 }
 
 fn point(text: &str) -> (f64, f64) {
@@ -45,13 +45,13 @@ fn point(text: &str) -> (f64, f64) {
     (numbers.next().expect("a wavelength"), numbers.next().expect("a value"))
 }
 
-fn find(name: &str) -> Option<&'static Entry> {
+fn find(name: &str) -> Option<&'static ReflectanceEntry> {
     ENTRIES.iter().find(|entry| entry.name == name)
 }
 
 /// The reflectance of a material; `None` for a name not in [`names`].
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Spectrum> {
+pub fn by_name(name: &str) -> Option<&'static Spectrum> {
     find(name).map(|entry| &entry.spectrum)
 }
 
@@ -81,7 +81,7 @@ pub struct Patch {
 pub fn colorchecker() -> &'static [Patch] {
     static PATCHES: LazyLock<Vec<Patch>> = LazyLock::new(|| {
         let text = include_str!("../data/colorchecker_reflectance.csv");
-        let spectra = embedded::<25>(text, Outside::Hold);
+        let spectra = embedded::<25>(text, Extrapolation::Hold);
         embedded_names(text).zip(spectra).map(|(name, reflectance)| Patch { name, reflectance }).collect()
     });
     &PATCHES
@@ -93,23 +93,23 @@ mod tests {
     use crate::{illuminant, observer};
 
     fn at(name: &str, nm: f32) -> f32 {
-        named(name).expect("a name of the table").at(nm)
+        by_name(name).expect("a name of the table").at(nm)
     }
 
     fn luminance_factor(name: &str) -> f64 {
-        observer::xyz_of_reflectance(named(name).expect("a name of the table"), illuminant::d65())[1]
+        observer::xyz_of_reflectance(by_name(name).expect("a name of the table"), illuminant::d65())[1]
     }
 
     #[test]
     fn every_name_has_a_source_and_values_between_none_and_all() {
         assert_eq!(names().len(), 25);
         for name in names() {
-            let spectrum = named(name).expect("a name of the list");
+            let spectrum = by_name(name).expect("a name of the list");
             assert!(spectrum.min_value() >= 0.0 && spectrum.max_value() < 0.95, "{name}");
             assert!(source(name).is_some_and(|s| s.len() > 20), "{name}");
             assert_eq!(names().iter().filter(|n| *n == name).count(), 1, "{name}");
         }
-        assert!(named("gold").is_none() && source("gold").is_none());
+        assert!(by_name("gold").is_none() && source("gold").is_none());
     }
 
     #[test]
@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn luminance_factors_meet_their_classes() {
         // The classes that the table's source lines name.
-        let least = [
+        let minimum = [
             ("marking-white", 0.40),
             ("marking-yellow", 0.30),
             ("sheeting-white", 0.27),
@@ -139,9 +139,9 @@ mod tests {
             ("sheeting-green", 0.03),
             ("sheeting-blue", 0.01),
         ];
-        for (name, least) in least {
+        for (name, minimum) in minimum {
             let factor = luminance_factor(name);
-            assert!(factor > least && factor < 2.0 * least + 0.1, "{name}: {factor}");
+            assert!(factor > minimum && factor < 2.0 * minimum + 0.1, "{name}: {factor}");
         }
     }
 

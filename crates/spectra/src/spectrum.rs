@@ -1,9 +1,9 @@
 //! A function of wavelength.
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_core::{Bands, Spectral, Wavelengths};
 
-use crate::table::{self, Outside, Place, SpectrumError, rows};
+use crate::table::{self, Extrapolation, TablePlace, SpectrumError, rows};
 
 /// Nodes of the grid: 300, 301, … 1 100 nm.
 pub(crate) const NODES: usize = 801;
@@ -30,7 +30,7 @@ impl Spectrum {
     #[must_use]
     pub fn from_fn(mut f: impl FnMut(f64) -> f64) -> Self {
         let values = (0..NODES).map(|i| f(node_nm(i)) as f32).collect();
-        Self { values: boxed(values), covered_nm: (SHORTEST_NM, MAX_NM) }
+        Self { values: boxed(values), covered_nm: (MIN_NM, MAX_NM) }
     }
 
     /// Creates a spectrum from points (wavelength in nm, value), wavelengths rising; linear between points.
@@ -38,8 +38,8 @@ impl Spectrum {
     /// # Errors
     /// If there are no points, a single one in a table that is zero outside, a number is not finite, wavelengths do not rise, or the table does not
     /// reach into 300 to 1 100 nm.
-    pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
-        table::check(points, Place::Point)?;
+    pub fn from_points(points: &[(f64, f64)], outside: Extrapolation) -> Result<Self, SpectrumError> {
+        table::check(points, TablePlace::Point)?;
         table::check_width(points, outside)?;
         Ok(Self::from_checked(points, outside))
     }
@@ -49,16 +49,16 @@ impl Spectrum {
     ///
     /// # Errors
     /// As [`Spectrum::from_points`], and if a line is not two numbers; the error names the line.
-    pub fn from_csv(text: &str, outside: Outside) -> Result<Self, SpectrumError> {
+    pub fn from_csv(text: &str, outside: Extrapolation) -> Result<Self, SpectrumError> {
         let points = table::points(text)?;
         table::check_width(&points, outside)?;
         Ok(Self::from_checked(&points, outside))
     }
 
-    pub(crate) fn from_checked(points: &[(f64, f64)], outside: Outside) -> Self {
+    pub(crate) fn from_checked(points: &[(f64, f64)], outside: Extrapolation) -> Self {
         let values = (0..NODES).map(|i| table::node_value(points, outside, node_nm(i)) as f32).collect();
         let (first, last) = (points[0].0, points[points.len() - 1].0);
-        Self { values: boxed(values), covered_nm: (first.max(SHORTEST_NM), last.min(MAX_NM)) }
+        Self { values: boxed(values), covered_nm: (first.max(MIN_NM), last.min(MAX_NM)) }
     }
 
     /// The value at a wavelength of 300 to 1 100 nm; the end value beyond.
@@ -79,7 +79,7 @@ impl Spectrum {
     /// Integral over `[low_nm, high_nm]`, exact for the piecewise linear function; zero beyond 300–1 100 nm. The unit is the value's × nm.
     #[must_use]
     pub fn integral(&self, low_nm: f64, high_nm: f64) -> f64 {
-        let (low, high) = (low_nm.max(SHORTEST_NM) - SHORTEST_NM, high_nm.min(MAX_NM) - SHORTEST_NM);
+        let (low, high) = (low_nm.max(MIN_NM) - MIN_NM, high_nm.min(MAX_NM) - MIN_NM);
         if low >= high {
             return 0.0;
         }
@@ -162,13 +162,13 @@ impl Spectrum {
 
 /// Wavelength of node `i`, nm.
 pub(crate) fn node_nm(i: usize) -> f64 {
-    SHORTEST_NM + i as f64
+    MIN_NM + i as f64
 }
 
 /// The node at or below a wavelength, never the last, and the fraction towards the next, in [0, 1].
 #[inline]
 pub(crate) fn node_below(nm: f32) -> (usize, f32) {
-    let x = (nm - SHORTEST_NM as f32).clamp(0.0, (NODES - 1) as f32);
+    let x = (nm - MIN_NM as f32).clamp(0.0, (NODES - 1) as f32);
     // Converts through i32, for which the processor has a direct instruction.
     let i = (x as i32 as usize).min(NODES - 2);
     (i, x - i as f32)
@@ -179,7 +179,7 @@ fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
 }
 
 /// The spectra of an embedded table: `C` columns, the first the wavelength in nm.
-pub(crate) fn embedded<const C: usize>(text: &str, outside: Outside) -> Vec<Spectrum> {
+pub(crate) fn embedded<const C: usize>(text: &str, outside: Extrapolation) -> Vec<Spectrum> {
     let rows = rows::<C>(text).expect("a table of the crate has numbers in every column");
     let column = |c: usize| rows.iter().map(|(_, row)| (row[0], row[c])).collect::<Vec<_>>();
     (1..C).map(|c| Spectrum::from_points(&column(c), outside).expect("a table of the crate is in order")).collect()
@@ -194,14 +194,14 @@ pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'stati
 mod tests {
     use super::*;
 
-    fn table(points: &[(f64, f64)], outside: Outside) -> Spectrum {
+    fn table(points: &[(f64, f64)], outside: Extrapolation) -> Spectrum {
         Spectrum::from_points(points, outside).expect("a table in order")
     }
 
     #[test]
     fn a_line_is_exact_inside_and_follows_its_rule_outside() {
         let points = [(400.0, 1.0), (500.0, 3.0)];
-        let (zero, hold) = (table(&points, Outside::Zero), table(&points, Outside::Hold));
+        let (zero, hold) = (table(&points, Extrapolation::Zero), table(&points, Extrapolation::Hold));
         for (nm, value) in [(400.0, 1.0), (450.0, 2.0), (475.25, 2.505), (500.0, 3.0)] {
             // One rounding to f32 in store, two in between.
             assert!((zero.at(nm) - value).abs() < 1e-6 && (hold.at(nm) - value).abs() < 1e-6);
@@ -245,12 +245,12 @@ mod tests {
     fn narrow_lines_keep_their_power() {
         for centre in [532.0, 532.3, 632.5] {
             let points = [(centre - 0.1, 0.0), (centre, 10.0), (centre + 0.1, 0.0)];
-            let line = table(&points, Outside::Zero);
+            let line = table(&points, Extrapolation::Zero);
             // Area of the triangle: 1; values are rounded to f32.
             assert!((line.integral(500.0, 700.0) - 1.0).abs() < 1e-6, "{centre}: {}", line.integral(500.0, 700.0));
         }
         let fine: Vec<_> = (0..=80).map(|i| (400.0 + 0.25 * f64::from(i), 5.0)).collect();
-        assert_eq!(table(&fine, Outside::Hold), {
+        assert_eq!(table(&fine, Extrapolation::Hold), {
             let flat = Spectrum::constant(5.0);
             Spectrum { covered_nm: (400.0, 420.0), ..flat }
         });
@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn products_and_scales() {
-        let (a, b) = (table(&[(400.0, 1.0), (500.0, 3.0)], Outside::Hold), Spectrum::from_fn(|nm| nm / 100.0));
+        let (a, b) = (table(&[(400.0, 1.0), (500.0, 3.0)], Extrapolation::Hold), Spectrum::from_fn(|nm| nm / 100.0));
         let product = a.product(&b).scaled(2.0);
         assert!((product.at(450.0) - 18.0).abs() < 1e-5);
         assert_eq!(product.covered_nm(), (400.0, 500.0));

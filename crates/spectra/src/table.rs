@@ -1,10 +1,10 @@
 //! Tables of points: reading, checking, and resampling on the grid of 1 nm.
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 
 /// Meaning of a table beyond its first and last wavelength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
+pub enum Extrapolation {
     /// Zero: for emissions and sensitivities.
     Zero,
     /// The end value: for reflectances, transmittances and refractive indices.
@@ -13,14 +13,14 @@ pub enum Outside {
 
 /// Location of an error in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum TablePlace {
     /// A point, counted from 0.
     Point(usize),
     /// A line of a text, counted from 1.
     Line(usize),
 }
 
-impl core::fmt::Display for Place {
+impl core::fmt::Display for TablePlace {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Point(i) => write!(f, "point {i}"),
@@ -60,13 +60,13 @@ pub enum SpectrumError {
     #[error("{place}: a wavelength or value is not finite: give finite numbers")]
     NotFinite {
         /// Location.
-        place: Place,
+        place: TablePlace,
     },
     /// A wavelength is not longer than the one before.
     #[error("{place}: wavelength {nm} nm follows {before} nm: sort the table by rising wavelength, each once")]
     NotRising {
         /// Location.
-        place: Place,
+        place: TablePlace,
         /// The wavelength there, nm.
         nm: f64,
         /// The wavelength before, nm.
@@ -83,15 +83,15 @@ pub enum SpectrumError {
 }
 
 /// Checks that there are enough points for the outside rule: a single one is a constant, or no spectrum at all.
-pub(crate) fn check_width(points: &[(f64, f64)], outside: Outside) -> Result<(), SpectrumError> {
+pub(crate) fn check_width(points: &[(f64, f64)], outside: Extrapolation) -> Result<(), SpectrumError> {
     match (points, outside) {
-        ([(nm, _)], Outside::Zero) => Err(SpectrumError::NoWidth { nm: *nm }),
+        ([(nm, _)], Extrapolation::Zero) => Err(SpectrumError::NoWidth { nm: *nm }),
         _ => Ok(()),
     }
 }
 
 /// Checks that points form a spectrum; `place` names a point by its index.
-pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Result<(), SpectrumError> {
+pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> TablePlace) -> Result<(), SpectrumError> {
     if let Some(i) = points.iter().position(|(nm, v)| !nm.is_finite() || !(*v as f32).is_finite()) {
         return Err(SpectrumError::NotFinite { place: place(i) });
     }
@@ -101,23 +101,23 @@ pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Re
     let (Some((low, _)), Some((high, _))) = (points.first().copied(), points.last().copied()) else {
         return Err(SpectrumError::Empty);
     };
-    if low <= MAX_NM && high >= SHORTEST_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
+    if low <= MAX_NM && high >= MIN_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
 }
 
 /// The checked points of a text of two columns.
 pub(crate) fn points(text: &str) -> Result<Vec<(f64, f64)>, SpectrumError> {
     let rows = rows::<2>(text)?;
     let points: Vec<_> = rows.iter().map(|(_, [nm, value])| (*nm, *value)).collect();
-    check(&points, |i| Place::Line(rows[i].0))?;
+    check(&points, |i| TablePlace::Line(rows[i].0))?;
     Ok(points)
 }
 
 /// A row: its line, counted from 1, and its numbers.
-pub(crate) type Row<const C: usize> = (usize, [f64; C]);
+pub(crate) type TableRow<const C: usize> = (usize, [f64; C]);
 
 /// The rows of a text of `C` columns: numbers separated by commas. Empty lines and `#` comments are skipped; a first line without any number is a
 /// header.
-pub(crate) fn rows<const C: usize>(text: &str) -> Result<Vec<Row<C>>, SpectrumError> {
+pub(crate) fn rows<const C: usize>(text: &str) -> Result<Vec<TableRow<C>>, SpectrumError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, content(line)));
     let mut lines = lines.filter(|(_, line)| !line.is_empty()).peekable();
     lines.next_if(|(_, line)| is_header(line));
@@ -141,7 +141,7 @@ fn numbers<const C: usize>(line: usize, text: &str) -> Result<[f64; C], Spectrum
 
 /// A node's value: the piecewise linear function itself or, if a table point lies closer than 1 nm, the mean of the function with a triangular weight
 /// that falls to zero at the neighbouring nodes.
-pub(crate) fn node_value(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
+pub(crate) fn node_value(points: &[(f64, f64)], outside: Extrapolation, nm: f64) -> f64 {
     let inner = &points[points.partition_point(|p| p.0 <= nm - 1.0)..points.partition_point(|p| p.0 < nm + 1.0)];
     if inner.iter().all(|p| p.0 == nm) {
         return line_at(points, outside, nm);
@@ -160,7 +160,7 @@ fn knots_between(inner: &[(f64, f64)], nm: f64) -> impl Iterator<Item = f64> {
 
 /// Integral of the piecewise linear function times the triangular weight about `nm`, between two neighbouring knots: a parabola, so Simpson's rule is
 /// exact.
-fn hat_integral(points: &[(f64, f64)], outside: Outside, nm: f64, low: f64, high: f64) -> f64 {
+fn hat_integral(points: &[(f64, f64)], outside: Extrapolation, nm: f64, low: f64, high: f64) -> f64 {
     let middle = (low + high) / 2.0;
     let value = line_at(points, outside, middle);
     let (a, b) = (side_limit(points, outside, low, middle, value), side_limit(points, outside, high, middle, value));
@@ -170,15 +170,15 @@ fn hat_integral(points: &[(f64, f64)], outside: Outside, nm: f64, low: f64, high
 
 /// The one-sided limit of the piecewise linear function at a knot from the side of `inside`, where its value is `value`: the function may jump at the
 /// table's ends.
-fn side_limit(points: &[(f64, f64)], outside: Outside, knot: f64, inside: f64, value: f64) -> f64 {
+fn side_limit(points: &[(f64, f64)], outside: Extrapolation, knot: f64, inside: f64, value: f64) -> f64 {
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     if inside < first || inside > last { value } else { line_at(points, outside, knot) }
 }
 
 /// The piecewise linear function at a wavelength.
-fn line_at(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
+fn line_at(points: &[(f64, f64)], outside: Extrapolation, nm: f64) -> f64 {
     let (first, last) = (points[0], points[points.len() - 1]);
-    let end = |value: f64| if outside == Outside::Zero { 0.0 } else { value };
+    let end = |value: f64| if outside == Extrapolation::Zero { 0.0 } else { value };
     if nm < first.0 {
         return end(first.1);
     }
@@ -196,14 +196,14 @@ mod tests {
     use crate::Spectrum;
 
     fn error(text: &str) -> String {
-        Spectrum::from_csv(text, Outside::Zero).expect_err("a fault").to_string()
+        Spectrum::from_csv(text, Extrapolation::Zero).expect_err("a fault").to_string()
     }
 
     #[test]
     fn a_table_with_and_without_header_comments_and_line_ends() {
-        let plain = Spectrum::from_csv("400,1\n500,2\n", Outside::Hold).expect("a table");
+        let plain = Spectrum::from_csv("400,1\n500,2\n", Extrapolation::Hold).expect("a table");
         let text = "\u{feff}# measured\r\nwavelength_nm , value\r\n\r\n 400, 1 # first\r\n500 ,2.0e0";
-        assert_eq!(Spectrum::from_csv(text, Outside::Hold).expect("a table"), plain);
+        assert_eq!(Spectrum::from_csv(text, Extrapolation::Hold).expect("a table"), plain);
     }
 
     #[test]
@@ -217,22 +217,22 @@ mod tests {
         assert!(error("").starts_with("the table has no points"));
         assert!(error("0.4,1\n0.7,1\n").contains("are its wavelengths in nanometres?"));
         let points = [(400.0, 1.0), (300.0, 1.0)];
-        let message = Spectrum::from_points(&points, Outside::Zero).expect_err("a fault").to_string();
+        let message = Spectrum::from_points(&points, Extrapolation::Zero).expect_err("a fault").to_string();
         assert!(message.starts_with("point 1: wavelength 300 nm follows 400 nm"));
     }
 
     #[test]
     fn one_point_is_a_constant_where_ends_are_held_and_has_no_width_where_they_are_zero() {
-        let held = Spectrum::from_csv("550.5,0.3\n", Outside::Hold).expect("a constant");
+        let held = Spectrum::from_csv("550.5,0.3\n", Extrapolation::Hold).expect("a constant");
         assert_eq!([300.0, 550.0, 1100.0].map(|nm| held.at(nm)), [0.3; 3]);
-        let fault = Spectrum::from_csv("550.5,0.3\n", Outside::Zero).expect_err("no width").to_string();
-        assert!(fault.starts_with("the table has one point, 550.5 nm, and light"), "{fault}");
-        assert_eq!(Spectrum::from_points(&[(550.5, 0.3)], Outside::Zero), Err(SpectrumError::NoWidth { nm: 550.5 }));
+        let error = Spectrum::from_csv("550.5,0.3\n", Extrapolation::Zero).expect_err("no width").to_string();
+        assert!(error.starts_with("the table has one point, 550.5 nm, and light"), "{error}");
+        assert_eq!(Spectrum::from_points(&[(550.5, 0.3)], Extrapolation::Zero), Err(SpectrumError::NoWidth { nm: 550.5 }));
     }
 
     #[test]
     fn tables_that_reach_beyond_the_range_are_cut_to_it() {
-        let wide = Spectrum::from_csv("200,0\n1200,10\n", Outside::Zero).expect("a table");
+        let wide = Spectrum::from_csv("200,0\n1200,10\n", Extrapolation::Zero).expect("a table");
         assert!((wide.at(300.0) - 1.0).abs() < 1e-6 && (wide.at(1100.0) - 9.0).abs() < 1e-6);
         assert_eq!(wide.covered_nm(), (300.0, 1100.0));
     }

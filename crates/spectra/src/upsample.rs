@@ -13,10 +13,10 @@ use std::sync::LazyLock;
 use etendue_core::{Spectral, Wavelengths};
 
 use crate::spectrum::{NODES, embedded, node_below};
-use crate::{Outside, Spectrum, illuminant, observer};
+use crate::{Extrapolation, Spectrum, illuminant, observer};
 
 static BASIS: LazyLock<[Spectrum; 3]> = LazyLock::new(|| {
-    let table = embedded::<4>(include_str!("../data/srgb_basis.csv"), Outside::Hold);
+    let table = embedded::<4>(include_str!("../data/srgb_basis.csv"), Extrapolation::Hold);
     table.try_into().expect("three reflectances")
 });
 
@@ -30,8 +30,8 @@ type Nodes = Box<[[f32; 3]; NODES]>;
 static REFLECTANCE: LazyLock<Nodes> = LazyLock::new(|| nodes(BASIS.each_ref()));
 
 static EMISSION: LazyLock<Nodes> = LazyLock::new(|| {
-    let lit = BASIS.each_ref().map(|basis| basis.product(&WHITE_LIGHT));
-    nodes(lit.each_ref())
+    let lit_basis = BASIS.each_ref().map(|basis| basis.product(&WHITE_LIGHT));
+    nodes(lit_basis.each_ref())
 });
 
 fn nodes(spectra: [&Spectrum; 3]) -> Nodes {
@@ -112,8 +112,8 @@ mod tests {
         let steps = [0.0_f32, 0.05, 0.18, 0.4, 0.7, 0.95, 1.0];
         for (r, g, b) in steps.iter().flat_map(|r| steps.iter().flat_map(move |g| steps.map(|b| (*r, *g, b)))) {
             let xyz = observer::xyz_of_reflectance(&reflectance_spectrum([r, g, b]), illuminant::d65());
-            let asked = xyz_from_linear_srgb([r, g, b].map(f64::from));
-            let difference = ciede2000(lab(xyz, D65_WHITE), lab(asked, D65_WHITE));
+            let request = xyz_from_linear_srgb([r, g, b].map(f64::from));
+            let difference = ciede2000(lab(xyz, D65_WHITE), lab(request, D65_WHITE));
             // Rounding to f32 changes XYZ by 1e-7; L*a*b* has slopes up to 1 000, and 4 500 for a* near black.
             assert!(difference < 1e-3, "{r} {g} {b}: {difference}");
         }
@@ -137,9 +137,9 @@ mod tests {
         let white = emission_spectrum([1.0; 3]);
         assert!((observer::luminance(&white) - 1.0).abs() < 1e-6);
         let rgb = linear_srgb_from_xyz(observer::xyz(&emission_spectrum([120.0, 3.5, 40.0])));
-        for (got, asked) in rgb.into_iter().zip([120.0, 3.5, 40.0]) {
+        for (actual, request) in rgb.into_iter().zip([120.0, 3.5, 40.0]) {
             // Roundings of f32 at the scale of the largest component.
-            assert!((got - asked).abs() < 120.0 * 1e-6, "{rgb:?}");
+            assert!((actual - request).abs() < 120.0 * 1e-6, "{rgb:?}");
         }
         let wavelengths = Wavelengths::<4>::uniform(380.0, 780.0, 0.2);
         let values = emission([1.0; 3], &wavelengths);

@@ -27,44 +27,44 @@ pub struct ErrorSummary {
 /// ε of the relative error, as a fraction of the reference's mean magnitude.
 const RELATIVE_FLOOR: f64 = 0.01;
 /// Fraction of the largest terms that the trimmed error excludes.
-const TRIMMED_SHARE: f64 = 0.001;
+const TRIMMED_FRACTION: f64 = 0.001;
 
 impl ErrorSummary {
     /// Returns the same with a larger `bias_standard_error`, for errors that may be equal in groups of `alike` pixels: the bound
     /// for that many times fewer independent errors.
     #[must_use]
-    pub fn shared_by(self, alike: u32) -> Self {
-        Self { bias_standard_error: self.bias_standard_error * f64::from(alike.max(1)).sqrt(), ..self }
+    pub fn with_correlated_pixels(self, correlated_pixels: u32) -> Self {
+        Self { bias_standard_error: self.bias_standard_error * f64::from(correlated_pixels.max(1)).sqrt(), ..self }
     }
 
     /// The errors of `picture` against `reference`. `None` if their lengths differ or no sample is finite in both.
     #[must_use]
-    pub fn of(picture: &[f32], reference: &[f32]) -> Option<Self> {
-        if picture.len() != reference.len() {
+    pub fn compare(image: &[f32], reference: &[f32]) -> Option<Self> {
+        if image.len() != reference.len() {
             return None;
         }
-        let pairs: Vec<(f64, f64)> = picture
+        let pairs: Vec<(f64, f64)> = image
             .iter()
             .zip(reference)
             .filter(|(p, r)| p.is_finite() && r.is_finite())
             .map(|(p, r)| (f64::from(*p) - f64::from(*r), f64::from(*r)))
             .collect();
-        (!pairs.is_empty()).then(|| Self::of_errors(&pairs, picture.len() - pairs.len()))
+        (!pairs.is_empty()).then(|| Self::from_errors(&pairs, image.len() - pairs.len()))
     }
 
     /// From pairs of (error, reference).
-    fn of_errors(pairs: &[(f64, f64)], not_finite: usize) -> Self {
-        let errors = Moments::of(pairs.iter().map(|p| p.0));
+    fn from_errors(pairs: &[(f64, f64)], not_finite: usize) -> Self {
+        let errors = Moments::from_values(pairs.iter().map(|p| p.0));
         let mut relative = relative_squares(pairs);
         let relative_mse = mean(&relative);
         relative.sort_by(f64::total_cmp);
-        let kept = relative.len() - (relative.len() as f64 * TRIMMED_SHARE) as usize;
+        let retained = relative.len() - (relative.len() as f64 * TRIMMED_FRACTION) as usize;
         Self {
             samples: pairs.len(),
             not_finite,
-            rmse: Moments::of(pairs.iter().map(|p| p.0 * p.0)).mean().sqrt(),
+            rmse: Moments::from_values(pairs.iter().map(|p| p.0 * p.0)).mean().sqrt(),
             relative_mse,
-            trimmed_relative_mse: mean(&relative[..kept]),
+            trimmed_relative_mse: mean(&relative[..retained]),
             bias: errors.mean(),
             bias_standard_error: errors.variance_of_mean().unwrap_or(0.0).sqrt(),
             max_abs: pairs.iter().fold(0.0, |m, p| p.0.abs().max(m)),
@@ -74,7 +74,7 @@ impl ErrorSummary {
 
 /// (error)² / (reference² + ε²); if reference and ε are zero, 0 for no error and infinity otherwise.
 fn relative_squares(pairs: &[(f64, f64)]) -> Vec<f64> {
-    let floor = RELATIVE_FLOOR * Moments::of(pairs.iter().map(|p| p.1.abs())).mean();
+    let floor = RELATIVE_FLOOR * Moments::from_values(pairs.iter().map(|p| p.1.abs())).mean();
     let term = |(e, r): &(f64, f64)| if *e == 0.0 { 0.0 } else { e * e / (r * r + floor * floor) };
     pairs.iter().map(term).collect()
 }
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn errors_by_hand() {
-        let e = ErrorSummary::of(&[1.0, 2.0, 3.0, f32::NAN], &[1.0, 1.0, 5.0, 1.0]).expect("three samples");
+        let e = ErrorSummary::compare(&[1.0, 2.0, 3.0, f32::NAN], &[1.0, 1.0, 5.0, 1.0]).expect("three samples");
         assert_eq!((e.samples, e.not_finite, e.max_abs), (3, 1, 2.0));
         assert!((e.rmse - (5.0_f64 / 3.0).sqrt()).abs() < 1e-15);
         assert!((e.bias + 1.0 / 3.0).abs() < 1e-15);
@@ -102,11 +102,11 @@ mod tests {
     #[test]
     fn a_scale_changes_no_relative_error_and_a_firefly_is_trimmed() {
         let reference: Vec<f32> = (0..2000).map(|i| 1.0 + (i % 5) as f32).collect();
-        let mut picture: Vec<f32> = reference.iter().map(|r| r * 1.5).collect();
-        picture[700] = 1e6;
-        let one = ErrorSummary::of(&picture, &reference).expect("samples");
+        let mut image: Vec<f32> = reference.iter().map(|r| r * 1.5).collect();
+        image[700] = 1e6;
+        let one = ErrorSummary::compare(&image, &reference).expect("samples");
         let scale = |v: &[f32]| v.iter().map(|x| x * 1024.0).collect::<Vec<_>>();
-        let scaled = ErrorSummary::of(&scale(&picture), &scale(&reference)).expect("samples");
+        let scaled = ErrorSummary::compare(&scale(&image), &scale(&reference)).expect("samples");
         assert!((one.relative_mse / scaled.relative_mse - 1.0).abs() < 1e-12);
         // 25 % off everywhere: a quarter, except for ε = 1 % of the mean, which is 3 times the smallest reference.
         assert!((one.trimmed_relative_mse - 0.25).abs() < 0.25 * 0.001, "{}", one.trimmed_relative_mse);
@@ -115,10 +115,10 @@ mod tests {
 
     #[test]
     fn nothing_to_compare_is_none() {
-        assert!(ErrorSummary::of(&[], &[]).is_none());
-        assert!(ErrorSummary::of(&[1.0], &[1.0, 2.0]).is_none());
-        assert!(ErrorSummary::of(&[f32::NAN], &[1.0]).is_none());
-        assert!(ErrorSummary::of(&[1.0], &[0.0]).expect("one").relative_mse.is_infinite());
-        assert_eq!(ErrorSummary::of(&[0.0], &[0.0]).expect("one").relative_mse, 0.0);
+        assert!(ErrorSummary::compare(&[], &[]).is_none());
+        assert!(ErrorSummary::compare(&[1.0], &[1.0, 2.0]).is_none());
+        assert!(ErrorSummary::compare(&[f32::NAN], &[1.0]).is_none());
+        assert!(ErrorSummary::compare(&[1.0], &[0.0]).expect("one").relative_mse.is_infinite());
+        assert_eq!(ErrorSummary::compare(&[0.0], &[0.0]).expect("one").relative_mse, 0.0);
     }
 }

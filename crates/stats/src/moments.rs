@@ -15,19 +15,19 @@ use crate::student;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     count: u64,
-    mean: Sum,
-    squares: Sum,
+    mean: CompensatedSum,
+    squares: CompensatedSum,
 }
 
 /// A sum and its rounding error (positive if the sum is too large).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Sum {
+struct CompensatedSum {
     rounded: f64,
     excess: f64,
 }
 
-impl Sum {
-    fn of(value: f64) -> Self {
+impl CompensatedSum {
+    fn new(value: f64) -> Self {
         Self { rounded: value, excess: 0.0 }
     }
 
@@ -46,7 +46,7 @@ impl Sum {
 impl Moments {
     /// The moments of `values`, taken in order.
     #[must_use]
-    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Self {
         let mut moments = Self::default();
         for value in values {
             moments.push(value);
@@ -69,10 +69,10 @@ impl Moments {
             return if self.count == 0 { *other } else { *self };
         }
         let count = self.count + other.count;
-        let (share, difference) = (other.count as f64 / count as f64, other.mean() - self.mean());
-        let between = difference * difference * self.count as f64 * share;
+        let (fraction, difference) = (other.count as f64 / count as f64, other.mean() - self.mean());
+        let between = difference * difference * self.count as f64 * fraction;
         let squares = self.squares.total() + other.squares.total() + between;
-        Self { count, mean: Sum::of(self.mean() + difference * share), squares: Sum::of(squares) }
+        Self { count, mean: CompensatedSum::new(self.mean() + difference * fraction), squares: CompensatedSum::new(squares) }
     }
 
     /// Number of values.
@@ -115,8 +115,8 @@ pub struct ReplicateEstimate {
 impl ReplicateEstimate {
     /// The estimate from replicates of equal size. `None` for fewer than two.
     #[must_use]
-    pub fn of(replicate_means: &[f64]) -> Option<Self> {
-        let moments = Moments::of(replicate_means.iter().copied());
+    pub fn from_replicates(replicate_means: &[f64]) -> Option<Self> {
+        let moments = Moments::from_values(replicate_means.iter().copied());
         let variance_of_mean = moments.variance_of_mean()?;
         let degrees_of_freedom = u32::try_from(replicate_means.len() - 1).ok()?;
         Some(Self { mean: moments.mean(), variance_of_mean, degrees_of_freedom })
@@ -162,7 +162,7 @@ mod tests {
     fn a_large_offset_costs_no_digits() {
         // Of 1, 2, …, 9: mean 5, variance 7.5; the same on an offset where squares would lose everything.
         for offset in [0.0, 1e9, -1e12] {
-            let moments = Moments::of((1..10).map(|i| f64::from(i) + offset));
+            let moments = Moments::from_values((1..10).map(|i| f64::from(i) + offset));
             assert!((moments.mean() - 5.0 - offset).abs() < 1e-15 * offset.abs().max(10.0));
             // The mean is rounded at 1e-16 of the offset, twice in a deviation of up to 4.
             let variance = moments.variance().expect("nine numbers");
@@ -174,26 +174,26 @@ mod tests {
     fn streams_join() {
         let all: Vec<f64> = (0..100).map(|i| f64::from(i * i % 37)).collect();
         let (a, b) = all.split_at(30);
-        let joined = Moments::of(a.iter().copied()).join(&Moments::of(b.iter().copied()));
-        let whole = Moments::of(all.iter().copied());
+        let joined = Moments::from_values(a.iter().copied()).join(&Moments::from_values(b.iter().copied()));
+        let all_moments = Moments::from_values(all.iter().copied());
         assert_eq!(joined.count(), 100);
-        assert!((joined.mean() - whole.mean()).abs() < 1e-12);
-        assert!((joined.squares.total() - whole.squares.total()).abs() < 1e-9);
-        assert_eq!(Moments::default().join(&whole), whole);
-        assert_eq!(whole.join(&Moments::default()), whole);
+        assert!((joined.mean() - all_moments.mean()).abs() < 1e-12);
+        assert!((joined.squares.total() - all_moments.squares.total()).abs() < 1e-9);
+        assert_eq!(Moments::default().join(&all_moments), all_moments);
+        assert_eq!(all_moments.join(&Moments::default()), all_moments);
     }
 
     #[test]
     fn too_few_numbers_have_no_variance() {
         assert_eq!(Moments::default().variance(), None);
-        assert_eq!(Moments::of([3.0]).variance_of_mean(), None);
-        assert!(Moments::of([3.0, f64::NAN]).variance().expect("two").is_nan());
+        assert_eq!(Moments::from_values([3.0]).variance_of_mean(), None);
+        assert!(Moments::from_values([3.0, f64::NAN]).variance().expect("two").is_nan());
     }
 
     #[test]
     fn four_replicates_by_hand() {
         // Mean 5, variance 20/3, of the mean 5/3.
-        let estimate = ReplicateEstimate::of(&[2.0, 4.0, 6.0, 8.0]).expect("four replicates");
+        let estimate = ReplicateEstimate::from_replicates(&[2.0, 4.0, 6.0, 8.0]).expect("four replicates");
         assert!((estimate.mean - 5.0).abs() < 1e-15 && (estimate.variance_of_mean - 5.0 / 3.0).abs() < 1e-15);
         assert_eq!(estimate.degrees_of_freedom, 3);
         // t of 3 degrees at 95 % is 3.182446.
@@ -203,9 +203,9 @@ mod tests {
 
     #[test]
     fn certainty_and_ignorance() {
-        let certain = ReplicateEstimate::of(&[1.0; 4]).expect("four replicates");
+        let certain = ReplicateEstimate::from_replicates(&[1.0; 4]).expect("four replicates");
         assert_eq!((certain.p_of(1.0), certain.p_of(1.1)), (1.0, 0.0));
-        assert!(ReplicateEstimate::of(&[1.0]).is_none());
+        assert!(ReplicateEstimate::from_replicates(&[1.0]).is_none());
     }
 
     #[test]

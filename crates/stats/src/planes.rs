@@ -40,7 +40,7 @@ pub struct EstimatedPlane<'a> {
     /// Replicates for each variance; at least 2 if any variance is positive.
     pub replicates: u32,
     /// Number of pixels that may have equal errors; 1 if all are independent.
-    pub alike: u32,
+    pub correlated_pixels: u32,
 }
 
 /// Verdict of a comparison.
@@ -98,7 +98,7 @@ pub fn compare(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, significance: f64
     let fewest = freedom.into_iter().flatten().min().unwrap_or(POOLED_DEGREES_OF_FREEDOM);
     let pooled_pixels = POOLED_DEGREES_OF_FREEDOM.div_ceil(fewest) as usize;
     let runs = runs(a, b, freedom, pooled_pixels);
-    Ok(judge(&runs, [a.alike, b.alike], pooled_pixels, significance))
+    Ok(evaluate(&runs, [a.correlated_pixels, b.correlated_pixels], pooled_pixels, significance))
 }
 
 /// R − 1 if the image has variances, `None` if it is exact.
@@ -113,7 +113,7 @@ fn degrees_of_freedom(plane: &EstimatedPlane<'_>) -> Result<Option<u32>, PlaneTe
 
 /// Sums over a run of pixels.
 #[derive(Clone, Copy, Default)]
-struct Run {
+struct PixelRun {
     first_pixel: usize,
     difference: f64,
     rounding: f64,
@@ -125,7 +125,7 @@ struct Run {
     not_finite: usize,
 }
 
-impl Run {
+impl PixelRun {
     fn add(&mut self, means: [f64; 2], variances: [f64; 2], freedom: [Option<u32>; 2]) {
         let legal = means.iter().all(|m| m.is_finite()) && variances.iter().all(|v| v.is_finite() && *v >= 0.0);
         if !legal {
@@ -147,7 +147,7 @@ impl Run {
     }
 
     /// The sum of all runs, which reveals an image that is slightly off everywhere.
-    fn whole(runs: &[Self]) -> Self {
+    fn total(runs: &[Self]) -> Self {
         let sum = |of: &dyn Fn(&Self) -> f64| runs.iter().map(of).sum();
         Self {
             difference: sum(&|r| r.difference),
@@ -159,23 +159,23 @@ impl Run {
     }
 
     /// |t| and its two-sided p, where this many pixels of each image have equal errors; `None` if the run contains no random test.
-    fn test(&self, alike: [f64; 2]) -> Option<(f64, f64)> {
-        let variance = self.variance[0] * alike[0] + self.variance[1] * alike[1];
+    fn test(&self, correlated_pixels: [f64; 2]) -> Option<(f64, f64)> {
+        let variance = self.variance[0] * correlated_pixels[0] + self.variance[1] * correlated_pixels[1];
         if variance == 0.0 {
             return None;
         }
         // m equal errors: m² times the variance of one, with the degrees of freedom of one.
-        let cubed = alike.map(|m| m * m * m);
+        let cubed = correlated_pixels.map(|m| m * m * m);
         let spread = self.spread[0] * cubed[0] + self.spread[1] * cubed[1];
         let z = (self.difference.abs() - self.rounding).max(0.0) / variance.sqrt();
         Some((z, student::two_sided_p(z, variance * variance / spread)))
     }
 }
 
-fn runs(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, freedom: [Option<u32>; 2], length: usize) -> Vec<Run> {
+fn runs(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, freedom: [Option<u32>; 2], length: usize) -> Vec<PixelRun> {
     let mut runs = Vec::with_capacity(a.mean.len().div_ceil(length));
     for first_pixel in (0..a.mean.len()).step_by(length) {
-        let mut run = Run { first_pixel, ..Run::default() };
+        let mut run = PixelRun { first_pixel, ..PixelRun::default() };
         for i in first_pixel..(first_pixel + length).min(a.mean.len()) {
             let means = [f64::from(a.mean[i]), f64::from(b.mean[i])];
             run.add(means, [f64::from(a.variance_of_mean[i]), f64::from(b.variance_of_mean[i])], freedom);
@@ -185,12 +185,12 @@ fn runs(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, freedom: [Option<u32>; 2
     runs
 }
 
-fn judge(runs: &[Run], alike: [u32; 2], pooled_pixels: usize, significance: f64) -> PlaneTest {
-    let whole = (runs.len() > 1).then(|| (Run::whole(runs), alike.map(f64::from)));
-    let within = alike.map(|m| f64::from(m).min(pooled_pixels as f64));
-    let all = runs.iter().map(|run| (*run, within)).chain(whole);
+fn evaluate(runs: &[PixelRun], correlated_pixels: [u32; 2], pooled_pixels: usize, significance: f64) -> PlaneTest {
+    let all_pixels = (runs.len() > 1).then(|| (PixelRun::total(runs), correlated_pixels.map(f64::from)));
+    let within = correlated_pixels.map(|m| f64::from(m).min(pooled_pixels as f64));
+    let all = runs.iter().map(|run| (*run, within)).chain(all_pixels);
     let tests: Vec<(usize, f64, f64)> =
-        all.filter_map(|(run, alike)| run.test(alike).map(|(z, p)| (run.first_pixel, z, p))).collect();
+        all.filter_map(|(run, correlated_pixels)| run.test(correlated_pixels).map(|(z, p)| (run.first_pixel, z, p))).collect();
     let level = chi_square::sidak_level(significance, tests.len());
     let certain: usize = runs.iter().map(|r| r.certain_differences).sum();
     let not_finite = runs.iter().map(|r| r.not_finite).sum();
@@ -223,19 +223,19 @@ mod tests {
     fn estimate(seed: u64, truth: &[f64], sigma: f64, replicates: u32) -> (Vec<f32>, Vec<f32>) {
         let pixel = |(x, truth): (usize, &f64)| {
             let mut stream = NoiseStream::new(seed, 0, 0, 0, Pixel { x: x as u32, y: 0 }, NoiseDraw::Read);
-            let draws = (0..replicates).map(|_| truth + sigma * normal::quantile(stream.unit_f64().max(1e-16)));
-            let moments = Moments::of(draws);
+            let samples = (0..replicates).map(|_| truth + sigma * normal::quantile(stream.unit_f64().max(1e-16)));
+            let moments = Moments::from_values(samples);
             (moments.mean() as f32, moments.variance_of_mean().expect("two or more") as f32)
         };
         truth.iter().enumerate().map(pixel).unzip()
     }
 
     fn plane((mean, variance_of_mean): &(Vec<f32>, Vec<f32>), replicates: u32) -> EstimatedPlane<'_> {
-        EstimatedPlane { mean, variance_of_mean, replicates, alike: 1 }
+        EstimatedPlane { mean, variance_of_mean, replicates, correlated_pixels: 1 }
     }
 
     #[test]
-    fn equal_pictures_are_called_different_as_often_as_said() {
+    fn equal_images_are_called_different_as_often_as_said() {
         // 200 families at 20 %: Binomial(200, 0.2) has mean 40 and standard deviation 5.66; four of those.
         let truth: Vec<f64> = (0..150).map(|i| f64::from(i % 7)).collect();
         for (ra, rb) in [(4, 4), (2, 9), (16, 40)] {
@@ -256,11 +256,11 @@ mod tests {
             let spread = |v: Vec<f32>| v.into_iter().flat_map(|v| [v; 16]).collect::<Vec<_>>();
             (spread(mean), spread(variance))
         };
-        let alarms = |alike| {
+        let alarms = |correlated_pixels| {
             let differs = |seed: &u64| {
                 let (a, b) = (blocks(*seed), blocks(seed + 1000));
-                let said = |picture| EstimatedPlane { alike, ..plane(picture, 8) };
-                compare(&said(&a), &said(&b), 0.05).expect("sizes").verdict == Verdict::Differ
+                let stated = |image| EstimatedPlane { correlated_pixels: alike: correlated_pixels, ..plane(image, 8) };
+                compare(&stated(&a), &stated(&b), 0.05).expect("sizes").verdict == Verdict::Differ
             };
             (0..100).filter(differs).count()
         };
@@ -290,9 +290,9 @@ mod tests {
     }
 
     #[test]
-    fn without_variance_pictures_must_be_equal_to_rounding() {
+    fn without_variance_images_must_be_equal_to_rounding() {
         let zeros = [0.0; 3];
-        let exact = |mean| EstimatedPlane { mean, variance_of_mean: &zeros, replicates: 1, alike: 1 };
+        let exact = |mean| EstimatedPlane { mean, variance_of_mean: &zeros, replicates: 1, correlated_pixels: 1 };
         let one = [1.0, 2.0, 3.0_f32];
         let rounded = [1.0, 2.0_f32.next_up(), 3.0];
         let other = [1.0, 2.000_01, 3.0];
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_counted_and_never_agrees() {
         let (one, zero) = ([1.0_f32, f32::NAN], [0.0_f32, 0.0]);
-        let a = EstimatedPlane { mean: &one, variance_of_mean: &zero, replicates: 4, alike: 1 };
+        let a = EstimatedPlane { mean: &one, variance_of_mean: &zero, replicates: 4, correlated_pixels: 1 };
         let test = compare(&a, &a, 0.01).expect("sizes");
         assert_eq!((test.not_finite, test.verdict), (1, Verdict::Differ));
     }
@@ -323,9 +323,9 @@ mod tests {
     #[test]
     fn unusable_input_is_refused() {
         let (two, three, ones) = ([1.0_f32; 2], [1.0_f32; 3], [1.0_f32; 2]);
-        let a = EstimatedPlane { mean: &two, variance_of_mean: &ones, replicates: 1, alike: 1 };
+        let a = EstimatedPlane { mean: &two, variance_of_mean: &ones, replicates: 1, correlated_pixels: 1 };
         assert_eq!(compare(&a, &a, 0.01), Err(PlaneTestError::Replicates(1)));
-        let b = EstimatedPlane { mean: &three, variance_of_mean: &ones, replicates: 4, alike: 1 };
+        let b = EstimatedPlane { mean: &three, variance_of_mean: &ones, replicates: 4, correlated_pixels: 1 };
         assert_eq!(compare(&a, &b, 0.01), Err(PlaneTestError::Lengths([2, 2, 3, 2])));
     }
 }

@@ -176,8 +176,8 @@ fn away_from_zero(v: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn assert_relative(got: f64, want: f64, tolerance: f64) {
-        assert!((got - want).abs() <= tolerance * want.abs(), "got {got:e}, want {want:e}");
+    fn assert_relative(actual: f64, expected: f64, tolerance: f64) {
+        assert!((actual - expected).abs() <= tolerance * expected.abs(), "got {actual:e}, want {expected:e}");
     }
 
     #[test]

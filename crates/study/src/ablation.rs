@@ -1,17 +1,17 @@
 //! Ablation: the frame with and without each effect.
 
 use crate::Clock;
-use crate::change::{Change, header};
+use crate::change::{FrameChange, header};
 use crate::edge::EdgeChart;
-use crate::frame_render::{FrameRenderer, MORE};
-use crate::study::Request;
+use crate::frame_render::{FrameRenderer, SECOND_SAMPLES_RATIO};
+use crate::study::StudyRequest;
 use crate::way::{SAMPLE_KEYS, is_of};
-use etendue::{EffectGroup, Error, Observer, Progress, Unit};
+use etendue::{EffectGroup, Error, Observer, Progress, ProgressUnit};
 use serde::Serialize;
 
 /// Result of leaving an effect out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Dropped {
+pub struct DroppedEffect {
     /// The effect, as named by `etendue plan`.
     pub effect: &'static str,
     /// Its identifier in files.
@@ -20,12 +20,12 @@ pub struct Dropped {
     pub set: Vec<String>,
     /// Change of the frame.
     #[serde(flatten)]
-    pub change: Change,
+    pub change: FrameChange,
 }
 
 /// An effect that no key leaves out, or whose change of keys the job rejects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Kept {
+pub struct RetainedEffect {
     /// The effect.
     pub effect: &'static str,
     /// Reason.
@@ -42,58 +42,58 @@ pub struct Ablation {
     /// CPU time of loading the job and rendering one unchanged frame, s.
     pub cpu_s: f64,
     /// Effects that were left out, in the order of the light.
-    pub dropped: Vec<Dropped>,
+    pub dropped: Vec<DroppedEffect>,
     /// Effects that were not left out.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<RetainedEffect>,
 }
 
 /// Renders a frame of a job without each effect that a key leaves out according to its plan. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// The job is invalid or has no such camera, the observer cancels, or light is not finite.
-pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -> Result<Ablation, Error> {
+pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observer) -> Result<Ablation, Error> {
     let renderer = FrameRenderer::open(request, clock, observer)?;
     let mut trials = Vec::new();
-    let mut kept = Vec::new();
+    let mut retained = Vec::new();
     for effect in renderer.effects() {
-        match effect.if_dropped.as_ref().map(|dropped| dropped.set.clone()) {
+        match effect.omission.as_ref().map(|omission| omission.set.clone()) {
             // Output files do not change the frame.
             _ if effect.group == EffectGroup::Output => {}
             Some(Some(set)) if set.iter().any(|change| is_of(change, &renderer.camera, &SAMPLE_KEYS)) => {
-                kept.push(Kept {
+                retained.push(RetainedEffect {
                     effect: effect.name,
                     reason: "the number of samples is chosen by `time_s` here".to_owned(),
                 });
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
-            Some(None) => kept.push(Kept { effect: effect.name, reason: "no key leaves it out".to_owned() }),
+            Some(None) => retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() }),
             None => {}
         }
     }
     let spp = renderer.affordable_spp(trials.len() + 1)?;
     let edges = EdgeChart::open(&renderer)?;
-    let with = renderer.pair(&renderer.own, spp)?;
-    let mut dropped = Vec::new();
+    let with = renderer.render_pair(&renderer.own, spp)?;
+    let mut dropped_effects = Vec::new();
     let total = trials.len();
     for (done, (effect, id, set)) in trials.into_iter().enumerate() {
-        observer.progress(Progress { heading: effect, frame: None, unit: Unit::Pilots, done, total });
+        observer.progress(Progress { heading: effect, frame: None, unit: ProgressUnit::Pilots, done, total });
         let mut changed = renderer.own.clone();
         changed.set.extend(set.iter().cloned());
-        match renderer.pair(&changed, spp) {
+        match renderer.render_pair(&changed, spp) {
             Ok(without) => {
-                let change = Change::of(&with, &without, renderer.job_spp)?.with_edges(edges.as_ref(), &set)?;
-                dropped.push(Dropped { effect, id, set, change });
+                let change = FrameChange::new(&with, &without, renderer.job_spp)?.with_edges(edges.as_ref(), &set)?;
+                dropped_effects.push(DroppedEffect { effect, id, set, change });
             }
             Err(Error::Input(reason)) => {
-                kept.push(Kept { effect, reason: Error::Input(reason).to_string().trim().to_owned() });
+                retained.push(RetainedEffect { effect, reason: Error::Input(reason).to_string().trim().to_owned() });
             }
             Err(other) => return Err(other),
         }
     }
-    observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
+    observer.progress(Progress { heading: "done", frame: None, unit: ProgressUnit::Pilots, done: total, total });
     drop(edges);
     let cpu_s = with.seconds(renderer.job_spp);
-    Ok(Ablation { spp: spp * (1 + MORE), cpu_s, camera: renderer.camera, dropped, kept })
+    Ok(Ablation { spp: spp * (1 + SECOND_SAMPLES_RATIO), cpu_s, camera: renderer.camera, dropped: dropped_effects, kept: retained })
 }
 
 /// The table of an ablation.
@@ -108,11 +108,11 @@ pub fn ablation_table(ablation: &Ablation) -> String {
         "without",
         header()
     );
-    for dropped in &ablation.dropped {
-        let _ = writeln!(out, "{:<30} {}", dropped.effect, dropped.change.row());
+    for effect in &ablation.dropped {
+        let _ = writeln!(out, "{:<30} {}", effect.effect, effect.change.row());
     }
     if !ablation.kept.is_empty() {
-        let names: Vec<_> = ablation.kept.iter().map(|kept| kept.effect).collect();
+        let names: Vec<_> = ablation.kept.iter().map(|effect| effect.effect).collect();
         let _ = writeln!(
             out,
             "\nnot left out (no key does this, or the job does not accept the change): {}",

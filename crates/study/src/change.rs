@@ -17,7 +17,7 @@ const TILE_PX: usize = 16;
 
 /// Difference between the frame with a change and the frame of the unchanged job.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Change {
+pub struct FrameChange {
     /// CPU time of all threads (wall-clock time on machines that do not report it) saved in loading the job and rendering one frame with its samples, s;
     /// below 0 if the change takes longer.
     pub cpu_saved_s: f64,
@@ -49,31 +49,31 @@ pub struct Change {
     pub jpeg: Option<Vec<u8>>,
 }
 
-impl Change {
+impl FrameChange {
     /// Compares the frames of both jobs, with `spp` samples per pixel.
-    pub(crate) fn of(own: &RenderPair, changed: &RenderPair, spp: f64) -> Result<Self, Error> {
+    pub(crate) fn new(own: &RenderPair, changed: &RenderPair, spp: f64) -> Result<Self, Error> {
         let truths = [own, changed].map(|pair| pair.many.results.ground_truth());
         let same =
             |a: &RenderPair, b: &RenderPair| a.many.results.camera().body.raster == b.many.results.camera().body.raster;
         let is_same = same(own, changed);
         let numbers = own.many.raw.as_ref().zip(changed.many.raw.as_ref()).filter(|(a, b)| a.len() == b.len());
-        let pictures = own.many.picture.as_ref().zip(changed.many.picture.as_ref());
-        let pictures = pictures.filter(|(a, b)| (a.width(), a.height()) == (b.width(), b.height()));
+        let images = own.many.picture.as_ref().zip(changed.many.picture.as_ref());
+        let images = images.filter(|(a, b)| (a.width(), a.height()) == (b.width(), b.height()));
         Ok(Self {
             cpu_saved_s: own.seconds(spp) - changed.seconds(spp),
             light: change_of_light(own, changed),
             raw_dn: numbers.map(|(a, b)| root_mean_square(a.iter().zip(b).map(|(a, b)| f64::from(*a) - f64::from(*b)))),
-            picture: pictures.map(|(a, b)| {
+            picture: images.map(|(a, b)| {
                 let channels = a.samples().iter().flatten().zip(b.samples().iter().flatten());
                 root_mean_square(channels.map(|(a, b)| f64::from(*a) - f64::from(*b)))
             }),
-            instances: is_same.then(|| part_that_differs(&truths[0].instance, &truths[1].instance)),
+            instances: is_same.then(|| differing_fraction(&truths[0].instance, &truths[1].instance)),
             distance: is_same.then(|| change_of_distance(&truths)),
             direction_px: is_same.then(|| change_of_direction(own, changed)),
             corners: change_of_corners(own, changed),
             contrast: change_of_contrast(own, changed),
             mtf50: None,
-            jpeg: pictures.map(|(a, b)| display_jpeg(&side_by_side(a, b), QUALITY)).transpose()?,
+            jpeg: images.map(|(a, b)| display_jpeg(&side_by_side(a, b), QUALITY)).transpose()?,
         })
     }
 
@@ -90,10 +90,10 @@ impl Change {
         let factor = self.corners.map_or_else(none, crate::report::figure);
         let points = self.contrast.map_or_else(none, crate::report::percent);
         let middle = self.mtf50.map_or_else(none, |pair| transfer(pair.map(|mtf50| mtf50.middle)));
-        let far = self.mtf50.map_or_else(none, |pair| transfer(pair.map(|mtf50| mtf50.far)));
+        let far_field = self.mtf50.map_or_else(none, |pair| transfer(pair.map(|mtf50| mtf50.far)));
         let light = self.light.map_or_else(|| "–".to_owned(), crate::report::percent);
         format!(
-            "{:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9} {factor:>15} {points:>15} {middle:>13} {far:>13}",
+            "{:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9} {factor:>15} {points:>15} {middle:>13} {far_field:>13}",
             self.cpu_saved_s,
             number(self.raw_dn),
             percent(self.picture),
@@ -143,7 +143,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Root of the mean product of two independent differences, each normalised by the surrounding light: free of the noise of either.
 fn change_of_light(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
-    let planes = [&own.few, &changed.few, &own.many, &changed.many].map(|render| render.light.as_ref());
+    let planes = [&own.few_samples, &changed.few_samples, &own.many, &changed.many].map(|render| render.light.as_ref());
     let [Some((kind, a)), Some((other, b)), Some((_, c)), Some((_, d))] = planes else { return None };
     let (width, height) = (a.width(), a.height());
     if kind != other || [b, c, d].iter().any(|plane| (plane.width(), plane.height()) != (width, height)) {
@@ -154,11 +154,11 @@ fn change_of_light(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
         let (sum, count) = cell.fold((0.0, 0.0), |(sum, n), (x, y)| (sum + f64::from(at(plane, x, y)), n + 1.0));
         sum / count
     };
-    let whole: f64 = c.samples().iter().map(|v| f64::from(*v)).sum::<f64>() / c.samples().len() as f64;
+    let total: f64 = c.samples().iter().map(|v| f64::from(*v)).sum::<f64>() / c.samples().len() as f64;
     let mut groups = Vec::new();
     for y0 in (0..height).step_by(TILE_PX) {
         for x0 in (0..width).step_by(TILE_PX) {
-            let light = mean_of(c, x0, y0).max(1e-3 * whole);
+            let light = mean_of(c, x0, y0).max(1e-3 * total);
             let (mut sum, mut count) = (0.0, 0);
             for y in y0..(y0 + TILE_PX).min(height) {
                 for x in x0..(x0 + TILE_PX).min(width) {
@@ -171,7 +171,7 @@ fn change_of_light(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
             }
         }
     }
-    Some(Estimate::of_groups(&groups).root())
+    Some(Estimate::from_groups(&groups).root())
 }
 
 fn at<Q: Quantity>(plane: &Plane<Q>, x: usize, y: usize) -> Q::Sample {
@@ -179,7 +179,7 @@ fn at<Q: Quantity>(plane: &Plane<Q>, x: usize, y: usize) -> Q::Sample {
 }
 
 /// Fraction of differing values.
-fn part_that_differs<Q: Quantity>(a: &Plane<Q>, b: &Plane<Q>) -> f64
+fn differing_fraction<Q: Quantity>(a: &Plane<Q>, b: &Plane<Q>) -> f64
 where
     Q::Sample: PartialEq,
 {
@@ -190,8 +190,8 @@ where
 fn change_of_distance([a, b]: &[GroundTruth; 2]) -> f64 {
     let pairs = a.distance.samples().iter().zip(b.distance.samples());
     let ids = a.instance.samples().iter().zip(b.instance.samples());
-    let alike = pairs.zip(ids).filter(|((a, b), (i, j))| a.is_finite() && b.is_finite() && **a > 0.0 && i == j);
-    root_mean_square(alike.map(|((a, b), _)| f64::from(*b) / f64::from(*a) - 1.0))
+    let same_surface = pairs.zip(ids).filter(|((a, b), (i, j))| a.is_finite() && b.is_finite() && **a > 0.0 && i == j);
+    root_mean_square(same_surface.map(|((a, b), _)| f64::from(*b) / f64::from(*a) - 1.0))
 }
 
 /// Root mean square angle between the rays of pixel centres, over the angle between neighbours at the centre.

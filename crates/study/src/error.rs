@@ -16,7 +16,7 @@ impl Estimate {
     /// Mean of numbers in groups with correlated errors (the pixels of a tile), with the uncertainty from the scatter of the groups (Cochran 1977, equation
     /// 9.18: a ratio of sums over clusters). Each group is a sum and a count. NaN without numbers; the uncertainty is NaN for a single group.
     #[must_use]
-    pub fn of_groups(groups: &[(f64, usize)]) -> Self {
+    pub fn from_groups(groups: &[(f64, usize)]) -> Self {
         let count: usize = groups.iter().map(|(_, n)| n).sum();
         let sum: f64 = groups.iter().map(|(sum, _)| sum).sum();
         let (n, value) = (groups.len() as f64, sum / count as f64);
@@ -58,9 +58,9 @@ impl Estimate {
         }
         let value = self.value.max(0.0).sqrt();
         // d√x = dx/(2√x), limited to √dx, its value at 0.
-        let most = self.uncertainty.sqrt();
-        let least = if value > 0.0 { self.uncertainty / (2.0 * value) } else { most };
-        let uncertainty = if least < most { least } else { most };
+        let upper = self.uncertainty.sqrt();
+        let lower = if value > 0.0 { self.uncertainty / (2.0 * value) } else { upper };
+        let uncertainty = if lower < upper { lower } else { upper };
         Self { value, uncertainty }
     }
 
@@ -73,7 +73,7 @@ impl Estimate {
 
 /// One value per error metric; all are mean squares over the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Currencies<T> {
+pub struct ErrorMetrics<T> {
     /// Error of a pixel's light, over the square of the mean light of the pixels of its colour in its cell (8 × 8 px).
     pub relative: T,
     /// Error of a pixel's electrons, over the variance of the sensor's noise there; over pixels below white. `None` without electrons.
@@ -82,15 +82,15 @@ pub struct Currencies<T> {
     pub patch: T,
 }
 
-impl<T> Currencies<T> {
+impl<T> ErrorMetrics<T> {
     /// Applies a function to each metric.
-    pub fn map<U>(&self, each: impl Fn(&T) -> U) -> Currencies<U> {
-        Currencies { relative: each(&self.relative), sensor: self.sensor.as_ref().map(&each), patch: each(&self.patch) }
+    pub fn map<U>(&self, each: impl Fn(&T) -> U) -> ErrorMetrics<U> {
+        ErrorMetrics { relative: each(&self.relative), sensor: self.sensor.as_ref().map(&each), patch: each(&self.patch) }
     }
 
     /// Combines each metric with that of another value.
-    pub fn with<U, V>(&self, other: &Currencies<U>, each: impl Fn(&T, &U) -> V) -> Currencies<V> {
-        Currencies {
+    pub fn with<U, V>(&self, other: &ErrorMetrics<U>, each: impl Fn(&T, &U) -> V) -> ErrorMetrics<V> {
+        ErrorMetrics {
             relative: each(&self.relative, &other.relative),
             sensor: self.sensor.as_ref().zip(other.sensor.as_ref()).map(|(a, b)| each(a, b)),
             patch: each(&self.patch, &other.patch),
@@ -98,7 +98,7 @@ impl<T> Currencies<T> {
     }
 
     /// The deciding metric: that of the sensor if there is one.
-    pub fn deciding(&self) -> &T {
+    pub fn main_metric(&self) -> &T {
         self.sensor.as_ref().unwrap_or(&self.relative)
     }
 }
@@ -108,11 +108,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn groups_that_err_alike_tell_a_larger_uncertainty() {
+    fn correlated_groups_have_a_larger_uncertainty() {
         let values = [1.0, 1.1, 3.0, 2.9, 5.0, 5.1, 7.0, 6.9];
-        let single = Estimate::of_groups(&values.map(|v| (v, 1)));
+        let single = Estimate::from_groups(&values.map(|v| (v, 1)));
         let pairs: Vec<_> = values.chunks(2).map(|pair| (pair.iter().sum(), 2)).collect();
-        let grouped = Estimate::of_groups(&pairs);
+        let grouped = Estimate::from_groups(&pairs);
         assert!((single.value - 4.0).abs() < 1e-12 && (grouped.value - single.value).abs() < 1e-12);
         // Effectively four independent numbers: their deviation is 2.556, that of the mean 1.278.
         assert!((grouped.uncertainty - 1.278).abs() < 1e-3, "{grouped:?}");

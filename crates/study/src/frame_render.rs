@@ -2,19 +2,19 @@
 
 use crate::Clock;
 use crate::pilot::seed;
-use crate::study::Request;
+use crate::study::StudyRequest;
 use crate::way::{SAMPLE_KEYS, without_keys};
 use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions, Word as _};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
-use etendue_core::{KeptCube, Plane};
+use etendue_core::{StoredCube, Plane};
 
 /// Ratio of samples of the second render to those of the first.
-pub(crate) const MORE: u32 = 3;
+pub(crate) const SECOND_SAMPLES_RATIO: u32 = 3;
 /// Maximum samples of the first render.
 const MAX_SPP: f64 = 64.0;
 
 /// A job whose samples and render settings are stated by changes of keys, so that a trial's changes can override them.
-fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
+fn settings_as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     let mut own = without_keys(job, camera, &SAMPLE_KEYS);
     if let Some(integrator) = own.integrator.take() {
         own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.word()));
@@ -24,7 +24,7 @@ fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
 
 /// Renders the first frame of one of a job's cameras, unchanged or with changes.
 pub(crate) struct FrameRenderer<'a> {
-    pub(crate) request: &'a Request,
+    pub(crate) request: &'a StudyRequest,
     clock: &'a dyn Clock,
     observer: &'a dyn Observer,
     /// The unchanged job.
@@ -39,9 +39,9 @@ pub(crate) struct FrameRenderer<'a> {
 }
 
 /// Forwards cancellation but no messages: frames without some effects would warn of much.
-pub(crate) struct Quiet<'a>(&'a dyn Observer);
+pub(crate) struct QuietObserver<'a>(&'a dyn Observer);
 
-impl Observer for Quiet<'_> {
+impl Observer for QuietObserver<'_> {
     fn cancelled(&self) -> bool {
         self.0.cancelled()
     }
@@ -59,7 +59,7 @@ pub(crate) struct FrameRender {
 
 /// A frame rendered twice, with different random numbers.
 pub(crate) struct RenderPair {
-    pub(crate) few: FrameRender,
+    pub(crate) few_samples: FrameRender,
     pub(crate) many: FrameRender,
     spp: u32,
 }
@@ -67,8 +67,8 @@ pub(crate) struct RenderPair {
 impl RenderPair {
     /// Estimated time of the whole frame with `spp` samples, s.
     pub(crate) fn seconds(&self, spp: f64) -> f64 {
-        let slope = (self.many.seconds - self.few.seconds) / f64::from((MORE - 1) * self.spp);
-        (self.few.seconds + slope.max(0.0) * (spp - f64::from(self.spp))).max(0.0)
+        let slope = (self.many.seconds - self.few_samples.seconds) / f64::from((SECOND_SAMPLES_RATIO - 1) * self.spp);
+        (self.few_samples.seconds + slope.max(0.0) * (spp - f64::from(self.spp))).max(0.0)
     }
 }
 
@@ -77,11 +77,11 @@ impl<'a> FrameRenderer<'a> {
     ///
     /// # Errors
     /// The job is invalid or has no such camera.
-    pub(crate) fn open(request: &'a Request, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
+    pub(crate) fn open(request: &'a StudyRequest, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
         let job = request.job.clone().open()?;
         let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
         let settings = job.camera_plan(&camera)?.settings;
-        let own = as_changes(&request.job, &camera);
+        let own = settings_as_changes(&request.job, &camera);
         Ok(Self { request, clock, observer, job, camera, job_spp: settings.spp.into(), seed: settings.seed, own })
     }
 
@@ -95,13 +95,13 @@ impl<'a> FrameRenderer<'a> {
     pub(crate) fn affordable_spp(&self, pairs: usize) -> Result<u32, Error> {
         let from_s = self.clock.seconds();
         self.render(&self.own, 1, 3)?;
-        let runs = f64::from(1 + MORE) * pairs as f64;
+        let runs = f64::from(1 + SECOND_SAMPLES_RATIO) * pairs as f64;
         Ok((self.request.budget_s / (runs * (self.clock.seconds() - from_s))).clamp(1.0, MAX_SPP) as u32)
     }
 
     /// The observer without its messages.
-    pub(crate) fn quiet(&self) -> Quiet<'_> {
-        Quiet(self.observer)
+    pub(crate) fn without_messages(&self) -> QuietObserver<'_> {
+        QuietObserver(self.observer)
     }
 
     fn now_s(&self) -> f64 {
@@ -112,8 +112,8 @@ impl<'a> FrameRenderer<'a> {
     ///
     /// # Errors
     /// The job is invalid, the observer cancels, or bands on disk cannot be read.
-    pub(crate) fn pair(&self, job: &JobRequest, spp: u32) -> Result<RenderPair, Error> {
-        Ok(RenderPair { few: self.render(job, spp, 1)?, many: self.render(job, MORE * spp, 2)?, spp })
+    pub(crate) fn render_pair(&self, job: &JobRequest, spp: u32) -> Result<RenderPair, Error> {
+        Ok(RenderPair { few_samples: self.render(job, spp, 1)?, many: self.render(job, SECOND_SAMPLES_RATIO * spp, 2)?, spp })
     }
 
     fn render(&self, job: &JobRequest, spp: u32, k: u32) -> Result<FrameRender, Error> {
@@ -123,17 +123,17 @@ impl<'a> FrameRenderer<'a> {
         let job: Job = request.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let mut cameras = Vec::new();
-        job.render_each(&options, &self.quiet(), |camera| {
+        job.render_each(&options, &self.without_messages(), |camera| {
             cameras.push(camera);
             Ok(())
         })?;
         let results = cameras.pop().expect("the job's only camera");
         let frame = results.frames().next();
         let seconds = self.now_s() - from_s;
-        let (raw, picture) = frame.map_or((None, None), |frame| {
+        let (raw, image) = frame.map_or((None, None), |frame| {
             (Some(frame.raw.plane.samples().to_vec()), frame.picture.map(|developed| developed.display))
         });
-        Ok(FrameRender { seconds, light: light(&results)?, raw, picture, results })
+        Ok(FrameRender { seconds, light: light(&results)?, raw, picture: image, results })
     }
 }
 
@@ -155,7 +155,7 @@ fn light(results: &CameraResults) -> Result<Option<Signal>, Error> {
     signal.transpose()
 }
 
-fn over_all_wavelengths<Q: Quantity<Sample = f32>>(cube: &KeptCube<Q>) -> Result<Plane<WatchedSignal>, String> {
+fn over_all_wavelengths<Q: Quantity<Sample = f32>>(cube: &StoredCube<Q>) -> Result<Plane<WatchedSignal>, String> {
     let mut sum: Plane<WatchedSignal> = Plane::new(cube.width(), cube.height());
     let width_nm = cube.bands().width_nm() as f32;
     for band in 0..cube.bands().count() {

@@ -3,7 +3,7 @@
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
 use crate::way::{is_of, studied_keys};
-use etendue::{Error, JobRequest, StatedRender, Word as _, relative_path};
+use etendue::{Error, JobRequest, JobRenderSettings, Word as _, relative_path};
 use std::path::{Component, Path, PathBuf};
 
 /// Text of a job file in `folder` that renders `camera` of a job as recommended.
@@ -16,11 +16,11 @@ pub fn job_file(
     camera: &str,
     folder: &Path,
 ) -> Result<String, Error> {
-    let StatedRender { keys: stated, cameras, .. } = job.stated_render(camera)?;
+    let JobRenderSettings { keys: stated_keys, cameras, .. } = job.stated_render(camera)?;
     let superseded = studied_keys();
     // Values that the job states for all cameras remain for the other cameras.
     let is_free = |key: &str| cameras == 1 || !key.starts_with("render.");
-    let removed = stated.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
+    let removed = stated_keys.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
     let removed: Vec<_> = removed.map(|key| format!("{key:?}")).collect();
     let Recommendation { target, point, is_reached, .. } = recommendation;
     let keys = point.way.keys();
@@ -52,21 +52,21 @@ pub fn job_file(
 
 /// Changes of the command line that a job file does not contain.
 fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
-    let held = studied_keys();
-    let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("set {change}"));
+    let keys = studied_keys();
+    let set = job.set.iter().filter(|change| !is_of(change, camera, &keys)).map(|change| format!("set {change}"));
     let quality = job.quality.map(|quality| format!("quality {}", quality.word()));
     set.chain(quality).chain(job.seed.map(|seed| format!("seed {seed}"))).collect()
 }
 
 /// Path of a file relative to a folder.
 fn path_from(folder: &Path, file: &Path) -> Result<PathBuf, Error> {
-    let whole =
+    let absolute =
         |path: &Path| std::path::absolute(path).map_err(|error| Error::Run(format!("{}: {error}", path.display())));
-    Ok(relative_path(&tidied(&whole(folder)?), &tidied(&whole(file)?)))
+    Ok(relative_path(&normalised(&absolute(folder)?), &normalised(&absolute(file)?)))
 }
 
 /// Path without "." and "a/..".
-fn tidied(path: &Path) -> PathBuf {
+fn normalised(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {
         match part {
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_base_is_named_from_where_the_file_stands() {
+    fn a_base_is_named_relative_to_the_file() {
         let from = |folder: &str, file: &str| path_from(Path::new(folder), Path::new(file)).expect("a path");
         assert_eq!(from("/a/out/study", "/a/scenes/job.toml"), Path::new("../../scenes/job.toml"));
         assert_eq!(from("/a", "/a/b/../job.toml"), Path::new("job.toml"));

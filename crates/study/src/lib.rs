@@ -28,18 +28,18 @@ mod trial;
 mod variation;
 mod way;
 
-pub use ablation::{Ablation, Dropped, Kept, ablation, ablation_table};
-pub use change::Change;
+pub use ablation::{Ablation, DroppedEffect, RetainedEffect, ablation, ablation_table};
+pub use change::FrameChange;
 pub use edge::Mtf50;
-pub use error::{Currencies, Estimate};
-pub use front::{FrontPoint, Recommendation, Target};
+pub use error::{ErrorMetrics, Estimate};
+pub use front::{FrontPoint, Recommendation, ErrorTarget};
 pub use job_file::job_file;
-pub use measured::{Bias, Measured, PowerLaw, Role};
-pub use pictures::{Comparison, pictures};
+pub use measured::{Bias, ConfigurationMeasurement, PowerLaw, Role};
+pub use pictures::{ImageComparison, pictures};
 pub use report::{plot, table};
-pub use study::{Request, Study, study};
-pub use variation::{Variations, Varied, variation_table, variations};
-pub use way::WayToRender;
+pub use study::{StudyRequest, Study, study};
+pub use variation::{VariationStudy, VariationResult, variation_table, variations};
+pub use way::Configuration;
 
 /// A monotonic clock.
 pub trait Clock: Sync {

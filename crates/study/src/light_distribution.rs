@@ -8,7 +8,7 @@ use etendue_core::quantity::WatchedSignal;
 /// Side of the cells whose means give the contrast, px.
 const CELL_PX: usize = 16;
 /// Percentiles of the dark end and of the bright end of the contrast, as fractions of the cells.
-const ENDS: [f64; 2] = [0.05, 0.95];
+const END_PERCENTILES: [f64; 2] = [0.05, 0.95];
 
 /// Combines a figure of two independent renders, the second with `more` times the samples of the first: the mean weighted by samples, and its uncertainty
 /// from their difference.
@@ -20,7 +20,7 @@ fn pooled([few, many]: [f64; 2], more: f64) -> Option<Estimate> {
 }
 
 /// One figure from both renders of two frames of equal size.
-fn of_both(
+fn compare_distributions(
     own: &RenderPair,
     changed: &RenderPair,
     figure: impl Fn(&Plane<WatchedSignal>, &Plane<WatchedSignal>) -> Option<f64>,
@@ -30,15 +30,15 @@ fn of_both(
         let fits = kind == other && (a.width(), a.height()) == (b.width(), b.height());
         if fits { figure(a, b) } else { None }
     };
-    let few = of(&own.few, &changed.few)?;
+    let few = of(&own.few_samples, &changed.few_samples)?;
     let many = of(&own.many, &changed.many)?;
-    pooled([few, many], crate::frame_render::MORE.into())
+    pooled([few, many], crate::frame_render::SECOND_SAMPLES_RATIO.into())
 }
 
 /// Factor by which the ratio of the light of the corners (an eighth of width and height each) to that of the centre (a quarter of both) changes: 1 if
 /// unchanged. `None` if it is dark there, or the light has another size or quantity.
 pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
-    of_both(own, changed, |own, changed| {
+    compare_distributions(own, changed, |own, changed| {
         let factor = corners_over_middle(changed)? / corners_over_middle(own)?;
         factor.is_finite().then_some(factor)
     })
@@ -46,7 +46,7 @@ pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Optio
 
 /// Change of (bright − dark)/(bright + dark), where dark and bright are the 5 % and 95 % percentiles of the cells of 16 × 16 px. `None` in the same cases.
 pub(crate) fn change_of_contrast(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
-    of_both(own, changed, |own, changed| Some(contrast(changed)? - contrast(own)?))
+    compare_distributions(own, changed, |own, changed| Some(contrast(changed)? - contrast(own)?))
 }
 
 fn mean(plane: &Plane<WatchedSignal>, [x0, y0]: [usize; 2], [x1, y1]: [usize; 2]) -> f64 {
@@ -70,7 +70,7 @@ fn contrast(plane: &Plane<WatchedSignal>) -> Option<f64> {
     let mut cells: Vec<f64> =
         starts.map(|[x, y]| mean(plane, [x, y], [(x + CELL_PX).min(w), (y + CELL_PX).min(h)])).collect();
     cells.sort_by(f64::total_cmp);
-    let [dark, bright] = ENDS.map(|part| cells[((cells.len() - 1) as f64 * part).round() as usize]);
+    let [dark, bright] = END_PERCENTILES.map(|part| cells[((cells.len() - 1) as f64 * part).round() as usize]);
     (bright + dark > 0.0).then(|| (bright - dark) / (bright + dark))
 }
 
@@ -86,8 +86,8 @@ mod tests {
 
     #[test]
     fn corners_and_contrast_of_known_pictures() {
-        let even = plane(|_, _| 3.0);
-        assert_eq!((corners_over_middle(&even), contrast(&even)), (Some(1.0), Some(0.0)));
+        let uniform = plane(|_, _| 3.0);
+        assert_eq!((corners_over_middle(&uniform), contrast(&uniform)), (Some(1.0), Some(0.0)));
         let halves = plane(|x, _| if x < 32 { 1.0 } else { 3.0 });
         assert_eq!(contrast(&halves), Some(0.5));
         let vignetted = plane(|x, y| if (24..40).contains(&x) && (18..30).contains(&y) { 4.0 } else { 1.0 });

@@ -1,8 +1,8 @@
 //! Images of approximations: the exact form, the approximation, and their difference side by side.
 
-use crate::measured::{Measured, Role};
-use crate::study::{Request, Study};
-use crate::way::WayToRender;
+use crate::measured::{ConfigurationMeasurement, Role};
+use crate::study::{StudyRequest, Study};
+use crate::way::Configuration;
 use etendue::{Error, Job, Observer, RenderOptions, display_jpeg};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
@@ -10,15 +10,15 @@ use etendue_core::quantity::Display;
 /// Gain of differences in the encoded image.
 const GAIN: f32 = 4.0;
 /// Maximum fraction of a study's time for one image.
-const PICTURE_PART: f64 = 0.03;
+const MAX_IMAGE_TIME_FRACTION: f64 = 0.03;
 /// Quality of the JPEG.
 pub(crate) const QUALITY: u8 = 92;
 /// Maximum samples per pixel of an image.
-const MOST_SPP: f64 = 64.0;
+const MAX_SPP: f64 = 64.0;
 
 /// An image compared with that of the exact form.
 #[derive(Clone, Debug)]
-pub struct Comparison {
+pub struct ImageComparison {
     /// File name.
     pub file: String,
     /// Exact form, approximation, and four times their difference on grey, side by side, as JPEG.
@@ -30,38 +30,38 @@ pub struct Comparison {
 ///
 /// # Errors
 /// The observer cancels, or light is not finite.
-pub fn pictures(study: &Study, request: &Request, observer: &dyn Observer) -> Result<Vec<Comparison>, Error> {
-    let Some(exact) = study.ways.iter().find(|way| way.way.is_exact()) else { return Ok(Vec::new()) };
-    let affordable = PICTURE_PART * request.budget_s / exact.sample_s.value;
-    let spp = affordable.clamp(1.0, MOST_SPP) as u64;
-    let picture = |way: &WayToRender| -> Result<Option<Plane<Display>>, Error> {
-        let mut request_of = way.request(&request.job, &study.camera);
+pub fn pictures(study: &Study, request: &StudyRequest, observer: &dyn Observer) -> Result<Vec<ImageComparison>, Error> {
+    let Some(exact) = study.ways.iter().find(|measured| measured.way.is_exact()) else { return Ok(Vec::new()) };
+    let affordable = MAX_IMAGE_TIME_FRACTION * request.budget_s / exact.sample_s.value;
+    let spp = affordable.clamp(1.0, MAX_SPP) as u64;
+    let image = |configuration: &Configuration| -> Result<Option<Plane<Display>>, Error> {
+        let mut request_of = configuration.request(&request.job, &study.camera);
         (request_of.spp, request_of.noise) = (Some(spp), None);
-        picture_of(&request_of.open()?, request, observer)
+        developed_image(&request_of.open()?, request, observer)
     };
-    let Some(reference) = picture(&exact.way)? else { return Ok(Vec::new()) };
+    let Some(reference) = image(&exact.way)? else { return Ok(Vec::new()) };
     let mut compared = Vec::new();
-    for way in study.ways.iter().filter(|way| is_shown(way)) {
-        let Some(own) = picture(&way.way)? else { continue };
-        let file = format!("{}.jpg", file_stem(&way.way));
-        compared.push(Comparison { file, jpeg: display_jpeg(&side_by_side(&reference, &own), QUALITY)? });
+    for measured in study.ways.iter().filter(|measured| is_shown(measured)) {
+        let Some(own) = image(&measured.way)? else { continue };
+        let file = format!("{}.jpg", file_stem(&measured.way));
+        compared.push(ImageComparison { file, jpeg: display_jpeg(&side_by_side(&reference, &own), QUALITY)? });
     }
     Ok(compared)
 }
 
-fn picture_of(job: &Job, request: &Request, observer: &dyn Observer) -> Result<Option<Plane<Display>>, Error> {
+fn developed_image(job: &Job, request: &StudyRequest, observer: &dyn Observer) -> Result<Option<Plane<Display>>, Error> {
     let options = RenderOptions { simd: request.simd, ..RenderOptions::default() };
     let results = job.render(&options, observer)?;
-    Ok(results.cameras()[0].display_picture())
+    Ok(results.cameras()[0].display_image())
 }
 
 /// Returns true for approximations that are not the exact form.
-fn is_shown(way: &Measured) -> bool {
-    matches!(way.role, Role::Approximation | Role::Stated) && !way.way.is_exact()
+fn is_shown(measured: &ConfigurationMeasurement) -> bool {
+    matches!(measured.role, Role::Approximation | Role::Stated) && !measured.way.is_exact()
 }
 
-fn file_stem(way: &WayToRender) -> String {
-    let word = way.label().replace([',', 'λ'], "");
+fn file_stem(configuration: &Configuration) -> String {
+    let word = configuration.label().replace([',', 'λ'], "");
     word.split_whitespace().collect::<Vec<_>>().join("-")
 }
 

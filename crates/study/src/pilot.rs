@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::plan::PilotPlan;
-use crate::stint::Stint;
+use crate::stint::WorkTimer;
 use etendue::{Error, Job, LightSampling, Observer, SampledPixel, Simd};
 
 /// Planes of one configuration with one number of samples, and the time of each.
@@ -32,7 +32,7 @@ impl Pilots<'_> {
     pub(crate) fn run(&self, job: &Job, spp: u32, seeds: u32) -> Result<Pilot, Error> {
         let own = job.camera_plan(self.camera)?.settings.seed;
         let (mut pixels, mut planes, mut processor_s) = (Vec::new(), Vec::new(), Vec::new());
-        let all = Stint::begin(self.clock);
+        let all = WorkTimer::start(self.clock);
         for k in 0..seeds {
             let (light, took_s) = self.timed(job, spp, 1, seed(own, k))?;
             pixels = light.pixels;
@@ -52,9 +52,9 @@ impl Pilots<'_> {
     ) -> Result<(etendue::SampledLight, f64), Error> {
         let PilotPlan { tile_px, shard } = self.plan;
         let sampling = LightSampling { spp, replicates, seed, tile_px, shard };
-        let stint = Stint::begin(self.clock);
+        let timer = WorkTimer::start(self.clock);
         let light = job.sampled_light(self.camera, sampling, self.simd, self.observer)?;
-        Ok((light, stint.processor_s()))
+        Ok((light, timer.processor_s()))
     }
 }
 

@@ -1,15 +1,15 @@
 //! Table and plot of a study.
 
-use crate::error::{Currencies, Estimate};
+use crate::error::{ErrorMetrics, Estimate};
 use crate::front::{FrontPoint, Recommendation};
-use crate::measured::{Measured, Role};
+use crate::measured::{ConfigurationMeasurement, Role};
 use crate::study::Study;
 use etendue::plot::{Axis, Mark, Plot, Series, svg};
 use etendue_core::maths::f64::log10;
 use std::fmt::Write as _;
 
 /// Slow-down of pilots above which a machine is reported as busy.
-const BUSY: f64 = 1.25;
+const BUSY_RATIO: f64 = 1.25;
 
 /// A time as readable text.
 pub(crate) fn time_text(seconds: f64) -> String {
@@ -24,7 +24,7 @@ pub(crate) fn time_text(seconds: f64) -> String {
 }
 
 /// An error as text, in the deciding metric.
-pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
+pub(crate) fn error_text(error: &ErrorMetrics<Estimate>) -> String {
     match &error.sensor {
         Some(e) => format!("{} of the sensor's noise", figure(*e)),
         None => format!("{} of the light", percent(error.relative)),
@@ -61,7 +61,7 @@ pub fn table(study: &Study) -> String {
         time_text(study.took_s),
         study.signal
     );
-    if study.slowed > BUSY {
+    if study.slowed > BUSY_RATIO {
         let slowed = study.slowed;
         let _ = writeln!(
             out,
@@ -76,7 +76,7 @@ pub fn table(study: &Study) -> String {
         error_text(&own.error),
         time_text(own.seconds.value)
     );
-    ways(study, &mut out);
+    configurations(study, &mut out);
     points(&study.front, &mut out);
     study.recommendations.iter().for_each(|recommendation| recommended(recommendation, &mut out));
     out += "\nDepth, normals and ids are the same in every configuration: they have separate rays.\n";
@@ -84,7 +84,7 @@ pub fn table(study: &Study) -> String {
 }
 
 /// Every configuration with the job's number of samples.
-fn ways(study: &Study, out: &mut String) {
+fn configurations(study: &Study, out: &mut String) {
     let (spp, replicates) = (study.as_stated.spp, study.as_stated.replicates);
     let of = if study.as_stated.error.sensor.is_some() { "sensor's noise" } else { "light" };
     let _ = writeln!(
@@ -93,18 +93,18 @@ fn ways(study: &Study, out: &mut String) {
          {:<54} {:>8} {:>14} {:>16} {:>14}",
         "configuration", "time", "noise", "of 8 × 8 px", "bias"
     );
-    for way in &study.ways {
-        let noise = way
+    for measured in &study.ways {
+        let noise = measured
             .variance
             .map(|law| law.at(f64::from(spp) / f64::from(replicates)).times(1.0 / f64::from(replicates)).root());
-        let bias = way.bias.as_ref().filter(|_| way.role != Role::Choice);
-        let bias = bias.map(|bias| deciding(&bias.squares.map(|square| square.root())));
+        let bias = measured.bias.as_ref().filter(|_| measured.role != Role::Choice);
+        let bias = bias.map(|bias| main_metric_text(&bias.squares.map(|square| square.root())));
         let _ = writeln!(
             out,
             "{:<54} {:>8} {:>14} {:>16} {:>14}",
-            way.way.label(),
-            time_text(way.seconds(f64::from(spp), study.rest_s).value),
-            deciding(&noise),
+            measured.way.label(),
+            time_text(measured.seconds(f64::from(spp), study.rest_s).value),
+            main_metric_text(&noise),
             percent(noise.patch),
             bias.unwrap_or_else(|| "–".to_owned()),
         );
@@ -113,28 +113,28 @@ fn ways(study: &Study, out: &mut String) {
 }
 
 /// Text of the deciding metric.
-fn deciding(error: &Currencies<Estimate>) -> String {
+fn main_metric_text(error: &ErrorMetrics<Estimate>) -> String {
     error.sensor.map_or_else(|| percent(error.relative), figure)
 }
 
 /// Omissions of each approximation, and the significance of their bias.
-fn biases(ways: &[Measured], out: &mut String) {
+fn biases(measurements: &[ConfigurationMeasurement], out: &mut String) {
     let _ = writeln!(out, "\nbias, named:");
-    for way in ways.iter().filter(|way| matches!(way.role, Role::Approximation | Role::Stated)) {
-        let (left_out, Some(bias)) = (way.way.left_out(), &way.bias) else { continue };
+    for measured in measurements.iter().filter(|measured| matches!(measured.role, Role::Approximation | Role::Stated)) {
+        let (left_out, Some(bias)) = (measured.way.left_out(), &measured.bias) else { continue };
         if left_out.is_empty() {
             continue;
         }
-        let told = error_text(&bias.squares.map(|square| square.root()));
-        let sure = match bias.squares.deciding() {
+        let biases = error_text(&bias.squares.map(|square| square.root()));
+        let sure = match bias.squares.main_metric() {
             Estimate { value: 0.0, uncertainty: 0.0 } => ": the light is bit-identical",
             square if square.exceeds(2.0) => "",
             _ => ": not significant, less than two standard uncertainties",
         };
         let _ = writeln!(
             out,
-            "  {}, against {}: {told}{sure}\n    it omits {left_out}",
-            way.way.label(),
+            "  {}, against {}: {biases}{sure}\n    it omits {left_out}",
+            measured.way.label(),
             bias.against.label()
         );
     }
@@ -147,7 +147,7 @@ fn points(front: &[FrontPoint], out: &mut String) {
         "time", "error"
     );
     for point in front {
-        let error = deciding(&point.error);
+        let error = main_metric_text(&point.error);
         let _ = writeln!(
             out,
             "{:>8} {error:>22}  {} samples, {}",
@@ -172,14 +172,14 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
         if *is_reached { "" } else { "; the target is not reached" }
     );
     let _ = match confirmation {
-        Some(found) => writeln!(
+        Some(test) => writeln!(
             out,
             "  tested on {} {} tiles with {} samples per replicate: {} of the time estimated by the pilots (the time above follows the test){}",
-            found.tiles,
-            if found.unseen { "other" } else { "of the same" },
-            found.samples,
-            figure(found.seconds),
-            found.noise.map_or_else(String::new, |noise| format!(", {} of the noise", figure(noise)))
+            test.tiles,
+            if test.unseen { "other" } else { "of the same" },
+            test.samples,
+            figure(test.seconds),
+            test.noise.map_or_else(String::new, |noise| format!(", {} of the noise", figure(noise)))
         ),
         None => writeln!(out, "  not tested: the image has too few tiles"),
     };
@@ -190,21 +190,21 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
 pub fn plot(study: &Study) -> String {
     let has_sensor = study.as_stated.error.sensor.is_some();
     let label = if has_sensor { "error relative to the sensor's noise (rms)" } else { "error of the light (rms)" };
-    let place = |point: &FrontPoint| (point.seconds.value, point.error.deciding().value);
+    let place = |point: &FrontPoint| (point.seconds.value, point.error.main_metric().value);
     let mut series = Vec::new();
     let on_front = study.front.iter().map(|p| p.way);
     let mut named: Vec<_> = on_front.chain([study.as_stated.way]).collect();
     named.dedup();
-    named.sort_by_key(|way| study.ways.iter().position(|m| m.way == *way));
+    named.sort_by_key(|configuration| study.ways.iter().position(|m| m.way == *configuration));
     named.dedup();
-    for way in named {
-        let Some(measured) = study.ways.iter().find(|m| m.way == way) else { continue };
+    for configuration in named {
+        let Some(measured) = study.ways.iter().find(|m| m.way == configuration) else { continue };
         let replicates = f64::from(study.as_stated.replicates);
         let curve = (2..=14).map(|power| f64::from(1_u32 << power)).filter(|spp| *spp >= replicates).map(|spp| {
-            let error = measured.error(spp, replicates).deciding().root().value;
+            let error = measured.error(spp, replicates).main_metric().root().value;
             (measured.seconds(spp, study.rest_s).value, error)
         });
-        series.push(Series::new(&way.label(), Mark::Line, curve));
+        series.push(Series::new(&configuration.label(), Mark::Line, curve));
     }
     series.push(Series::new("as in the job", Mark::Points, [place(&study.as_stated)]));
     let recommended = study.recommendations.iter().map(|r| place(&r.point));

@@ -3,25 +3,25 @@
 //! the same tiles in turn. The reported time is the ratio of both, times the pilots' result for the other configuration.
 
 use crate::error::Estimate;
-use crate::front::{Confirmation, Recommendation};
-use crate::measured::Measured;
+use crate::front::{RecommendationTest, Recommendation};
+use crate::measured::ConfigurationMeasurement;
 use crate::pilot::{Pilots, seed};
-use crate::pixels::Pixels;
+use crate::pixels::SampledPixels;
 use crate::plan::PilotPlan;
 use etendue::{Error, Job};
 use etendue_stats::Moments;
 
 /// Maximum fraction of the study's time for the test of one recommendation.
-const PART: f64 = 0.1;
+const BUDGET_FRACTION: f64 = 0.1;
 /// Minimum number of tiles of a test.
-const FEWEST_TILES: u32 = 16;
+const MIN_TILES: u32 = 16;
 /// Minimum number of replicates that gives a variance, and maximum number.
 const REPLICATES: [u32; 2] = [2, 16];
 /// First seed of tests.
 const FIRST_SEED: u32 = 2000;
 
 /// Context of tests.
-pub(crate) struct Trial<'a> {
+pub(crate) struct TrialContext<'a> {
     /// Approximate duration of the study, s.
     pub(crate) budget_s: f64,
     /// The studied job.
@@ -31,7 +31,7 @@ pub(crate) struct Trial<'a> {
 
 /// Extent of a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Extent {
+struct TestExtent {
     plan: PilotPlan,
     tiles: u32,
     /// Samples of each replicate.
@@ -39,55 +39,55 @@ struct Extent {
     replicates: u32,
 }
 
-impl Extent {
+impl TestExtent {
     /// Part of a recommendation of `spp` samples that can be rendered when only the fraction `affordable` is: reduces tiles first, then samples. `None` for
     /// images of too few tiles.
-    fn within(affordable: f64, spp: u32, replicates: u32, seen: PilotPlan, [columns, rows]: [u32; 2]) -> Option<Self> {
+    fn within(affordable: f64, spp: u32, replicates: u32, pilot_plan: PilotPlan, [columns, rows]: [u32; 2]) -> Option<Self> {
         let all = columns * rows;
-        let plan = seen.unseen(columns, (1.0 / affordable).ceil() as u32, all / FEWEST_TILES);
+        let plan = pilot_plan.other_tiles(columns, (1.0 / affordable).ceil() as u32, all / MIN_TILES);
         let tiles = all / plan.shard.count;
         let own = f64::from(spp / replicates);
         let planes = replicates.clamp(REPLICATES[0], REPLICATES[1]);
-        let most = affordable * f64::from(plan.shard.count) * f64::from(spp);
-        let samples = (most / f64::from(planes)).min(own).max(1.0) as u32;
-        let replicates = (most / f64::from(samples)).clamp(f64::from(REPLICATES[0]), f64::from(planes)) as u32;
-        (all >= FEWEST_TILES).then_some(Self { plan, tiles, samples, replicates })
+        let max_samples = affordable * f64::from(plan.shard.count) * f64::from(spp);
+        let samples = (max_samples / f64::from(planes)).min(own).max(1.0) as u32;
+        let replicates = (max_samples / f64::from(samples)).clamp(f64::from(REPLICATES[0]), f64::from(planes)) as u32;
+        (all >= MIN_TILES).then_some(Self { plan, tiles, samples, replicates })
     }
 }
 
-impl Trial<'_> {
+impl TrialContext<'_> {
     /// Tests a recommendation next to another configuration, and corrects its time by the result.
-    pub(crate) fn of(
+    pub(crate) fn run(
         &self,
         recommendation: &mut Recommendation,
-        measured: &Measured,
-        control: &Measured,
+        measured: &ConfigurationMeasurement,
+        control: &ConfigurationMeasurement,
         rest_s: f64,
     ) -> Result<(), Error> {
-        let Some(found) = self.tried(recommendation, measured, control)? else { return Ok(()) };
+        let Some(trial) = self.run_pair(recommendation, measured, control)? else { return Ok(()) };
         let samples_s = measured.sample_s.value * f64::from(recommendation.point.spp);
         let fixed = Estimate { value: measured.load_s + measured.frame_s + rest_s, uncertainty: 0.0 };
-        recommendation.point.seconds = found.seconds.times(samples_s).plus(fixed);
-        recommendation.confirmation = Some(found);
+        recommendation.point.seconds = trial.seconds.times(samples_s).plus(fixed);
+        recommendation.confirmation = Some(trial);
         Ok(())
     }
 
-    fn tried(
+    fn run_pair(
         &self,
         recommendation: &Recommendation,
-        measured: &Measured,
-        control: &Measured,
-    ) -> Result<Option<Confirmation>, Error> {
+        measured: &ConfigurationMeasurement,
+        control: &ConfigurationMeasurement,
+    ) -> Result<Option<RecommendationTest>, Error> {
         let point = &recommendation.point;
         let Pilots { camera, simd, clock, observer, plan } = *self.pilots;
         let whole_s = (measured.sample_s.value + control.sample_s.value) * f64::from(point.spp);
         let grid = self.job.tile_grid(camera, plan.tile_px)?;
-        let affordable = PART * self.budget_s / whole_s;
-        let Some(extent) = Extent::within(affordable, point.spp, point.replicates, plan, grid) else {
+        let affordable = BUDGET_FRACTION * self.budget_s / whole_s;
+        let Some(extent) = TestExtent::within(affordable, point.spp, point.replicates, plan, grid) else {
             return Ok(None);
         };
         let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
-        let [job, other] = [measured, control].map(|way| way.way.request(self.job.request(), camera).open());
+        let [job, other] = [measured, control].map(|configuration| configuration.way.request(self.job.request(), camera).open());
         let (job, other) = (job?, other?);
         let own = job.camera_plan(camera)?.settings.seed;
         let (mut planes, mut pixels) = (Vec::new(), Vec::new());
@@ -101,8 +101,8 @@ impl Trial<'_> {
             own_s.push(took_s);
         }
         let ratio = samples_time(&own_s, measured).over(samples_time(&other_s, control));
-        let pixels = Pixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
-        Ok(Some(Confirmation {
+        let pixels = SampledPixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
+        Ok(Some(RecommendationTest {
             tiles: extent.tiles,
             unseen: extent.plan.shard.count > 1,
             samples: extent.samples,
@@ -113,20 +113,20 @@ impl Trial<'_> {
 }
 
 /// Time of a test's samples, s, without the time of a frame outside its samples.
-fn samples_time(took_s: &Moments, measured: &Measured) -> Estimate {
+fn samples_time(took_s: &Moments, measured: &ConfigurationMeasurement) -> Estimate {
     let uncertainty = took_s.variance_of_mean().unwrap_or(f64::NAN).sqrt();
     Estimate { value: (took_s.mean() - measured.frame_s).max(0.05 * took_s.mean()), uncertainty }
 }
 
 /// Noise of the planes over the estimate for `samples` samples, in the deciding metric; `None` without an estimate.
-fn noise(pixels: &Pixels, planes: &[Vec<f32>], measured: &Measured, samples: u32) -> Option<Estimate> {
-    let (found, laws) = (pixels.variance(planes), &measured.variance);
-    let (found, law) = match (found.sensor, laws.sensor) {
-        (Some(found), Some(law)) => (found, law),
-        _ => (found.relative, laws.relative),
+fn noise(pixels: &SampledPixels, planes: &[Vec<f32>], measured: &ConfigurationMeasurement, samples: u32) -> Option<Estimate> {
+    let (variances, laws) = (pixels.variance(planes), &measured.variance);
+    let (variance, law) = match (variances.sensor, laws.sensor) {
+        (Some(variance), Some(law)) => (variance, law),
+        _ => (variances.relative, laws.relative),
     };
-    let foretold = law.at(f64::from(samples)).value;
-    (foretold > 0.0).then(|| found.times(1.0 / foretold).root())
+    let estimated = law.at(f64::from(samples)).value;
+    (estimated > 0.0).then(|| variance.times(1.0 / estimated).root())
 }
 
 #[cfg(test)]
@@ -135,9 +135,9 @@ mod tests {
 
     const GRID: [u32; 2] = [80, 50];
 
-    fn extent(affordable: f64) -> Extent {
-        let seen = PilotPlan::of_tiles(GRID, 100);
-        Extent::within(affordable, 64, 4, seen, GRID).expect("enough tiles")
+    fn extent(affordable: f64) -> TestExtent {
+        let pilot_plan = PilotPlan::with_tiles(GRID, 100);
+        TestExtent::within(affordable, 64, 4, pilot_plan, GRID).expect("enough tiles")
     }
 
     #[test]
@@ -151,9 +151,9 @@ mod tests {
 
     #[test]
     fn one_replicate_is_tried_twice() {
-        let seen = PilotPlan::of_tiles(GRID, 100);
-        let extent = Extent::within(1.0, 64, 1, seen, GRID).expect("enough tiles");
+        let pilot_plan = PilotPlan::with_tiles(GRID, 100);
+        let extent = TestExtent::within(1.0, 64, 1, pilot_plan, GRID).expect("enough tiles");
         assert!(extent.samples == 64 && extent.replicates == 2, "{extent:?}");
-        assert_eq!(Extent::within(1.0, 64, 4, PilotPlan::of_tiles([2, 2], 48), [2, 2]), None, "too few tiles");
+        assert_eq!(TestExtent::within(1.0, 64, 4, PilotPlan::with_tiles([2, 2], 48), [2, 2]), None, "too few tiles");
     }
 }

@@ -1,30 +1,30 @@
 //! The frame with other values of keys: models and precisions, compared with the unchanged job.
 
 use crate::Clock;
-use crate::change::{Change, header};
+use crate::change::{FrameChange, header};
 use crate::edge::EdgeChart;
-use crate::frame_render::{FrameRenderer, MORE};
-use crate::study::Request;
+use crate::frame_render::{FrameRenderer, SECOND_SAMPLES_RATIO};
+use crate::study::StudyRequest;
 use crate::way::{SAMPLE_KEYS, is_of};
-use etendue::{Error, ErrorCode, Job, JobRequest, Observer, Progress, Unit};
+use etendue::{Error, ErrorCode, Job, JobRequest, Observer, Progress, ProgressUnit};
 use serde::Serialize;
 use std::fmt::Write as _;
 
 /// Result of other values of keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Varied {
+pub struct VariationResult {
     /// Changes of keys, in the syntax of `--set`.
     pub set: Vec<String>,
     /// Estimated memory of all effects for which the plan has an estimate, bytes: cubes of light, maps, textures in tiles.
     pub memory_bytes: f64,
     /// Change of the frame.
     #[serde(flatten)]
-    pub change: Change,
+    pub change: FrameChange,
 }
 
 /// A frame with each of the variations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Variations {
+pub struct VariationStudy {
     /// The camera.
     pub camera: String,
     /// Samples per pixel for the errors.
@@ -34,7 +34,7 @@ pub struct Variations {
     /// Estimated memory of that frame in the plan, bytes.
     pub memory_bytes: f64,
     /// The variations, in the requested order.
-    pub varied: Vec<Varied>,
+    pub varied: Vec<VariationResult>,
 }
 
 /// Renders a frame of a job with each of `variations`, which are changes of keys. Runs on the caller's thread pool.
@@ -43,11 +43,11 @@ pub struct Variations {
 /// The job is invalid, unchanged or with a variation, or has no such camera; a variation changes the number of samples; the observer cancels, or light is not
 /// finite.
 pub fn variations(
-    request: &Request,
+    request: &StudyRequest,
     variations: &[Vec<String>],
     clock: &dyn Clock,
     observer: &dyn Observer,
-) -> Result<Variations, Error> {
+) -> Result<VariationStudy, Error> {
     let renderer = FrameRenderer::open(request, clock, observer)?;
     let camera = &renderer.camera;
     let requests = variations.iter().map(|set| varied_request(&renderer.own, set, camera));
@@ -57,18 +57,18 @@ pub fn variations(
     let memory = memory.collect::<Result<Vec<_>, Error>>()?;
     let spp = renderer.affordable_spp(requests.len() + 1)?;
     let edges = EdgeChart::open(&renderer)?;
-    let stated = renderer.pair(&renderer.own, spp)?;
+    let unchanged = renderer.render_pair(&renderer.own, spp)?;
     let (mut varied, total) = (Vec::new(), requests.len());
     for (done, ((request, set), memory_bytes)) in requests.iter().zip(variations).zip(memory).enumerate() {
-        observer.progress(Progress { heading: &set.join("; "), frame: None, unit: Unit::Pilots, done, total });
-        let change = Change::of(&stated, &renderer.pair(request, spp)?, renderer.job_spp)?;
+        observer.progress(Progress { heading: &set.join("; "), frame: None, unit: ProgressUnit::Pilots, done, total });
+        let change = FrameChange::new(&unchanged, &renderer.render_pair(request, spp)?, renderer.job_spp)?;
         let change = change.with_edges(edges.as_ref(), set)?;
-        varied.push(Varied { set: set.clone(), memory_bytes, change });
+        varied.push(VariationResult { set: set.clone(), memory_bytes, change });
     }
-    observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
+    observer.progress(Progress { heading: "done", frame: None, unit: ProgressUnit::Pilots, done: total, total });
     drop(edges);
-    let (cpu_s, memory_bytes) = (stated.seconds(renderer.job_spp), memory_bytes(&renderer.job, camera));
-    Ok(Variations { spp: spp * (1 + MORE), cpu_s, memory_bytes, camera: renderer.camera, varied })
+    let (cpu_s, memory_bytes) = (unchanged.seconds(renderer.job_spp), memory_bytes(&renderer.job, camera));
+    Ok(VariationStudy { spp: spp * (1 + SECOND_SAMPLES_RATIO), cpu_s, memory_bytes, camera: renderer.camera, varied })
 }
 
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
@@ -90,7 +90,7 @@ fn memory_bytes(job: &Job, camera: &str) -> f64 {
 
 /// The table of variations.
 #[must_use]
-pub fn variation_table(variations: &Variations) -> String {
+pub fn variation_table(variations: &VariationStudy) -> String {
     let megabytes = |bytes: f64| format!("{:.0} MB", bytes / 1e6);
     let labels: Vec<_> = variations.varied.iter().map(|varied| varied.set.join("; ")).collect();
     let width = labels.iter().map(|label| label.chars().count()).fold("with".len(), usize::max);

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 /// The part of a camera's render settings that a study varies, without the number of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WayToRender {
+pub struct Configuration {
     /// Light paths that are simulated.
     pub paths: PathSettings,
     /// Side of the blocks of pixels that share the tails of their paths, px; only for paths.
@@ -18,12 +18,12 @@ pub struct WayToRender {
     pub accelerator: Accelerator,
 }
 
-impl WayToRender {
+impl Configuration {
     /// Configuration of a camera of a job.
     ///
     /// # Errors
     /// The job cannot be read or has no such camera.
-    pub(crate) fn of(job: &Job, camera: &str) -> Result<Self, etendue::Error> {
+    pub(crate) fn new(job: &Job, camera: &str) -> Result<Self, etendue::Error> {
         let settings = job.camera_plan(camera)?.settings;
         Ok(Self {
             paths: settings.paths,
@@ -36,7 +36,7 @@ impl WayToRender {
     /// The settings by their keys in `[render]`.
     pub(crate) fn settings(&self) -> Vec<Setting> {
         let own = [
-            Setting::of_paths("path_reuse_px", self.path_reuse_px.into()),
+            Setting::path_only("path_reuse_px", self.path_reuse_px.into()),
             Setting::new("wavelengths_per_path", self.wavelengths.into()),
             Setting::new("accelerator", SettingValue::Word(self.accelerator.word())),
         ];
@@ -48,9 +48,9 @@ impl WayToRender {
     pub fn keys(&self) -> Vec<(&'static str, String)> {
         let traces = self.paths.integrator == Integrator::Path;
         // Guiding learns over whole images, but a study renders parts of them.
-        let guiding = Setting::of_paths("guiding", false.into());
+        let guiding = Setting::path_only("guiding", false.into());
         let settings = self.settings().into_iter().chain([guiding]);
-        let in_force = settings.filter(|setting| traces || !setting.is_of_paths);
+        let in_force = settings.filter(|setting| traces || !setting.is_path_only);
         in_force.map(|setting| (setting.key, setting.value.to_string())).collect()
     }
 
@@ -113,7 +113,7 @@ impl WayToRender {
 }
 
 /// Serialises the settings as an object.
-impl Serialize for WayToRender {
+impl Serialize for Configuration {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.settings().into_iter().map(|setting| (report_name(setting.key), setting.value)))
     }
@@ -126,13 +126,13 @@ fn report_name(key: &'static str) -> &'static str {
 
 /// Keys of `[render]` that a study states itself: those of its configurations, and those of samples.
 pub(crate) fn studied_keys() -> Vec<&'static str> {
-    let way = WayToRender {
+    let default = Configuration {
         paths: PathSettings::default(),
         path_reuse_px: 1,
         wavelengths: 4,
         accelerator: Accelerator::Default,
     };
-    way.keys().into_iter().map(|(key, _)| key).chain(SAMPLE_KEYS).collect()
+    default.keys().into_iter().map(|(key, _)| key).chain(SAMPLE_KEYS).collect()
 }
 
 /// Keys of `[render]` that determine the number of samples.

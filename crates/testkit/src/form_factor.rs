@@ -19,8 +19,8 @@ pub fn sphere(point: DVec3, normal: DVec3, centre: DVec3, radius: f64) -> f64 {
 /// `aside` from its axis: π/2 (1 − (a² + h² − r²)/√((a² + h² + r²)² − 4 r² a²)) (Hottel and Sarofim 1967); on the axis π r²/(r² +
 /// h²).
 #[must_use]
-pub fn disc(height: f64, aside: f64, radius: f64) -> f64 {
-    let (h2, a2, r2) = (height * height, aside * aside, radius * radius);
+pub fn disc(height: f64, offset: f64, radius: f64) -> f64 {
+    let (h2, a2, r2) = (height * height, offset * offset, radius * radius);
     let sum = a2 + h2 + r2;
     0.5 * PI * (1.0 - (sum - 2.0 * r2) / (sum * sum - 4.0 * r2 * a2).sqrt())
 }
@@ -135,11 +135,11 @@ mod tests {
             DVec3::new(radius * c, radius * s, height)
         };
         let corners: Vec<DVec3> = (0..SIDES).map(corner).collect();
-        for aside in [0.0, 0.5, 3.0] {
+        for offset in [0.0, 0.5, 3.0] {
             // The polygon lacks 2 π²/(3 n²) of the area, and the arc cosines of close corners lose some digits: 1e-6 in all is far
             // below the effect of a wrong sign or square.
-            let sum = polygon(DVec3::X * aside, DVec3::Z, &corners);
-            assert!((disc(height, aside, radius) / sum - 1.0).abs() < 1e-6, "{aside}: {sum}");
+            let sum = polygon(DVec3::X * offset, DVec3::Z, &corners);
+            assert!((disc(height, offset, radius) / sum - 1.0).abs() < 1e-6, "{offset}: {sum}");
         }
         assert!((disc(height, 0.0, radius) - PI * 0.64 / (0.64 + 2.25)).abs() < 1e-12);
     }

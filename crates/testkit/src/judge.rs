@@ -12,7 +12,7 @@ pub const SIGNIFICANCE: f64 = 1e-3;
 ///
 /// # Errors
 /// A sentence with the worst deviation.
-pub fn against_truth(
+pub fn compare_with_truth(
     estimate: EstimatedPlane<'_>,
     truth: impl Fn(usize) -> f64,
     allowance: impl Fn(usize) -> f64,
@@ -24,7 +24,7 @@ pub fn against_truth(
     };
     let exact: Vec<f32> = (0..truth.len()).map(nearest).collect();
     let none = vec![0.0; exact.len()];
-    let exact = EstimatedPlane { mean: &exact, variance_of_mean: &none, replicates: 1, alike: 1 };
+    let exact = EstimatedPlane { mean: &exact, variance_of_mean: &none, replicates: 1, correlated_pixels: 1 };
     let test = planes::compare(&estimate, &exact, SIGNIFICANCE).map_err(|e| e.to_string())?;
     if test.verdict == Verdict::Agree {
         return Ok(test);
@@ -56,10 +56,10 @@ mod tests {
     fn truth_passes_and_a_shift_beyond_the_allowance_fails() {
         let mean: Vec<f32> = (0..64).map(|i| 1.0 + if i % 2 == 0 { 0.01 } else { -0.01 }).collect();
         let variance = vec![1e-4; 64];
-        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, alike: 1 };
-        assert!(against_truth(estimate, |_| 1.0, |_| 0.0).is_ok());
-        assert!(against_truth(estimate, |_| 1.1, |_| 0.1).is_ok());
-        assert!(against_truth(estimate, |_| 1.1, |_| 0.0).is_err());
+        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
+        assert!(compare_with_truth(estimate, |_| 1.0, |_| 0.0).is_ok());
+        assert!(compare_with_truth(estimate, |_| 1.1, |_| 0.1).is_ok());
+        assert!(compare_with_truth(estimate, |_| 1.1, |_| 0.0).is_err());
         let (mean, error) = mean_and_error(estimate);
         assert!((mean - 1.0).abs() < 1e-6 && (error - 1e-2 / 8.0).abs() < 1e-8);
         assert!(is_near((1.0, 0.1), 1.2, 0.0, 30.0) && !is_near((1.0, 0.1), 1.5, 0.0, 30.0));
@@ -68,8 +68,8 @@ mod tests {
     #[test]
     fn without_a_variance_only_the_allowance_counts() {
         let (mean, variance) = (vec![1.0; 4], vec![0.0; 4]);
-        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, alike: 1 };
-        assert!(against_truth(estimate, |_| 1.0 + 1e-6, |_| 2e-6).is_ok());
-        assert!(against_truth(estimate, |_| 1.0 + 1e-5, |_| 2e-6).is_err());
+        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
+        assert!(compare_with_truth(estimate, |_| 1.0 + 1e-6, |_| 2e-6).is_ok());
+        assert!(compare_with_truth(estimate, |_| 1.0 + 1e-5, |_| 2e-6).is_err());
     }
 }

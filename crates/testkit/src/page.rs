@@ -18,9 +18,9 @@ pub struct Row {
 impl Row {
     /// A number with the upper limit `bound`, printed with two digits.
     #[must_use]
-    pub fn at_most(extreme: &str, expected: &str, found: f64, bound: f64) -> Self {
+    pub fn at_most(extreme: &str, expected: &str, actual: f64, bound: f64) -> Self {
         let (extreme, expected) = (extreme.to_owned(), expected.to_owned());
-        Self { extreme, expected, found: figure(found), holds: found <= bound }
+        Self { extreme, expected, found: figure(actual), holds: actual <= bound }
     }
 }
 
@@ -57,10 +57,10 @@ static PAGE: Mutex<()> = Mutex::new(());
 ///
 /// # Panics
 /// If a row does not hold, or the page has other rows.
-pub fn check(area: &str, about: &str, rows: &[Row]) {
+pub fn check(area: &str, introduction: &str, rows: &[Row]) {
     let failed: Vec<_> = rows.iter().filter(|row| !row.holds).collect();
     assert!(failed.is_empty(), "{area}: {failed:#?}");
-    let mut section = format!("## {area}\n\n{about}\n\n| extreme | expected | found |\n| --- | --- | --- |\n");
+    let mut section = format!("## {area}\n\n{introduction}\n\n| extreme | expected | found |\n| --- | --- | --- |\n");
     for Row { extreme, expected, found, .. } in rows {
         let _ = writeln!(section, "| {extreme} | {expected} | {found} |");
     }

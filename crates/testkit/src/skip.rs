@@ -20,8 +20,8 @@ pub fn all_here(test: &str, needed: &[&Path]) -> bool {
 ///
 /// # Panics
 /// If the list cannot be written.
-pub fn skipped(test: &str, why: &str) {
-    let line = format!("skipped: {test}: {why}\n");
+pub fn skipped(test: &str, reason: &str) {
+    let line = format!("skipped: {test}: {reason}\n");
     // Cargo shows the output of a test on request (--nocapture).
     std::io::stderr().write_all(line.as_bytes()).expect("stderr");
     if let Some(list) = std::env::var_os(LIST) {

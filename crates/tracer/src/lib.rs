@@ -20,7 +20,7 @@ pub(crate) const ALL_EFFECTS: bool = !cfg!(feature = "minimal");
 
 /// Maximum radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and sums over many
 /// lights stay finite in f32.
-pub const BRIGHTEST: f32 = 1e30;
+pub const MAX_LIGHT_VALUE: f32 = 1e30;
 
 /// Panics in a tracer without optional effects: the code that follows is one.
 #[inline(always)]

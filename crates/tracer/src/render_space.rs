@@ -31,7 +31,7 @@ impl World {
     #[must_use]
     pub fn render_space_with(&self, origin_m: DVec3, interval: TimeInterval, simd: Simd) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
-        RenderSpace { world: self, origin_m, interval, top: Tlas::merging(self, placed, interval, simd) }
+        RenderSpace { world: self, origin_m, interval, top: Tlas::with_merging(self, placed, interval, simd) }
     }
 
     /// As [`World::render_space_with`], built faster but slower to trace, for few rays: no instance is merged.
@@ -98,11 +98,11 @@ impl<'w> RenderSpace<'w> {
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let instance = &self.world.instances()[hit.instance as usize];
-        if let (Shape::Mesh(id), Some(placed)) = (instance.shape, self.placed(hit.instance).still())
+        if let (Shape::Mesh(id), Some(placed)) = (instance.shape, self.placed(hit.instance).static_transform())
             && let mesh = self.world.mesh(id)
             && mesh.animation().is_none()
         {
-            return point::of_mesh(&MeshPose::still(mesh), instance, placed, ray, hit);
+            return point::mesh_point(&MeshPose::from_mesh(mesh), instance, placed, ray, hit);
         }
         is_optional();
         self.surface_of_other(ray, hit)
@@ -115,8 +115,8 @@ impl<'w> RenderSpace<'w> {
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = &*self.placed_at(hit.instance, ray.time_s);
         match instance.shape {
-            Shape::Mesh(id) => point::of_mesh(&self.pose(id, ray.time_s), instance, placed, ray, hit),
-            Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
+            Shape::Mesh(id) => point::mesh_point(&self.pose(id, ray.time_s), instance, placed, ray, hit),
+            Shape::Sphere { radius_m } => point::sphere_point(radius_m, instance, placed, ray, hit),
         }
     }
 
@@ -177,7 +177,7 @@ impl<'w> RenderSpace<'w> {
     #[inline(always)]
     fn pose(&self, id: MeshId, time_s: f32) -> MeshPose<'_> {
         let mesh = self.world.mesh(id);
-        if mesh.animation().is_none() { MeshPose::still(mesh) } else { mesh.at(self.interval.moment(time_s)) }
+        if mesh.animation().is_none() { MeshPose::from_mesh(mesh) } else { mesh.at(self.interval.moment(time_s)) }
     }
 
     /// Primitives of an instance: its triangles, or 1 for a sphere.

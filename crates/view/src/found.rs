@@ -7,7 +7,7 @@ use etendue::{Error, ErrorCode};
 
 /// A file that may have layers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct FoundFile {
+pub(crate) struct ResultFile {
     /// Folder within the result, with `/` between folders: usually a camera's name; empty for the result's own folder.
     pub(crate) place: String,
     /// File name.
@@ -43,11 +43,11 @@ const ORDER: [&str; 10] = [
 ///
 /// # Errors
 /// If it is not a folder, cannot be read, or has no file or too many.
-pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
-    let refuse = |why: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", folder.display()));
+pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<ResultFile>, Error> {
+    let refuse = |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", folder.display()));
     if !folder.is_dir() {
-        let what = if folder.exists() { "not a folder" } else { "does not exist" };
-        return Err(refuse(format!("{what}; expected the folder of a result, as written by etendue render -o")));
+        let problem = if folder.exists() { "not a folder" } else { "does not exist" };
+        return Err(refuse(format!("{problem}; expected the folder of a result, as written by etendue render -o")));
     }
     let mut files = Vec::new();
     search(folder, "", 0, &mut files)?;
@@ -67,16 +67,16 @@ pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<Fou
             "{count} files with layers, but a page has at most {MAX_FILES}; give a subfolder, or fewer frames (`frames`)"
         )));
     }
-    let rank = |file: &FoundFile| ORDER.iter().position(|stem| *stem == file.stem).unwrap_or(ORDER.len());
+    let rank = |file: &ResultFile| ORDER.iter().position(|stem| *stem == file.stem).unwrap_or(ORDER.len());
     files.sort_by(|a, b| {
         (&a.place, rank(a), &a.stem, a.frame, &a.name).cmp(&(&b.place, rank(b), &b.stem, b.frame, &b.name))
     });
     Ok(files)
 }
 
-fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<FoundFile>) -> Result<(), Error> {
+fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<ResultFile>) -> Result<(), Error> {
     let unreadable =
-        |cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: cannot be read: {cause}", folder.display()));
+        |error| Error::coded(ErrorCode::UnreadableFile, format!("{}: cannot be read: {error}", folder.display()));
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let (path, kind) = (entry.path(), entry.file_type().map_err(unreadable)?);
@@ -89,22 +89,22 @@ fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<FoundFile>) 
             let place = if place.is_empty() { name } else { format!("{place}/{name}") };
             search(&path, &place, depth + 1, files)?;
         } else if !kind.is_dir() && path.is_file() {
-            files.extend(found(place, name, path));
+            files.extend(result_file(place, name, path));
         }
     }
     Ok(())
 }
 
-fn found(place: &str, name: String, path: PathBuf) -> Option<FoundFile> {
+fn result_file(place: &str, name: String, path: PathBuf) -> Option<ResultFile> {
     let ending = path.extension().and_then(OsStr::to_str)?.to_ascii_lowercase();
-    let bare = name.get(..name.len() - ending.len() - 1)?;
-    let (stem, frame) = match bare.rsplit_once('.').map(|(stem, number)| (stem, frame(number))) {
+    let base_name = name.get(..name.len() - ending.len() - 1)?;
+    let (stem, frame) = match base_name.rsplit_once('.').map(|(stem, number)| (stem, frame(number))) {
         Some((stem, Some(frame))) => (stem, Some(frame)),
-        _ => (bare, None),
+        _ => (base_name, None),
     };
     let has_layers = ENDINGS.contains(&ending.as_str()) || (ending == "json" && stem == "boxes");
     let stem = stem.to_owned();
-    has_layers.then_some(FoundFile { place: place.to_owned(), stem, frame, name, path })
+    has_layers.then_some(ResultFile { place: place.to_owned(), stem, frame, name, path })
 }
 
 /// Parses a frame number in a file name.
@@ -142,8 +142,8 @@ mod tests {
             "left/v1.2.exr",
             "tracks.json",
         ]);
-        let found = find(folder.path(), None).expect("files");
-        let told: Vec<_> = found.iter().map(|f| (f.place.as_str(), f.stem.as_str(), f.frame)).collect();
+        let files = find(folder.path(), None).expect("files");
+        let actual: Vec<_> = files.iter().map(|f| (f.place.as_str(), f.stem.as_str(), f.frame)).collect();
         let expected = [
             ("left", "ground_truth", None),
             ("left", "boxes", Some(3)),
@@ -153,7 +153,7 @@ mod tests {
             ("right", "picture", Some(0)),
             ("right", "picture", Some(1)),
         ];
-        assert_eq!(told, expected);
+        assert_eq!(actual, expected);
         let some = find(folder.path(), Some(&(1..3))).expect("files");
         assert_eq!(some.iter().filter_map(|f| f.frame).collect::<Vec<_>>(), [1]);
     }

@@ -10,7 +10,7 @@ pub(crate) enum Samples {
     /// Whole numbers of 16 bits.
     Words(Vec<u16>),
     /// Identifiers and counts.
-    Whole(Vec<u32>),
+    Integers(Vec<u32>),
     /// Numbers stored exactly.
     Exact(Vec<f32>),
     /// Numbers rounded to 11 binary digits.
@@ -23,7 +23,7 @@ impl Samples {
         match self {
             Self::Bytes(_) => 1,
             Self::Words(_) | Self::Rounded(_) => 2,
-            Self::Whole(_) | Self::Exact(_) => 4,
+            Self::Integers(_) | Self::Exact(_) => 4,
         }
     }
 
@@ -32,7 +32,7 @@ impl Samples {
         match self {
             Self::Bytes(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
             Self::Words(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
-            Self::Whole(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
+            Self::Integers(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
             Self::Exact(samples) | Self::Rounded(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
         }
     }
@@ -61,7 +61,7 @@ impl NamedPlane {
 
 /// An identifier in a plane.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Name {
+pub(crate) struct NamedIdentifier {
     pub(crate) id: u32,
     pub(crate) name: String,
     pub(crate) colour: [u8; 3],
@@ -69,7 +69,7 @@ pub(crate) struct Name {
 
 /// Display of a layer.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum LayerKind {
     /// An image for display: numbers up to `full`, with this encoding.
     Picture { full: f64, encoding: String },
     /// Digital numbers of a sensor; with the filters of a tile, if known.
@@ -81,7 +81,7 @@ pub(crate) enum Kind {
     /// Lengths, on a logarithmic scale.
     Length,
     /// Identifiers.
-    Identity { names: Vec<Name> },
+    Identity { names: Vec<NamedIdentifier> },
     /// Vectors in the image.
     Flow,
     /// Vectors in space; unit vectors or others.
@@ -98,7 +98,7 @@ pub(crate) enum Kind {
 pub(crate) struct Layer {
     /// Name within the file.
     pub(crate) name: String,
-    pub(crate) kind: Kind,
+    pub(crate) kind: LayerKind,
     /// Unit of its values; empty for a ratio or a name.
     pub(crate) unit: String,
     /// Meaning of its numbers, if it is not obvious.
@@ -116,22 +116,22 @@ impl Layer {
 
     /// True if a pixel of a downsampled layer is the mean of several; otherwise it is one of them.
     pub(crate) fn has_means(&self) -> bool {
-        self.kind.has_means() && !self.planes.iter().any(|plane| matches!(plane.samples, Samples::Whole(_)))
+        self.kind.has_means() && !self.planes.iter().any(|plane| matches!(plane.samples, Samples::Integers(_)))
     }
 }
 
-impl Kind {
+impl LayerKind {
     /// True if the mean over pixels is a value of the same kind; otherwise one pixel represents several.
     pub(crate) fn has_means(&self) -> bool {
         matches!(self, Self::Picture { .. } | Self::Spectrum { .. } | Self::Colour | Self::Parts | Self::Number)
     }
 
     /// The kind in the form that the page's script reads; `thinned`: one pixel represents several.
-    pub(crate) fn to_json(&self, thinned: bool) -> Map<String, Value> {
-        let said = match self {
+    pub(crate) fn to_json(&self, reduced: bool) -> Map<String, Value> {
+        let object = match self {
             Self::Picture { full, encoding } => json!({ "kind": "picture", "full": full, "encoding": encoding }),
             Self::Raw { black, white, filters } => {
-                let filters = filters.as_ref().filter(|_| !thinned);
+                let filters = filters.as_ref().filter(|_| !reduced);
                 let filters = filters.map(|(columns, names)| json!({ "columns": columns, "channels": names }));
                 json!({ "kind": "raw", "black": black, "white": white, "filters": filters })
             }
@@ -141,7 +141,7 @@ impl Kind {
             Self::Colour => json!({ "kind": "colour" }),
             Self::Length => json!({ "kind": "length" }),
             Self::Identity { names } => {
-                let name = |n: &Name| json!([n.id, n.name, n.colour]);
+                let name = |n: &NamedIdentifier| json!([n.id, n.name, n.colour]);
                 json!({ "kind": "identity", "names": names.iter().map(name).collect::<Vec<_>>() })
             }
             Self::Flow => json!({ "kind": "flow" }),
@@ -150,7 +150,7 @@ impl Kind {
             Self::Number => json!({ "kind": "number" }),
             Self::Boxes { objects } => json!({ "kind": "boxes", "objects": objects }),
         };
-        let Value::Object(map) = said else { return Map::new() };
+        let Value::Object(map) = object else { return Map::new() };
         map
     }
 }

@@ -20,7 +20,7 @@ use crate::layer::{Layer, NamedPlane, Role, Samples};
 use crate::page::encoded;
 
 /// Planes in the form of the page.
-pub(crate) struct Packed {
+pub(crate) struct EncodedPlanes {
     /// Encoding of each plane: its type and the factor of its numbers.
     pub(crate) types: Vec<(&'static str, f64)>,
     /// All of them in base64.
@@ -28,30 +28,30 @@ pub(crate) struct Packed {
 }
 
 /// Packs planes of one layer.
-pub(crate) fn packed(planes: &[NamedPlane]) -> Result<Packed, Error> {
+pub(crate) fn packed(planes: &[NamedPlane]) -> Result<EncodedPlanes, Error> {
     let mut deflated = ZlibEncoder::new(Vec::new(), Compression::default());
     let mut types = Vec::new();
-    let [of_values, of_errors] = [Role::Value, Role::Error].map(|role| scale(planes, role));
+    let [value_scale, error_scale] = [Role::Value, Role::Error].map(|role| scale(planes, role));
     for plane in planes {
-        let scale = if plane.role == Role::Value { of_values } else { of_errors };
+        let scale = if plane.role == Role::Value { value_scale } else { error_scale };
         let (name, bytes) = bytes(&plane.samples, scale);
         types.push((name, if name == "f16" { scale } else { 1.0 }));
         deflated.write_all(&bytes).map_err(Error::run)?;
     }
-    Ok(Packed { types, text: encoded(&deflated.finish().map_err(Error::run)?) })
+    Ok(EncodedPlanes { types, text: encoded(&deflated.finish().map_err(Error::run)?) })
 }
 
 /// The power of two by which rounded numbers are divided.
 fn scale(planes: &[NamedPlane], role: Role) -> f64 {
     let rounded = planes.iter().filter(|plane| plane.role == role && matches!(plane.samples, Samples::Rounded(_)));
     let sizes = rounded.flat_map(|plane| plane.samples.numbers()).map(f64::abs).filter(|size| size.is_finite());
-    let most = sizes.fold(0.0, f64::max);
+    let max_size = sizes.fold(0.0, f64::max);
     let mut scale = 1.0;
     // The range of 32-bit floats ends the loops.
-    while most / scale >= 32_768.0 {
+    while max_size / scale >= 32_768.0 {
         scale *= 2.0;
     }
-    while most > 0.0 && most / scale < 16_384.0 {
+    while max_size > 0.0 && max_size / scale < 16_384.0 {
         scale /= 2.0;
     }
     scale
@@ -61,7 +61,7 @@ fn bytes(samples: &Samples, scale: f64) -> (&'static str, Vec<u8>) {
     match samples {
         Samples::Bytes(all) => ("u8", all.clone()),
         Samples::Words(all) => ("u16", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
-        Samples::Whole(all) => ("u32", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
+        Samples::Integers(all) => ("u32", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
         Samples::Exact(all) => ("f32", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
         Samples::Rounded(all) => {
             ("f16", side_by_side(all.iter().map(|v| f16::from_f64(f64::from(*v) / scale).to_le_bytes())))
@@ -91,10 +91,10 @@ pub(crate) fn planes(layer: &Layer, step: usize) -> Vec<NamedPlane> {
     if step == 1 {
         return layer.planes.clone();
     }
-    let blocks = Blocks { size: layer.size, step };
+    let blocks = BlockGrid { size: layer.size, step };
     let binned = |plane: &NamedPlane| NamedPlane {
         samples: match (layer.kind.has_means(), plane.role) {
-            (false, _) => blocks.thinned(&plane.samples),
+            (false, _) => blocks.reduced(&plane.samples),
             (true, Role::Value) => blocks.means(&plane.samples),
             (true, Role::Error) => blocks.errors(&plane.samples),
         },
@@ -103,12 +103,12 @@ pub(crate) fn planes(layer: &Layer, step: usize) -> Vec<NamedPlane> {
     layer.planes.iter().map(binned).collect()
 }
 
-struct Blocks {
+struct BlockGrid {
     size: (usize, usize),
     step: usize,
 }
 
-impl Blocks {
+impl BlockGrid {
     /// Pixel indices of each block.
     fn each(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
         let ((width, height), step) = (self.size, self.step);
@@ -129,14 +129,14 @@ impl Blocks {
             .flat_map(move |y| (0..width).step_by(step).map(move |x| middle(y, height) * width + middle(x, width)))
     }
 
-    fn thinned(&self, samples: &Samples) -> Samples {
+    fn reduced(&self, samples: &Samples) -> Samples {
         fn at<T: Copy>(all: &[T], places: impl Iterator<Item = usize>) -> Vec<T> {
             places.map(|place| all[place]).collect()
         }
         match samples {
             Samples::Bytes(all) => Samples::Bytes(at(all, self.middles())),
             Samples::Words(all) => Samples::Words(at(all, self.middles())),
-            Samples::Whole(all) => Samples::Whole(at(all, self.middles())),
+            Samples::Integers(all) => Samples::Integers(at(all, self.middles())),
             Samples::Exact(all) => Samples::Exact(at(all, self.middles())),
             Samples::Rounded(all) => Samples::Rounded(at(all, self.middles())),
         }
@@ -144,11 +144,11 @@ impl Blocks {
 
     fn means(&self, samples: &Samples) -> Samples {
         let mean =
-            |of: &dyn Fn(usize) -> f64| self.each().map(|block| mean_of_finite(block.map(of))).collect::<Vec<_>>();
+            |value_at: &dyn Fn(usize) -> f64| self.each().map(|block| mean_of_finite(block.map(value_at))).collect::<Vec<_>>();
         match samples {
             Samples::Bytes(all) => Samples::Bytes(mean(&|i| all[i].into()).iter().map(|v| v.round() as u8).collect()),
             Samples::Words(all) => Samples::Words(mean(&|i| all[i].into()).iter().map(|v| v.round() as u16).collect()),
-            Samples::Whole(_) => self.thinned(samples),
+            Samples::Integers(_) => self.reduced(samples),
             Samples::Exact(all) => Samples::Exact(mean(&|i| all[i].into()).iter().map(|v| *v as f32).collect()),
             Samples::Rounded(all) => Samples::Rounded(mean(&|i| all[i].into()).iter().map(|v| *v as f32).collect()),
         }
@@ -156,7 +156,7 @@ impl Blocks {
 
     /// Standard errors of means of independent pixels.
     fn errors(&self, samples: &Samples) -> Samples {
-        let of = |all: &[f32]| {
+        let error_plane = |all: &[f32]| {
             let error = |block: &mut dyn Iterator<Item = usize>| {
                 let (sum, count) = block
                     .fold((0.0, 0.0), |(sum, count), i| (sum + f64::from(all[i]) * f64::from(all[i]), count + 1.0));
@@ -165,9 +165,9 @@ impl Blocks {
             self.each().map(|mut block| error(&mut block)).collect()
         };
         match samples {
-            Samples::Exact(all) => Samples::Exact(of(all)),
-            Samples::Rounded(all) => Samples::Rounded(of(all)),
-            whole => self.thinned(whole),
+            Samples::Exact(all) => Samples::Exact(error_plane(all)),
+            Samples::Rounded(all) => Samples::Rounded(error_plane(all)),
+            all_samples => self.reduced(all_samples),
         }
     }
 }
@@ -191,7 +191,7 @@ pub(crate) mod tests {
     use flate2::read::ZlibDecoder;
 
     use super::*;
-    use crate::layer::Kind;
+    use crate::layer::LayerKind;
 
     /// Base64 back to bytes.
     fn decoded(text: &str) -> Vec<u8> {
@@ -240,7 +240,7 @@ pub(crate) mod tests {
         planes
     }
 
-    fn again(samples: Samples) -> Vec<f64> {
+    fn decoded_values(samples: Samples) -> Vec<f64> {
         let pixels = samples.numbers().count();
         let planes = [NamedPlane::value("a", samples)];
         let packed = packed(&planes).expect("packed");
@@ -249,30 +249,30 @@ pub(crate) mod tests {
 
     #[test]
     fn whole_numbers_and_exact_floats_come_back() {
-        assert_eq!(again(Samples::Bytes(vec![0, 7, 255])), [0.0, 7.0, 255.0]);
-        assert_eq!(again(Samples::Words(vec![0, 258, 65_535])), [0.0, 258.0, 65_535.0]);
-        assert_eq!(again(Samples::Whole(vec![1, 16_909_060, u32::MAX])), [1.0, 16_909_060.0, 4_294_967_295.0]);
-        let exact = again(Samples::Exact(vec![-0.1, 3e-42, f32::INFINITY, f32::NAN]));
+        assert_eq!(decoded_values(Samples::Bytes(vec![0, 7, 255])), [0.0, 7.0, 255.0]);
+        assert_eq!(decoded_values(Samples::Words(vec![0, 258, 65_535])), [0.0, 258.0, 65_535.0]);
+        assert_eq!(decoded_values(Samples::Integers(vec![1, 16_909_060, u32::MAX])), [1.0, 16_909_060.0, 4_294_967_295.0]);
+        let exact = decoded_values(Samples::Exact(vec![-0.1, 3e-42, f32::INFINITY, f32::NAN]));
         assert_eq!(exact[..3], [f64::from(-0.1_f32), f64::from(3e-42_f32), f64::INFINITY]);
         assert!(exact[3].is_nan());
     }
 
     #[test]
-    fn rounded_numbers_are_as_close_as_is_said() {
+    fn rounded_numbers_keep_their_stated_precision() {
         for size in [3e-38_f32, 1.7e-9, 1.0, 65_504.0, 3e38] {
             let steps = (0..200).map(|i| size * (1.0 - i as f32 / 201.0)).collect::<Vec<_>>();
-            for (found, value) in again(Samples::Rounded(steps.clone())).iter().zip(&steps) {
-                assert!((found - f64::from(*value)).abs() <= f64::from(*value) / 2048.0, "{found} for {value}");
+            for (decoded, value) in decoded_values(Samples::Rounded(steps.clone())).iter().zip(&steps) {
+                assert!((decoded - f64::from(*value)).abs() <= f64::from(*value) / 2048.0, "{decoded} for {value}");
             }
         }
         // 2⁻²⁸ of the largest and less: subnormal half floats.
-        let least = 1.0 / (1_u64 << 39) as f64;
-        let small = again(Samples::Rounded(vec![1.0, 1e-9, 1e-11, 0.0, f32::NAN, f32::NEG_INFINITY]));
-        assert!((small[1] - 1e-9).abs() < least && (small[2] - 1e-11).abs() < least, "{small:?}");
+        let min_step = 1.0 / (1_u64 << 39) as f64;
+        let small = decoded_values(Samples::Rounded(vec![1.0, 1e-9, 1e-11, 0.0, f32::NAN, f32::NEG_INFINITY]));
+        assert!((small[1] - 1e-9).abs() < min_step && (small[2] - 1e-11).abs() < min_step, "{small:?}");
         assert!(small[3] == 0.0 && small[4].is_nan() && small[5] == f64::NEG_INFINITY);
     }
 
-    fn layer(kind: Kind, planes: Vec<NamedPlane>) -> Layer {
+    fn layer(kind: LayerKind, planes: Vec<NamedPlane>) -> Layer {
         Layer { name: "a".to_owned(), kind, unit: String::new(), meaning: String::new(), size: (5, 3), planes }
     }
 
@@ -282,30 +282,30 @@ pub(crate) mod tests {
         values[1] = f32::INFINITY;
         values[14] = f32::NAN;
         let error = NamedPlane { role: Role::Error, ..NamedPlane::value("v", Samples::Exact(vec![3.0; 15])) };
-        let light = layer(Kind::Number, vec![NamedPlane::value("v", Samples::Exact(values)), error]);
+        let light = layer(LayerKind::Number, vec![NamedPlane::value("v", Samples::Exact(values)), error]);
         assert_eq!((size(&light, 2), light.pixel_bytes()), ((3, 2), 8));
         let [means, errors] = &planes(&light, 2)[..] else { panic!("two planes") };
         let Samples::Exact(means) = &means.samples else { panic!("exact") };
         assert_eq!(means[..5], [(0.0 + 5.0 + 6.0) / 3.0, 5.0, 6.5, 10.5, 12.5]);
         assert!(means[5].is_nan());
         // The mean of two errors of 3 has √18 / 2.
-        let of_two = 4.5_f64.sqrt() as f32;
-        assert_eq!(errors.samples, Samples::Exact(vec![1.5, 1.5, of_two, of_two, of_two, 3.0]));
+        let two_pixel_error = 4.5_f64.sqrt() as f32;
+        assert_eq!(errors.samples, Samples::Exact(vec![1.5, 1.5, two_pixel_error, two_pixel_error, two_pixel_error, 3.0]));
     }
 
     #[test]
-    fn of_identities_the_middle_pixel_stands_for_its_block() {
+    fn identities_of_a_block_are_those_of_its_middle_pixel() {
         let ids = layer(
-            Kind::Identity { names: Vec::new() },
-            vec![NamedPlane::value("id", Samples::Whole((0..15).collect()))],
+            LayerKind::Identity { names: Vec::new() },
+            vec![NamedPlane::value("id", Samples::Integers((0..15).collect()))],
         );
-        assert_eq!(planes(&ids, 3)[0].samples, Samples::Whole(vec![6, 9]));
-        assert_eq!(planes(&ids, 2)[0].samples, Samples::Whole(vec![6, 8, 9, 11, 13, 14]));
+        assert_eq!(planes(&ids, 3)[0].samples, Samples::Integers(vec![6, 9]));
+        assert_eq!(planes(&ids, 2)[0].samples, Samples::Integers(vec![6, 8, 9, 11, 13, 14]));
     }
 
     #[test]
     fn a_layer_is_as_large_as_it_may_be() {
-        let bytes = layer(Kind::Number, vec![NamedPlane::value("v", Samples::Exact(vec![0.0; 15]))]);
-        assert_eq!([60, 59, 24, 23, 8, 4, 1].map(|most| factor(&bytes, most)), [1, 2, 2, 3, 3, 5, 5]);
+        let bytes = layer(LayerKind::Number, vec![NamedPlane::value("v", Samples::Exact(vec![0.0; 15]))]);
+        assert_eq!([60, 59, 24, 23, 8, 4, 1].map(|max_bytes| factor(&bytes, max_bytes)), [1, 2, 2, 3, 3, 5, 5]);
     }
 }

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::{fmt::Write as _, fs, io::Read as _};
 
 use etendue::page::{PAGE_GENERATOR, html_page};
-use etendue::{Error, ErrorCode, Existing, OutputFolder, write_file};
+use etendue::{Error, ErrorCode, ExistingFiles, OutputFolder, write_file};
 use serde_json::Value;
 
 const STYLE: &str = include_str!("../page/view.css");
-const BODY: &str = include_str!("../page/view.html");
+const BODY_HTML: &str = include_str!("../page/view.html");
 const SCRIPTS: [&str; 7] = [
     include_str!("../page/chunks.js"),
     include_str!("../page/maps.js"),
@@ -29,14 +29,14 @@ pub(crate) enum Page {
     /// Chunks are scripts next to the page, which loads them when they are shown.
     Folder(OutputFolder, Vec<String>),
     /// Chunks are within the page.
-    File(PathBuf, Existing, String),
+    File(PathBuf, ExistingFiles, String),
 }
 
 impl Page {
     /// Opens a folder, or a file if the name ends in `.html`; refuses immediately a path that exists and may not be replaced.
-    pub(crate) fn open(path: &Path, existing: Existing) -> Result<Self, Error> {
+    pub(crate) fn open(path: &Path, existing: ExistingFiles) -> Result<Self, Error> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
-            if existing == Existing::Refuse && path.symlink_metadata().is_ok() {
+            if existing == ExistingFiles::Refuse && path.symlink_metadata().is_ok() {
                 return Err(Error::coded(
                     ErrorCode::OutputExists,
                     format!("{}: already exists; choose another name, or allow it with `overwrite`", path.display()),
@@ -95,19 +95,19 @@ pub(crate) fn is_ours(folder: &Path) -> bool {
 /// Chunks of an earlier page in the folder that this one does not have.
 fn idle(data: &Path, names: &[String]) -> Vec<String> {
     let entries = fs::read_dir(data).into_iter().flatten().flatten();
-    let there = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let existing_names = entries.filter_map(|entry| entry.file_name().into_string().ok());
     let is_chunk = |name: &String| {
         let number = name.strip_suffix(".js").unwrap_or("");
         number.len() >= 4 && number.bytes().all(|digit| digit.is_ascii_digit())
     };
-    there.filter(|name| is_chunk(name) && !names.contains(name)).map(|name| format!("{DATA}/{name}")).collect()
+    existing_names.filter(|name| is_chunk(name) && !names.contains(name)).map(|name| format!("{DATA}/{name}")).collect()
 }
 
 fn html(title: &str, facts: &Value, chunks: &str) -> String {
     let script = SCRIPTS.concat();
     let facts = in_script(facts);
     let body = format!(
-        "{BODY}{chunks}<script>\n\"use strict\";\n(() => {{\nconst PAGE = {facts};\n{script}{START}}})();\n</script>\n"
+        "{BODY_HTML}{chunks}<script>\n\"use strict\";\n(() => {{\nconst PAGE = {facts};\n{script}{START}}})();\n</script>\n"
     );
     html_page(title, STYLE, &body)
 }
@@ -140,10 +140,10 @@ mod tests {
 
     #[test]
     fn no_name_ends_a_script_or_begins_an_element() {
-        let hostile = json!({ "name": "</script><b>\u{2028}" });
-        let told = in_script(&hostile);
-        assert_eq!(told, "{\"name\":\"\\u003c/script>\\u003cb>\\u2028\"}");
-        assert_eq!(serde_json::from_str::<Value>(&told).expect("JSON"), hostile);
+        let script_like = json!({ "name": "</script><b>\u{2028}" });
+        let script = in_script(&script_like);
+        assert_eq!(script, "{\"name\":\"\\u003c/script>\\u003cb>\\u2028\"}");
+        assert_eq!(serde_json::from_str::<Value>(&script).expect("JSON"), script_like);
     }
 
     #[test]

@@ -2,11 +2,11 @@
 
 use crate::pack::tests::unpacked;
 use crate::{ViewRequest, view};
-use etendue::{Error, Existing, Unobserved};
+use etendue::{Error, ExistingFiles, Unobserved};
 use etendue_core::quantity::{Identity, Length, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
-use etendue_io::exr::{GroundTruth, Layer, encode_ground_truth, encode_layers, encode_spectral};
+use etendue_io::exr::{GroundTruth, ExrLayer, encode_ground_truth, encode_layers, encode_spectral};
 use etendue_io::inspect::Preview;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -28,7 +28,7 @@ fn lengths() -> Vec<f32> {
 }
 
 /// An image with blue values 3, 6, 9 …
-fn picture((width, height): (usize, usize)) -> Vec<u8> {
+fn test_image((width, height): (usize, usize)) -> Vec<u8> {
     let rgb = (1..=width * height).map(|i| [1, 2, 3].map(|c| (c * i) as u8)).collect();
     Preview { width, height, rgb }.to_png().expect("encoded")
 }
@@ -48,9 +48,9 @@ fn result(folder: &Path, gain: f32) -> PathBuf {
     let truth = GroundTruth { depth: Some(&depth), instance: Some(&instance), ..GroundTruth::default() };
     write("ground_truth.exr", encode_ground_truth(&truth, &facts).expect("encoded"));
     let parts = [("shot", -2.0), ("signal", 100.0), ("saturated", 0.0)].map(|(name, v)| (name, vec![v; PIXELS]));
-    let parts = parts.each_ref().map(|(name, plane)| ((*name).to_owned(), Layer::Float(plane)));
+    let parts = parts.each_ref().map(|(name, plane)| ((*name).to_owned(), ExrLayer::Float(plane)));
     write("signal_breakdown.0003.exr", encode_layers(SIZE.0, SIZE.1, &parts, &facts).expect("encoded"));
-    write("picture.0003.png", picture(SIZE));
+    write("picture.0003.png", test_image(SIZE));
     let boxes = r#"{"width_px":6,"height_px":4,"objects":[{"id":1,"name":"a </script> ball","visible_box_px":[1,1,3,2],"amodal_box_px":null}]}"#;
     write("boxes.0003.json", boxes.into());
     let side_car =
@@ -74,8 +74,8 @@ fn layer<'a>(facts: &'a Value, result: usize, name: &str) -> &'a Value {
 /// The numbers of a layer: from its script, or from the page itself.
 fn planes(page: &Path, layer: &Value) -> Vec<Vec<f64>> {
     let id = layer["chunk"].as_str().expect("a chunk");
-    let beside = page.with_file_name("data").join(format!("{id}.js"));
-    let text = match fs::read_to_string(&beside) {
+    let data_file = page.with_file_name("data").join(format!("{id}.js"));
+    let text = match fs::read_to_string(&data_file) {
         Ok(script) => script.split('"').nth(3).expect("a text").to_owned(),
         Err(_) => {
             let html = fs::read_to_string(page).expect("a page");
@@ -83,9 +83,9 @@ fn planes(page: &Path, layer: &Value) -> Vec<Vec<f64>> {
             start.split('<').next().expect("its text").to_owned()
         }
     };
-    let said = layer["planes"].as_array().expect("planes");
+    let stored = layer["planes"].as_array().expect("planes");
     let types: Vec<_> =
-        said.iter().map(|p| (p["type"].as_str().expect("a type"), p["scale"].as_f64().unwrap_or(1.0))).collect();
+        stored.iter().map(|p| (p["type"].as_str().expect("a type"), p["scale"].as_f64().unwrap_or(1.0))).collect();
     let pixels = ["width", "height"].map(|key| layer[key].as_u64().expect("a size") as usize);
     unpacked(&text, &types, pixels[0] * pixels[1])
 }
@@ -109,10 +109,10 @@ fn request(folder: &Path) -> ViewRequest {
 fn the_page_has_the_numbers_of_the_files() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = result(&place.path().join("a"), 1.0);
-    let page = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect("a page");
+    let page = view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect("a page");
     assert_eq!(page, folder.join("view/index.html"));
     let one = place.path().join("one.html");
-    view(&request(&folder), Some(&one), Existing::Refuse, &Unobserved).expect("a page");
+    view(&request(&folder), Some(&one), ExistingFiles::Refuse, &Unobserved).expect("a page");
     for page in [page, one] {
         let facts = facts(&page);
         let depth = planes(&page, layer(&facts, 0, "depth")).remove(0);
@@ -128,16 +128,16 @@ fn the_page_has_the_numbers_of_the_files() {
         let light = layer(&facts, 0, "radiance");
         assert_eq!(light["unit"], "W·m⁻²·sr⁻¹·nm⁻¹");
         assert_eq!(light["centres_nm"], serde_json::json!([450.0, 550.0, 650.0]));
-        let found = planes(&page, light);
+        let decoded = planes(&page, light);
         let cube = radiance(1.0);
         let written = cube.planes().iter().map(Plane::samples);
-        for (found, written) in found.iter().zip(written) {
-            for (found, written) in found.iter().zip(written) {
-                assert!((found - f64::from(*written)).abs() <= f64::from(*written) / 2048.0, "{found} for {written}");
+        for (decoded, written) in decoded.iter().zip(written) {
+            for (decoded, written) in decoded.iter().zip(written) {
+                assert!((decoded - f64::from(*written)).abs() <= f64::from(*written) / 2048.0, "{decoded} for {written}");
             }
         }
         assert!(
-            found[3..] == [vec![2.0; PIXELS], vec![2.0; PIXELS], vec![2.0; PIXELS]],
+            decoded[3..] == [vec![2.0; PIXELS], vec![2.0; PIXELS], vec![2.0; PIXELS]],
             "errors are roots of variances"
         );
     }
@@ -147,36 +147,36 @@ fn the_page_has_the_numbers_of_the_files() {
 fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = result(&place.path().join("a"), 1.0);
-    let made = || {
-        view(&request(&folder), None, Existing::Refuse, &Unobserved).expect("a page");
+    let bytes = || {
+        view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect("a page");
         contents(&folder.join("view"))
     };
-    let first = made();
+    let first = bytes();
     assert_eq!(first.len(), 6, "a page and a chunk for each layer with numbers: {:?}", first.keys());
-    assert!(made() == first);
+    assert!(bytes() == first);
     fs::remove_file(folder.join("front/picture.0003.png")).expect("removed");
-    assert_eq!(made().len(), 5, "the chunk of a layer that is gone goes");
+    assert_eq!(bytes().len(), 5, "the chunk of a layer that is gone goes");
     fs::write(folder.join("view/index.html"), "a page of mine").expect("written");
-    let message = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect_err("refused").to_string();
+    let message = view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect_err("refused").to_string();
     assert!(message.contains("already exists") && message.contains("`overwrite`"), "{message}");
     assert_eq!(fs::read_to_string(folder.join("view/index.html")).expect("kept"), "a page of mine");
 }
 
 #[test]
-fn layers_that_are_too_large_have_fewer_pixels_alike_in_both_results() {
+fn layers_that_are_too_large_are_reduced_equally_in_both_results() {
     let place = tempfile::tempdir().expect("temporary folder");
     let write = |name: &str, gain: f32| {
         let folder = place.path().join(name);
         fs::create_dir_all(&folder).expect("made");
         let numbers: Vec<f32> = (0..1000 * 600).map(|i| gain * (i % 1000) as f32).collect();
-        let layers = [("n".to_owned(), Layer::Float(&numbers))];
+        let layers = [("n".to_owned(), ExrLayer::Float(&numbers))];
         fs::write(folder.join("n.exr"), encode_layers(1000, 600, &layers, &Provenance::default()).expect("encoded"))
             .expect("written");
         folder
     };
     let (a, b) = (write("a", 1.0), write("b", 2.0));
     let request = ViewRequest { beside: Some(b), max_mb: 1, ..ViewRequest::new(a) };
-    let page = view(&request, Some(&place.path().join("page.html")), Existing::Refuse, &Unobserved).expect("a page");
+    let page = view(&request, Some(&place.path().join("page.html")), ExistingFiles::Refuse, &Unobserved).expect("a page");
     let facts = facts(&page);
     assert_eq!(facts["results"], serde_json::json!(["a", "b"]));
     for result in [0, 1] {
@@ -194,22 +194,22 @@ fn what_cannot_be_shown_is_refused_and_leaves_nothing() {
     let folder = result(&place.path().join("a"), 1.0);
     let page = place.path().join("page");
     let refused = |request: &ViewRequest| {
-        let message = view(request, Some(&page), Existing::Refuse, &Unobserved).expect_err("refused");
+        let message = view(request, Some(&page), ExistingFiles::Refuse, &Unobserved).expect_err("refused");
         assert!(matches!(message, Error::Input(_)), "{message}");
         assert!(!page.exists(), "nothing is left");
         message.to_string()
     };
     let other = place.path().join("b/front");
     fs::create_dir_all(&other).expect("made");
-    fs::write(other.join("picture.0003.png"), picture((2, 2))).expect("written");
-    let beside = ViewRequest { beside: Some(place.path().join("b")), ..request(&folder) };
-    let message = refused(&beside);
+    fs::write(other.join("picture.0003.png"), test_image((2, 2))).expect("written");
+    let second_request = ViewRequest { beside: Some(place.path().join("b")), ..request(&folder) };
+    let message = refused(&second_request);
     assert!(
         message.contains("picture is 2 × 2 pixels") && message.contains("6 × 4; give results of the same size"),
         "{message}"
     );
     fs::rename(other.join("picture.0003.png"), other.join("picture.0009.png")).expect("renamed");
-    assert!(refused(&beside).contains("no file has the same camera, frame and name as one in"));
+    assert!(refused(&second_request).contains("no file has the same camera, frame and name as one in"));
     let damaged = folder.join("front/radiance.exr");
     let bytes = fs::read(&damaged).expect("readable");
     fs::write(&damaged, &bytes[..bytes.len() / 2]).expect("written");

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use etendue::{Error, ErrorCode, Existing, Message, Observer, Progress, Unit};
+use etendue::{Error, ErrorCode, ExistingFiles, Message, Observer, Progress, ProgressUnit};
 use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
 use serde_json::{Map, Value, json};
 
-use crate::found::{FoundFile, find};
+use crate::found::{ResultFile, find};
 use crate::layer::{Layer, NamedPlane, Role, Samples};
 use crate::pack::{self, packed};
 use crate::page::{Page, is_ours};
@@ -25,7 +25,7 @@ use crate::request::ViewRequest;
 pub fn view(
     request: &ViewRequest,
     page: Option<&Path>,
-    existing: Existing,
+    existing: ExistingFiles,
     observer: &dyn Observer,
 ) -> Result<PathBuf, Error> {
     if request.max_mb == 0 {
@@ -37,11 +37,11 @@ pub fn view(
     let has_two = second.is_some();
     let pairs = paired(first, second.unwrap_or_default());
     if has_two && !pairs.iter().any(|pair| pair.files.iter().all(Option::is_some)) {
-        let beside = request.beside.as_deref().unwrap_or(Path::new("")).display();
+        let second_folder = request.beside.as_deref().unwrap_or(Path::new("")).display();
         return Err(Error::coded(
             ErrorCode::NotComparable,
             format!(
-                "{beside}: no file has the same camera, frame and name as one in {}; give results of the same cameras and frames",
+                "{second_folder}: no file has the same camera, frame and name as one in {}; give results of the same cameras and frames",
                 request.folder.display()
             ),
         ));
@@ -49,22 +49,22 @@ pub fn view(
     let own = request.folder.join("view");
     let (path, existing) = match page {
         Some(page) => (page, existing),
-        None if is_ours(&own) => (own.as_path(), Existing::Replace),
+        None if is_ours(&own) => (own.as_path(), ExistingFiles::Replace),
         None => (own.as_path(), existing),
     };
     let mut build =
-        Build { request, page: Page::open(path, existing)?, layers: Vec::new(), files: Vec::new(), binned: 0 };
+        ViewBuilder { request, page: Page::open(path, existing)?, layers: Vec::new(), files: Vec::new(), binned: 0 };
     for (done, pair) in pairs.iter().enumerate() {
         if observer.cancelled() {
             return Err(Error::run("cancelled; nothing was written"));
         }
-        observer.progress(Progress { heading: "view", frame: None, unit: Unit::Pictures, done, total: pairs.len() });
+        observer.progress(Progress { heading: "view", frame: None, unit: ProgressUnit::Images, done, total: pairs.len() });
         build.pair(pair)?;
     }
     observer.progress(Progress {
         heading: "view",
         frame: None,
-        unit: Unit::Pictures,
+        unit: ProgressUnit::Images,
         done: pairs.len(),
         total: pairs.len(),
     });
@@ -78,7 +78,7 @@ pub fn view(
     build.finish()
 }
 
-struct Build<'a> {
+struct ViewBuilder<'a> {
     request: &'a ViewRequest,
     page: Page,
     layers: Vec<Value>,
@@ -87,10 +87,10 @@ struct Build<'a> {
     binned: usize,
 }
 
-impl Build<'_> {
+impl ViewBuilder<'_> {
     fn pair(&mut self, pair: &FilePair) -> Result<(), Error> {
-        let read = |file: &FoundFile| {
-            let side_car = SideCar::of(file.path.parent().unwrap_or(Path::new("")))?;
+        let read = |file: &ResultFile| {
+            let side_car = SideCar::read(file.path.parent().unwrap_or(Path::new("")))?;
             read::layers(file, &side_car)
         };
         let mut both = Vec::new();
@@ -98,8 +98,8 @@ impl Build<'_> {
             let Some(file) = file else { continue };
             both.push((result, file, read(file)?));
         }
-        if let [(_, a, of_a), (_, b, of_b)] = &both[..] {
-            same_sizes((a, &of_a.layers), (b, &of_b.layers))?;
+        if let [(_, a, layers_a), (_, b, layers_b)] = &both[..] {
+            same_sizes((a, &layers_a.layers), (b, &layers_b.layers))?;
         }
         let steps = self.steps(&both);
         for (result, file, read) in both {
@@ -107,24 +107,24 @@ impl Build<'_> {
             self.files.push(read.facts);
             for layer in read.layers {
                 let step = steps.get(&layer.name).copied().unwrap_or(1);
-                self.layer(Stand { result, place: &pair.place, file, facts }, &layer, step)?;
+                self.layer(LayerPosition { result, place: &pair.place, file, facts }, &layer, step)?;
             }
         }
         Ok(())
     }
 
     /// Downsampling factors of layers: equal in both results.
-    fn steps(&self, both: &[(usize, &FoundFile, FileLayers)]) -> BTreeMap<String, usize> {
+    fn steps(&self, both: &[(usize, &ResultFile, FileLayers)]) -> BTreeMap<String, usize> {
         let mut steps = BTreeMap::new();
         for layer in both.iter().flat_map(|(_, _, read)| &read.layers) {
             let step = pack::factor(layer, self.request.max_mb as usize * 1_000_000);
-            let most = steps.entry(layer.name.clone()).or_insert(1);
-            *most = step.max(*most);
+            let max_step = steps.entry(layer.name.clone()).or_insert(1);
+            *max_step = step.max(*max_step);
         }
         steps
     }
 
-    fn layer(&mut self, stand: Stand<'_>, layer: &Layer, step: usize) -> Result<(), Error> {
+    fn layer(&mut self, position: LayerPosition<'_>, layer: &Layer, step: usize) -> Result<(), Error> {
         self.binned += usize::from(step > 1);
         let planes = pack::planes(layer, step);
         let packed = packed(&planes)?;
@@ -132,7 +132,7 @@ impl Build<'_> {
         if let Some(id) = &chunk {
             self.page.add(id, &packed.text)?;
         }
-        self.layers.push(stand.json(layer, step, &packed, chunk));
+        self.layers.push(position.json(layer, step, &packed, chunk));
         Ok(())
     }
 
@@ -153,21 +153,21 @@ impl Build<'_> {
 }
 
 /// Position of a layer on the page.
-struct Stand<'a> {
+struct LayerPosition<'a> {
     result: usize,
     place: &'a str,
-    file: &'a FoundFile,
+    file: &'a ResultFile,
     facts: usize,
 }
 
-impl Stand<'_> {
-    fn json(&self, layer: &Layer, step: usize, packed: &pack::Packed, chunk: Option<String>) -> Value {
-        let FoundFile { name: file, stem, frame, .. } = self.file;
+impl LayerPosition<'_> {
+    fn json(&self, layer: &Layer, step: usize, packed: &pack::EncodedPlanes, chunk: Option<String>) -> Value {
+        let ResultFile { name: file, stem, frame, .. } = self.file;
         // The same layer in all frames, and in both results.
         let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
         let (width, height) = pack::size(layer, step);
         let planes = layer.planes.iter().zip(&packed.types);
-        let said = json!({
+        let layer_json = json!({
             "result": self.result,
             "place": self.place,
             "frame": frame,
@@ -183,46 +183,46 @@ impl Stand<'_> {
             "height": height,
             "step": step,
             "has_means": layer.has_means(),
-            "planes": planes.map(|(plane, kept)| plane_json(plane, *kept)).collect::<Vec<_>>(),
+            "planes": planes.map(|(plane, encoding_and_scale)| plane_json(plane, *encoding_and_scale)).collect::<Vec<_>>(),
             "chunk": chunk,
             "facts": self.facts,
         });
-        let Value::Object(mut said) = said else { return Value::Null };
-        said.extend(layer.kind.to_json(step > 1));
-        Value::Object(said)
+        let Value::Object(mut layer_json) = layer_json else { return Value::Null };
+        layer_json.extend(layer.kind.to_json(step > 1));
+        Value::Object(layer_json)
     }
 }
 
 /// A plane: its encoding, and the statistics of all its numbers in the file.
-fn plane_json(plane: &NamedPlane, (kept, scale): (&'static str, f64)) -> Map<String, Value> {
-    let of = ChannelReport::of(&plane.name, kept, plane.samples.numbers());
-    let mut said = json!({ "name": plane.name, "type": kept });
+fn plane_json(plane: &NamedPlane, (stored, scale): (&'static str, f64)) -> Map<String, Value> {
+    let channel_report = ChannelReport::new(&plane.name, stored, plane.samples.numbers());
+    let mut object = json!({ "name": plane.name, "type": stored });
     if plane.role == Role::Error {
-        said["is_error"] = json!(true);
-    } else if !matches!(plane.samples, Samples::Whole(_)) || of.max.is_some() {
-        for (key, value) in [("min", of.min), ("mean", of.mean), ("max", of.max)] {
-            said[key] = json!(value);
+        object["is_error"] = json!(true);
+    } else if !matches!(plane.samples, Samples::Integers(_)) || channel_report.max.is_some() {
+        for (key, value) in [("min", channel_report.min), ("mean", channel_report.mean), ("max", channel_report.max)] {
+            object[key] = json!(value);
         }
-        said["nan"] = json!(of.nan_count);
-        said["infinite"] = json!(of.infinite_count);
+        object["nan"] = json!(channel_report.nan_count);
+        object["infinite"] = json!(channel_report.infinite_count);
     }
-    if kept == "f16" {
-        said["scale"] = json!(scale);
+    if stored == "f16" {
+        object["scale"] = json!(scale);
     }
-    let Value::Object(said) = said else { return Map::new() };
-    said
+    let Value::Object(object) = object else { return Map::new() };
+    object
 }
 
 /// Checks that compared layers have the same size.
-fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer])) -> Result<(), Error> {
-    for layer in of_b {
-        let Some(other) = of_a.iter().find(|other| other.name == layer.name) else { continue };
+fn same_sizes((a, layers_a): (&ResultFile, &[Layer]), (b, layers_b): (&ResultFile, &[Layer])) -> Result<(), Error> {
+    for layer in layers_b {
+        let Some(other) = layers_a.iter().find(|other| other.name == layer.name) else { continue };
         if other.size != layer.size {
-            let ([w, h], [of_w, of_h]) = (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
+            let ([w, h], [other_width, other_height]) = (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
             return Err(Error::coded(
                 ErrorCode::NotComparable,
                 format!(
-                    "{}: {} is {w} × {h} pixels, but that of {} is {of_w} × {of_h}; give results of the same size",
+                    "{}: {} is {w} × {h} pixels, but that of {} is {other_width} × {other_height}; give results of the same size",
                     b.path.display(),
                     layer.name,
                     a.path.display()
@@ -234,12 +234,12 @@ fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer
 }
 
 /// The names of the results: the last parts of their paths in which they differ.
-fn names(folder: &Path, beside: Option<&Path>) -> Vec<String> {
+fn names(folder: &Path, second: Option<&Path>) -> Vec<String> {
     let parts = |path: &Path| -> Vec<String> {
-        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-        whole.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
+        let absolute = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        absolute.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
     };
-    let all: Vec<Vec<String>> = [Some(folder), beside].into_iter().flatten().map(parts).collect();
+    let all: Vec<Vec<String>> = [Some(folder), second].into_iter().flatten().map(parts).collect();
     let tail = |parts: &Vec<String>, count: usize| parts[parts.len().saturating_sub(count)..].join("/");
     let longest = all.iter().map(Vec::len).max().unwrap_or(1);
     let differ = |count: &usize| all.len() < 2 || tail(&all[0], *count) != tail(&all[1], *count);

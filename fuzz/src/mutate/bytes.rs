@@ -1,7 +1,7 @@
 //! Changes of bytes.
 
-use super::material::{LONGEST, Material, part};
-use super::numbers::{FLOATS, WHOLE};
+use super::material::{MAX_LENGTH, Material, part};
+use super::numbers::{FLOATS, INTEGERS};
 use crate::random::Random;
 
 /// Changes `input` once.
@@ -36,12 +36,12 @@ fn replace_byte(input: &mut [u8], random: &mut Random) {
 /// A number in the place of as many bytes, in either order.
 fn put_number(input: &mut [u8], random: &mut Random) {
     let bytes = if random.one_in(4) {
-        let float = *random.of(&FLOATS);
+        let float = *random.choose(&FLOATS);
         if random.one_in(2) { float.to_le_bytes().to_vec() } else { (float as f32).to_le_bytes().to_vec() }
     } else {
-        let whole = *random.of(&WHOLE);
+        let integer = *random.choose(&INTEGERS);
         let width = 1 << random.below(4);
-        whole.to_le_bytes()[..width].to_vec()
+        integer.to_le_bytes()[..width].to_vec()
     };
     let at = random.below(input.len());
     let Some(place) = input.get_mut(at..at + bytes.len()) else { return };
@@ -54,15 +54,15 @@ fn put_number(input: &mut [u8], random: &mut Random) {
 fn repeat(input: &mut Vec<u8>, random: &mut Random) {
     let part = part(input.len(), random);
     let copy = input[part.clone()].to_vec();
-    let most = if random.one_in(64) { LONGEST } else { 4096 };
-    let times = random.length(most / copy.len().max(1));
+    let max_length = if random.one_in(64) { MAX_LENGTH } else { 4096 };
+    let times = random.length(max_length / copy.len().max(1));
     let more = copy.repeat(times);
     input.splice(part.end..part.end, more);
 }
 
 /// The beginning of the input and the end of another, or a part of another within it.
 fn splice(input: &mut Vec<u8>, material: Material<'_>, random: &mut Random) {
-    let other = random.of(material.inputs);
+    let other = random.choose(material.inputs);
     if random.one_in(2) {
         input.truncate(random.below(input.len() + 1));
         input.extend_from_slice(&other[random.below(other.len() + 1)..]);
@@ -73,9 +73,9 @@ fn splice(input: &mut Vec<u8>, material: Material<'_>, random: &mut Random) {
 }
 
 fn move_part(input: &mut Vec<u8>, random: &mut Random) {
-    let taken: Vec<u8> = input.drain(part(input.len(), random)).collect();
+    let removed: Vec<u8> = input.drain(part(input.len(), random)).collect();
     let at = random.below(input.len() + 1);
-    input.splice(at..at, taken);
+    input.splice(at..at, removed);
 }
 
 fn noise(input: &mut Vec<u8>, random: &mut Random) {

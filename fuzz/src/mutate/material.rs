@@ -3,7 +3,7 @@
 use crate::random::Random;
 
 /// Longest input, bytes.
-pub(super) const LONGEST: usize = 1 << 20;
+pub(super) const MAX_LENGTH: usize = 1 << 20;
 
 /// What an input is made of.
 #[derive(Clone, Copy, Debug)]

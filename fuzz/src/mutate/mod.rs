@@ -9,7 +9,7 @@ mod text;
 pub use material::Material;
 
 use crate::random::Random;
-use material::LONGEST;
+use material::MAX_LENGTH;
 
 /// Makes inputs; the same seed makes the same.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ impl Mutator {
     /// The next input.
     pub fn next(&mut self, material: Material<'_>) -> Vec<u8> {
         let random = &mut self.random;
-        let mut input = random.of(material.inputs).clone();
+        let mut input = random.choose(material.inputs).clone();
         for _ in 0..random.few().min(12) {
             let as_text = if material.is_text { !random.one_in(4) } else { random.one_in(12) };
             if as_text {
@@ -39,7 +39,7 @@ impl Mutator {
         if !random.one_in(4) {
             png_checksum::correct(&mut input);
         }
-        input.truncate(LONGEST);
+        input.truncate(MAX_LENGTH);
         input
     }
 }

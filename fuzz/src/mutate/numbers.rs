@@ -1,7 +1,7 @@
 //! Numbers at the ends of what readers expect.
 
 /// Whole numbers: counts, lengths, offsets.
-pub(super) const WHOLE: [u64; 24] = [
+pub(super) const INTEGERS: [u64; 24] = [
     0,
     1,
     2,

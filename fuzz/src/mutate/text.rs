@@ -1,6 +1,6 @@
 //! Changes of texts: words, numbers, lines, nesting.
 
-use super::material::{LONGEST, Material, part};
+use super::material::{MAX_LENGTH, Material, part};
 use super::numbers::TEXTS;
 use crate::random::Random;
 use std::ops::Range;
@@ -10,7 +10,7 @@ const NESTING: [(&str, &str); 8] =
     [("[", "]"), ("{", "}"), ("{a=", "}"), ("[[", "]]"), ("{\"a\":", "}"), ("- ", ""), ("a.", ""), ("(", ")")];
 
 /// What editors, systems and mistakes leave in texts.
-const STRANGE: [&[u8]; 14] = [
+const UNUSUAL_BYTES: [&[u8]; 14] = [
     b"\n",
     b"\r\n",
     b"\t",
@@ -58,14 +58,14 @@ fn word(input: &[u8], random: &mut Random) -> Option<Range<usize>> {
 /// A number where one stood, mostly, or a word that the reader knows.
 fn replacement<'a>(old: &[u8], material: Material<'a>, random: &mut Random) -> &'a str {
     let is_number = old.first().is_some_and(|b| b.is_ascii_digit() || matches!(b, b'-' | b'.'));
-    let of_words = if is_number { random.one_in(6) } else { !random.one_in(4) };
-    if of_words && !material.words.is_empty() { random.of::<&str>(material.words) } else { random.of::<&str>(&TEXTS) }
+    let from_words = if is_number { random.one_in(6) } else { !random.one_in(4) };
+    if from_words && !material.words.is_empty() { random.choose::<&str>(material.words) } else { random.choose::<&str>(&TEXTS) }
 }
 
 fn replace_word(input: &mut Vec<u8>, material: Material<'_>, random: &mut Random) {
     let Some(place) = word(input, random) else { return };
     if random.one_in(4) {
-        let other = random.of(material.inputs);
+        let other = random.choose(material.inputs);
         let new = word(other, random).map_or_else(Vec::new, |word| other[word].to_vec());
         input.splice(place, new);
         return;
@@ -106,21 +106,21 @@ fn remove_line(input: &mut Vec<u8>, random: &mut Random) {
 fn copy_line(input: &mut Vec<u8>, random: &mut Random) {
     let place = line(input, random);
     let copy = input[place].to_vec();
-    let most = if random.one_in(64) { LONGEST / copy.len().max(1) } else { 8 };
-    let times = 1 + random.length(most);
+    let max_copies = if random.one_in(64) { MAX_LENGTH / copy.len().max(1) } else { 8 };
+    let times = 1 + random.length(max_copies);
     let to = line(input, random).start;
     input.splice(to..to, copy.repeat(times));
 }
 
 fn line_of_another(input: &mut Vec<u8>, material: Material<'_>, random: &mut Random) {
-    let other = random.of(material.inputs);
+    let other = random.choose(material.inputs);
     let copy = other[line(other, random)].to_vec();
     let to = line(input, random).start;
     input.splice(to..to, copy);
 }
 
 fn nest(input: &mut Vec<u8>, random: &mut Random) {
-    let (open, close) = random.of(&NESTING);
+    let (open, close) = random.choose(&NESTING);
     let deepest = if random.one_in(8) { 100_000 } else { 200 };
     let depth = 1 + random.length(deepest);
     let place = match random.one_in(2) {
@@ -135,15 +135,15 @@ fn nest(input: &mut Vec<u8>, random: &mut Random) {
 
 fn insert_strange(input: &mut Vec<u8>, random: &mut Random) {
     let at = random.below(input.len() + 1);
-    let strange = *random.of(&STRANGE);
+    let strange = *random.choose(&UNUSUAL_BYTES);
     input.splice(at..at, strange.iter().copied());
 }
 
 /// More digits to a number or letters to a word.
 fn grow_number(input: &mut Vec<u8>, random: &mut Random) {
     let Some(place) = word(input, random) else { return };
-    let most = if random.one_in(16) { 100_000 } else { 24 };
+    let max_digits = if random.one_in(16) { 100_000 } else { 24 };
     let copy = input[place.end - 1];
-    let times = random.length(most);
+    let times = random.length(max_digits);
     input.splice(place.end..place.end, std::iter::repeat_n(copy, times));
 }

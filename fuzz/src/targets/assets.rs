@@ -1,7 +1,7 @@
 //! Meshes, lamps, lenses, tables, trajectories.
 
 use super::seeds::{repository, stored, write};
-use super::target::{NUMBERS as PER_NUMBER, RECORDS, SCANNED, TREE, Target, told};
+use super::target::{NUMBERS as PER_NUMBER, RECORDS, SCANNED, TREE, Target, result_text};
 use etendue_io::lens_table::{read_lens_table, read_point_spread};
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
@@ -68,7 +68,7 @@ fn meshes(folder: &Path) -> Vec<Vec<u8>> {
     seeds
 }
 
-pub(super) const OBJ: Target = text_target("obj", "a.obj", meshes, |file| told(read_mesh(file)), MESH_WORDS);
+pub(super) const OBJ: Target = text_target("obj", "a.obj", meshes, |file| result_text(read_mesh(file)), MESH_WORDS);
 const GLTF_WORDS: &[&str] = &[
     "\"meshes\"",
     "\"nodes\"",
@@ -98,13 +98,13 @@ pub(super) const GLB: Target = Target {
         "glb",
         "a.glb",
         |_| repository(["tests/oracles/figures/gltf/scene.glb"]),
-        |file| told(read_mesh(file)),
+        |file| result_text(read_mesh(file)),
         GLTF_WORDS,
     )
 };
 pub(super) const GLTF: Target = Target {
     times: GLTF_TREE,
-    ..text_target("gltf", "a.gltf", |_| stored("gltf"), |file| told(read_mesh(file)), GLTF_WORDS)
+    ..text_target("gltf", "a.gltf", |_| stored("gltf"), |file| result_text(read_mesh(file)), GLTF_WORDS)
 };
 const PLY_WORDS: &[&str] = &[
     "format binary_big_endian 1.0",
@@ -133,12 +133,12 @@ pub(super) const PLY: Target = Target {
             seeds.extend(stored("ply"));
             seeds
         },
-        |file| told(read_mesh(file)),
+        |file| result_text(read_mesh(file)),
         PLY_WORDS,
     )
 };
 pub(super) const MESH_FRAME: Target =
-    text_target("mesh-frame", "a.obj", meshes, |file| told(read_mesh_frame(file)), MESH_WORDS);
+    text_target("mesh-frame", "a.obj", meshes, |file| result_text(read_mesh_frame(file)), MESH_WORDS);
 pub(super) const MTL: Target = Target {
     times: RECORDS,
     ..text_target(
@@ -150,7 +150,7 @@ pub(super) const MTL: Target = Target {
             seeds.extend(stored("mtl"));
             seeds
         },
-        |file| told(read_mesh(&file.with_file_name("tower.obj"))),
+        |file| result_text(read_mesh(&file.with_file_name("tower.obj"))),
         &[
             "newmtl",
             "Kd",
@@ -200,7 +200,7 @@ pub(super) const IES: Target = Target {
             seeds.extend(stored("ies"));
             seeds
         },
-        |file| told(read_photometry(file)),
+        |file| result_text(read_photometry(file)),
         LAMP_WORDS,
     )
 };
@@ -210,7 +210,7 @@ pub(super) const LDT: Target = Target {
         "ldt",
         "a.ldt",
         |_| repository(["tests/oracles/figures/lamps/round.ldt", "tests/oracles/figures/lamps/quadrants.ldt"]),
-        |file| told(read_photometry(file)),
+        |file| result_text(read_photometry(file)),
         LAMP_WORDS,
     )
 };
@@ -229,7 +229,7 @@ pub(super) const ZMX: Target = Target {
             seeds.push(wide);
             seeds
         },
-        |file| told(read_prescription(file)),
+        |file| result_text(read_prescription(file)),
         &[
             "SURF",
             "STOP",
@@ -252,7 +252,7 @@ pub(super) const SEQ: Target = Target {
         "seq",
         "a.seq",
         |_| stored("seq"),
-        |file| told(read_prescription(file)),
+        |file| result_text(read_prescription(file)),
         &[
             "S", "SO", "SI", "STO", "ASP", "K", "A", "PRV", "PWL", "END", "CIR", "&", ";", "REFL", "GO", "RDM", "CUY",
             "THI", "FNO", "NAO",
@@ -268,8 +268,8 @@ pub(super) const FIELD_TABLE: Target = Target {
         |_| stored("field-table"),
         |file| {
             let quantities = [LensQuantity::RelativeIllumination, LensQuantity::Distortion, LensQuantity::Modulation];
-            let tables = quantities.map(|quantity| told(read_lens_table(file, quantity)));
-            [tables.join("; "), told(read_point_spread(file))].join("; ")
+            let tables = quantities.map(|quantity| result_text(read_lens_table(file, quantity)));
+            [tables.join("; "), result_text(read_point_spread(file))].join("; ")
         },
         &[
             "Relative Illumination",
@@ -301,7 +301,7 @@ pub(super) const RAY_TRANSFER: Target = Target {
         "ray-transfer",
         "a.json",
         |_| repository(["scenes/lenses/dgauss28deg-zemax-poly6-raytransfer.json"]),
-        |file| told(read_ray_transfer(file)),
+        |file| result_text(read_ray_transfer(file)),
         &[
             "\"planeoffset\": 0.1",
             "\"raypass\"",
@@ -335,15 +335,15 @@ pub(super) const SPECTRUM: Target = text_target(
     "spectrum",
     "a.csv",
     tables,
-    |file| told(read_spectrum(file)) + &told(etendue_io::inspect::inspect(file)),
+    |file| result_text(read_spectrum(file)) + &result_text(etendue_io::inspect::inspect(file)),
     TABLE_WORDS,
 );
 pub(super) const COMPLEX_INDEX: Target =
-    text_target("complex-index", "a.csv", tables, |file| told(read_complex_index(file)), TABLE_WORDS);
+    text_target("complex-index", "a.csv", tables, |file| result_text(read_complex_index(file)), TABLE_WORDS);
 pub(super) const RETRO_TABLE: Target =
-    text_target("retro-table", "a.csv", tables, |file| told(read_retro_table(file)), TABLE_WORDS);
+    text_target("retro-table", "a.csv", tables, |file| result_text(read_retro_table(file)), TABLE_WORDS);
 pub(super) const NUMBERS: Target =
-    text_target("numbers", "a.csv", tables, |file| told(read_numbers(file)), TABLE_WORDS);
+    text_target("numbers", "a.csv", tables, |file| result_text(read_numbers(file)), TABLE_WORDS);
 
 const TRAJECTORY_WORDS: &[&str] = &[
     "time_s",
@@ -374,7 +374,7 @@ pub(super) const TRAJECTORY_CSV: Target = text_target(
         seeds.push(b"time_s x_m y_m z_m qx qy qz qw\n10.25 1 -2 0.5 0 0 0.7071067811865475 0.7071067811865475\n11 4.5 -2 0.5 0 0 0 1\n".to_vec());
         seeds
     },
-    |file| told(read_trajectory(file)),
+    |file| result_text(read_trajectory(file)),
     TRAJECTORY_WORDS,
 );
 pub(super) const TRAJECTORY_JSON: Target = Target {
@@ -385,7 +385,7 @@ pub(super) const TRAJECTORY_JSON: Target = Target {
         |_| {
             vec![b"[{\"time_s\": 10.25, \"x_m\": 1, \"y_m\": -2.0, \"z_m\": 0.5, \"speed_m_s\": {\"a\": 1},\n\"note\": \"}[\\\"{\",\n\"qw\": 0.7, \"qx\": 0, \"qy\": 0, \"qz\": 0.7},\n{\"time_s\": 11, \"x_m\": 4.5, \"y_m\": -2, \"z_m\": 0.5, \"qw\": 1, \"qx\": 0, \"qy\": 0, \"qz\": 0}]".to_vec()]
         },
-        |file| told(read_trajectory(file)),
+        |file| result_text(read_trajectory(file)),
         TRAJECTORY_WORDS,
     )
 };

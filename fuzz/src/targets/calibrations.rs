@@ -1,7 +1,7 @@
 //! Calibrated cameras of other programs.
 
 use super::seeds::{repository, stored};
-use super::target::{SCANNED, Target, told};
+use super::target::{SCANNED, Target, result_text};
 use etendue_io::calibration::{CalibrationFormat, read_calibration};
 use std::path::Path;
 
@@ -46,7 +46,7 @@ const fn target(
 
 /// Reads the camera of every name that is tried.
 fn read(file: &Path, format: CalibrationFormat, cameras: &[Option<&str>]) -> String {
-    cameras.iter().map(|camera| told(read_calibration(file, format, *camera)) + "; ").collect()
+    cameras.iter().map(|camera| result_text(read_calibration(file, format, *camera)) + "; ").collect()
 }
 
 pub(super) const OPENCV: Target = target(

@@ -1,8 +1,8 @@
 //! Jobs, scenes, cameras, weather, variations, data sheets, changes of keys, and whole plans.
 
 use super::seeds::{repository, stored, write};
-use super::target::{TREE, Target, told};
-use etendue::{Existing, JobRequest, TextureMemory, Unobserved};
+use super::target::{TREE, Target, result_text};
+use etendue::{ExistingFiles, JobRequest, TextureMemory, Unobserved};
 use etendue_scene::limits::DESCRIPTION;
 use etendue_scene::{Description, Overrides, Problem, load_camera, load_datasheet, load_variations, load_weather};
 use std::path::Path;
@@ -50,7 +50,7 @@ fn job(file: &Path) -> String {
     if let Ok(description) = &read {
         let _ = (description.assets(), description.to_table());
     }
-    told(read)
+    result_text(read)
 }
 
 fn neighbours(folder: &Path) {
@@ -121,7 +121,7 @@ pub(super) const CAMERA: Target = Target {
             "scenes/cameras/calibrated.toml",
         ])
     },
-    read: |file| told(load_camera(file, &text, &Overrides::default())),
+    read: |file| result_text(load_camera(file, &text, &Overrides::default())),
     words: WORDS,
     is_text: true,
     times: TREE,
@@ -132,7 +132,7 @@ pub(super) const WEATHER: Target = Target {
     name: "weather",
     file: "weather.toml",
     prepare: |_| repository(["scenes/weather/koschmieder.toml", "scenes/weather/streaks.toml"]),
-    read: |file| told(load_weather(file, &text)),
+    read: |file| result_text(load_weather(file, &text)),
     words: WORDS,
     is_text: true,
     times: TREE,
@@ -143,7 +143,7 @@ pub(super) const VARIATIONS: Target = Target {
     name: "variations",
     file: "variations.toml",
     prepare: |_| repository(["scenes/datasets/boxes.toml", "scenes/datasets/drive.toml"]),
-    read: |file| told(load_variations(file, &text)),
+    read: |file| result_text(load_variations(file, &text)),
     words: WORDS,
     is_text: true,
     times: TREE,
@@ -157,9 +157,9 @@ pub(super) const DATASHEET: Target = Target {
     read: |file| match load_datasheet(file, &text) {
         Ok(_) => {
             let out = file.with_file_name("camera");
-            told(etendue::datasheet(file, &out, Existing::Replace, &Unobserved))
+            result_text(etendue::datasheet(file, &out, ExistingFiles::Replace, &Unobserved))
         }
-        refused => told(refused),
+        refused => result_text(refused),
     },
     words: WORDS,
     is_text: true,
@@ -182,7 +182,7 @@ pub(super) const SET: Target = Target {
     },
     read: |file| {
         let Ok(changes) = text(file) else { return "no text".to_owned() };
-        told(Description::load(&file.with_file_name("job.toml"), &text, &Overrides::new(changes.lines())))
+        result_text(Description::load(&file.with_file_name("job.toml"), &text, &Overrides::new(changes.lines())))
     },
     words: &[
         "scene.",

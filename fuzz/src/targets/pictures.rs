@@ -1,13 +1,13 @@
 //! Pictures: as textures, as photographs to be measured, as files to be looked into.
 
 use super::seeds::{repository, stored};
-use super::target::{Target, told};
+use super::target::{Target, result_text};
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::exr::read_spectral;
 use etendue_io::inspect::inspect;
 use etendue_io::photograph::read_photograph;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_io::tiff::{DngFacts, encode_dng, encode_raw_tiff};
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use std::path::Path;
 const CONSTANT: u64 = 3 << 30;
 
 fn read(file: &Path) -> String {
-    [told(read_picture(file)), told(read_photograph(file)), told(inspect(file))].join("; ")
+    [result_text(read_image(file)), result_text(read_photograph(file)), result_text(inspect(file))].join("; ")
 }
 
 /// A kind of picture with its seeds.
@@ -60,7 +60,7 @@ pub(super) const SPECTRAL_EXR: Target = target(
     "spectral-exr",
     "a.exr",
     |_| repository(["tests/oracles/figures/spectral.exr", "tests/oracles/figures/other_writer.exr"]),
-    |file| told(read_spectral(file)) + &told(inspect(file)),
+    |file| result_text(read_spectral(file)) + &result_text(inspect(file)),
     EXR_WORDS,
 );
 pub(super) const PNG: Target = target(
@@ -130,7 +130,7 @@ pub(super) const FLO: Target = target(
     "flo",
     "a.flo",
     |_| vec![[b"PIEH".as_slice(), &2_i32.to_le_bytes(), &1_i32.to_le_bytes(), &[0; 16]].concat()],
-    |file| told(inspect(file)),
+    |file| result_text(inspect(file)),
     &["PIEH"],
 );
 

@@ -1,9 +1,9 @@
 //! Files of this program and of measurements: side-cars, descriptors, lists of points, truths, films of shards.
 
 use super::seeds::{repository, stored, write};
-use super::target::{RECORDS, TREE, Target, told};
+use super::target::{RECORDS, TREE, Target, result_text};
 use etendue::measure::{DistortionRequest, SfrRequest, distortion, sfr};
-use etendue::{Existing, Job, RenderOptions, ShardRequest, ShardSpec, Simd, Unobserved, merge};
+use etendue::{ExistingFiles, Job, RenderOptions, ShardRequest, ShardSpec, Simd, Unobserved, merge};
 use etendue_io::emva_descriptor::read_emva_descriptor;
 use etendue_io::inspect::inspect;
 use etendue_io::photograph::read_photograph;
@@ -16,11 +16,11 @@ pub(super) const SIDE_CAR: Target = Target {
     name: "side-car",
     file: "camera.json",
     prepare: |folder| {
-        let [picture] = repository(["crates/cli/tests/jobs/small/checker.png"]).try_into().expect("one file");
-        write(folder, "raw.0000.png", picture);
+        let [image] = repository(["crates/cli/tests/jobs/small/checker.png"]).try_into().expect("one file");
+        write(folder, "raw.0000.png", image);
         stored("side-car")
     },
-    read: |file| told(read_photograph(&file.with_file_name("raw.0000.png"))) + "; " + &told(inspect(file)),
+    read: |file| result_text(read_photograph(&file.with_file_name("raw.0000.png"))) + "; " + &result_text(inspect(file)),
     words: &[
         "{",
         "}",
@@ -46,7 +46,7 @@ pub(super) const EMVA: Target = Target {
     prepare: |_| {
         vec![b"v 4.0\n# light\nn 12 64 48\nb 1000000,0 250.5\ni images\\a 1.png\ni images/b.png\nd 1000000.0\ni c.png\ni d.png\ni e.png\n".to_vec()]
     },
-    read: |file| told(read_emva_descriptor(file)),
+    read: |file| result_text(read_emva_descriptor(file)),
     words: &["v", "n", "b", "d", "i", "#"],
     is_text: true,
     times: RECORDS,
@@ -67,7 +67,7 @@ pub(super) const POINTS: Target = Target {
     read: |file| {
         let mut request = DistortionRequest::new(file);
         request.chart.size_px = Some([320, 200]);
-        told(distortion(&request))
+        result_text(distortion(&request))
     },
     words: &["column", "row", "x_px", "y_px", "uncertainty_px", "9999", "10000"],
     is_text: true,
@@ -80,14 +80,14 @@ pub(super) const TRUTH: Target = Target {
     name: "truth",
     file: "truth.json",
     prepare: |folder| {
-        let [picture] = repository(["crates/cli/tests/jobs/small/checker.png"]).try_into().expect("one file");
-        write(folder, "edge.png", picture);
+        let [image] = repository(["crates/cli/tests/jobs/small/checker.png"]).try_into().expect("one file");
+        write(folder, "edge.png", image);
         stored("truth")
     },
     read: |file| {
         let mut request = SfrRequest::new(file.with_file_name("edge.png"));
         request.input.truth.truth = Some(file.to_owned());
-        told(sfr(&request))
+        result_text(sfr(&request))
     },
     words: &[
         "null",
@@ -114,17 +114,17 @@ const JOB: &str = "format = 1\n[scene.environment]\ntype = \"uniform\"\nluminanc
 fn shard(folder: &Path) -> [Vec<u8>; 2] {
     write(folder, "job.toml", JOB);
     let job = Job::open(folder.join("job.toml")).expect("the job is legal");
-    let whole = ShardRequest::whole(ShardSpec { index: 0, count: 1 }, 0..1);
-    job.save_shard(&whole, RenderOptions::default().simd, folder, Existing::Replace, &Unobserved).expect("a shard");
+    let all_frames = ShardRequest::all_films(ShardSpec { index: 0, count: 1 }, 0..1);
+    job.save_shard(&all_frames, RenderOptions::default().simd, folder, ExistingFiles::Replace, &Unobserved).expect("a shard");
     ["front.film.exr", "shard.json"].map(|name| fs::read(folder.join(name)).expect("of the shard"))
 }
 
 fn merged(file: &Path) -> String {
     let folder = file.parent().expect("a folder");
     let out = folder.join("out");
-    let told = told(merge(&[folder.to_owned()], None, Simd::Scalar, &out, Existing::Replace, &Unobserved));
+    let text = result_text(merge(&[folder.to_owned()], None, Simd::Scalar, &out, ExistingFiles::Replace, &Unobserved));
     let _ = fs::remove_dir_all(&out);
-    told
+    text
 }
 
 pub(super) const FILM: Target = Target {

@@ -2,13 +2,13 @@
 
 use super::assets::{GLTF, text_target};
 use super::seeds::{repository, stored, write};
-use super::target::{TREE, Target, told};
+use super::target::{TREE, Target, result_text};
 use std::path::Path;
 
 pub(super) fn imported(file: &Path) -> String {
-    let made = file.with_file_name("made");
+    let out_folder = file.with_file_name("made");
     let request = etendue::ImportRequest { file: file.to_path_buf(), ..Default::default() };
-    told(etendue::import(&request, &made, etendue::Existing::Replace, &etendue::Unobserved))
+    result_text(etendue::import(&request, &out_folder, etendue::ExistingFiles::Replace, &etendue::Unobserved))
 }
 
 const PBRT_WORDS: &[&str] = &[
@@ -89,14 +89,14 @@ pub(super) const MITSUBA: Target = Target {
         "mitsuba",
         "a.xml",
         |folder| {
-            let beside = ["cornell-surfaces.xml", "studio.exr", "letter.png", "post.obj"];
+            let neighbours = ["cornell-surfaces.xml", "studio.exr", "letter.png", "post.obj"];
             let contents = repository([
                 "scenes/import/cornell-surfaces.xml",
                 "scenes/import/studio.exr",
                 "scenes/import/letter.png",
                 "scenes/import/post.obj",
             ]);
-            beside.iter().zip(contents).for_each(|(name, bytes)| write(folder, name, bytes));
+            neighbours.iter().zip(contents).for_each(|(name, bytes)| write(folder, name, bytes));
             repository([
                 "scenes/import/cornell.xml",
                 "scenes/import/studio.xml",

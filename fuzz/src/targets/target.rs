@@ -27,7 +27,7 @@ pub struct Target {
 impl Target {
     /// Memory that it may hold at a time for an input of this length, bytes.
     #[must_use]
-    pub fn most_bytes(&self, length: usize) -> u64 {
+    pub fn max_bytes(&self, length: usize) -> u64 {
         self.times * length as u64 + self.constant_bytes
     }
 }
@@ -42,7 +42,7 @@ pub(super) const RECORDS: u64 = 64;
 pub(super) const NUMBERS: u64 = 25;
 
 /// What a reader said, in words.
-pub(super) fn told<T, E: Display>(result: Result<T, E>) -> String {
+pub(super) fn result_text<T, E: Display>(result: Result<T, E>) -> String {
     match result {
         Ok(_) => "read".to_owned(),
         Err(error) => error.to_string(),

@@ -33,9 +33,9 @@ const USD_WORDS: &[&str] = &[
 ];
 
 fn usd_seeds(folder: &Path) -> Vec<Vec<u8>> {
-    let beside = ["kinds-prop.usda", "letter.png"];
+    let neighbours = ["kinds-prop.usda", "letter.png"];
     let contents = repository(["scenes/import/kinds-prop.usda", "scenes/import/letter.png"]);
-    beside.iter().zip(contents).for_each(|(name, bytes)| write(folder, name, bytes));
+    neighbours.iter().zip(contents).for_each(|(name, bytes)| write(folder, name, bytes));
     repository(["scenes/import/kinds.usda", "scenes/import/kinds.usdc", "scenes/import/table.usda"])
 }
 

@@ -61,8 +61,8 @@ fn a_reader_holds_a_stated_multiple_of_its_file() {
         ("truth", dense("{\"a\":[", "[],", "1]}")),
         ("trajectory-json", dense("[", "{\"time_s\":1},", "{}]")),
     ];
-    let mut faults = Vec::new();
-    let mut told = String::new();
+    let mut findings = Vec::new();
+    let mut table_text = String::new();
     for (name, input) in inputs {
         let target = target(name).expect("a target");
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -70,15 +70,15 @@ fn a_reader_holds_a_stated_multiple_of_its_file() {
         let file = folder.path().join(target.file);
         fs::write(&file, &input).expect("written");
         let attempt = attempt(target, &file);
-        told += &format!(
+        table_text += &format!(
             "{name} {:.1} {:.2} {}\n",
             attempt.peak_bytes as f64 / input.len() as f64,
             attempt.time_s,
-            attempt.way()
+            attempt.path()
         );
-        if attempt.peak_bytes > target.most_bytes(input.len()) {
-            faults.push(format!("{name}: {} bytes", attempt.peak_bytes));
+        if attempt.peak_bytes > target.max_bytes(input.len()) {
+            findings.push(format!("{name}: {} bytes", attempt.peak_bytes));
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}\n{told}");
+    assert!(findings.is_empty(), "{findings:#?}\n{table_text}");
 }

@@ -31,7 +31,7 @@ pub type Material = (&'static str, Surface);
 
 /// Where an instance stands: position, m, yaw, degrees, and scale.
 #[derive(Clone, Copy, Debug)]
-pub struct Spot {
+pub struct Placement {
     /// Position, m.
     pub at: DVec3,
     /// Turn about the vertical, degrees.
@@ -40,7 +40,7 @@ pub struct Spot {
     pub scale: f64,
 }
 
-impl Spot {
+impl Placement {
     /// A place of natural size.
     #[must_use]
     pub fn new(x: f64, y: f64, z: f64, yaw_deg: f64) -> Self {
@@ -60,7 +60,7 @@ pub struct Object {
     /// Materials of slots, where they are not named like the slot.
     pub dress: Vec<(&'static str, &'static str)>,
     /// Where it stands.
-    pub spots: Vec<Spot>,
+    pub spots: Vec<Placement>,
 }
 
 /// Everything of a generated scene.
@@ -95,7 +95,7 @@ impl Description {
     }
 
     /// An object named like its mesh, whose materials are named like its slots.
-    pub fn object(&mut self, mesh: &'static str, class: &'static str, spots: Vec<Spot>) {
+    pub fn object(&mut self, mesh: &'static str, class: &'static str, spots: Vec<Placement>) {
         self.dressed(mesh.to_owned(), mesh, class, Vec::new(), spots);
     }
 
@@ -106,7 +106,7 @@ impl Description {
         mesh: &'static str,
         class: &'static str,
         dress: Vec<(&'static str, &'static str)>,
-        spots: Vec<Spot>,
+        spots: Vec<Placement>,
     ) {
         self.objects.push(Object { name, mesh, class, dress, spots });
     }
@@ -198,11 +198,11 @@ impl Description {
     /// Triangles in the files, and triangles in the scene with every instance counted.
     #[must_use]
     pub fn triangle_counts(&self) -> [usize; 2] {
-        let of = |name: &str| {
+        let triangles_of = |name: &str| {
             self.meshes.iter().find(|(known, _)| *known == name).map_or(0, |(_, mesh)| mesh.triangle_count())
         };
         let unique = self.meshes.iter().map(|(_, mesh)| mesh.triangle_count()).sum();
-        [unique, self.objects.iter().map(|object| object.spots.len() * of(object.mesh)).sum()]
+        [unique, self.objects.iter().map(|object| object.spots.len() * triangles_of(object.mesh)).sum()]
     }
 }
 
@@ -228,7 +228,7 @@ fn surface_text(surface: Surface) -> String {
     }
 }
 
-fn spot_text(spot: Spot) -> String {
+fn spot_text(spot: Placement) -> String {
     let [x, y, z] = spot.at.to_array().map(number);
     let mut text = format!("{{ position_m = [{x}, {y}, {z}]");
     if spot.yaw_deg != 0.0 {

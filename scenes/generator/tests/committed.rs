@@ -24,11 +24,11 @@ fn committed_files_are_those_of_the_generator() {
 
 #[test]
 fn nothing_else_lies_in_generated_folders() {
-    let made: Vec<PathBuf> = etendue_scenes::files().iter().map(|file| scenes().join(&file.path)).collect();
+    let generated: Vec<PathBuf> = etendue_scenes::files().iter().map(|file| scenes().join(&file.path)).collect();
     for folder in ["street", "street/meshes", "street/textures", "drive"] {
         for entry in std::fs::read_dir(scenes().join(folder)).expect("the street is committed") {
             let path = entry.expect("a folder can be listed").path();
-            assert!(path.is_dir() || made.contains(&path), "{} is left over", path.display());
+            assert!(path.is_dir() || generated.contains(&path), "{} is left over", path.display());
         }
     }
 }
@@ -65,7 +65,7 @@ fn jobs_can_be_read() {
     ];
     for job in jobs {
         let description = Description::load(&scenes().join(job), &read, &Overrides::default());
-        let description = description.unwrap_or_else(|faults| panic!("{job}: {faults}"));
+        let description = description.unwrap_or_else(|errors| panic!("{job}: {errors}"));
         for asset in description.assets() {
             assert!(asset.path.is_file(), "{job} names {}, which is not there", asset.path.display());
         }
@@ -76,6 +76,6 @@ fn jobs_can_be_read() {
 fn cameras_can_be_read() {
     for camera in ["automotive", "laboratory", "double-gauss", "fisheye", "calibrated"] {
         let file = scenes().join(format!("cameras/{camera}.toml"));
-        load_camera(&file, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{camera}: {faults}"));
+        load_camera(&file, &read, &Overrides::default()).unwrap_or_else(|errors| panic!("{camera}: {errors}"));
     }
 }

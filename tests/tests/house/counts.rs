@@ -4,8 +4,8 @@ use crate::circles::tokens::{self, Token};
 use crate::texts;
 
 /// A figure of the repository and its limit.
-struct Count {
-    what: &'static str,
+struct RepositoryFigure {
+    name: &'static str,
     value: usize,
     limit: usize,
 }
@@ -99,8 +99,8 @@ fn has_tuple(parameters: &[Token]) -> bool {
 
 /// Asserts that every figure is within its limit.
 #[track_caller]
-fn check(counts: &[Count]) {
-    let table: Vec<String> = counts.iter().map(|c| format!("{}: {} (at most {})", c.what, c.value, c.limit)).collect();
+fn check(counts: &[RepositoryFigure]) {
+    let table: Vec<String> = counts.iter().map(|c| format!("{}: {} (at most {})", c.name, c.value, c.limit)).collect();
     assert!(counts.iter().all(|count| count.value <= count.limit), "{}", table.join("\n"));
 }
 
@@ -114,9 +114,9 @@ fn figures_of_the_code_base_do_not_rise() {
     let uses: usize = lines.iter().map(|lines| use_lines(lines)).sum();
     let tuples: usize = sources.iter().map(|(_, text)| tuple_functions(&tokens::read(text).0)).sum();
     let counts = [
-        Count { what: "functions with a tuple parameter", value: tuples, limit: 10 },
-        Count { what: "files of under 40 lines of code, ‰", value: 1000 * short / sources.len(), limit: 170 },
-        Count { what: "lines of code that are `use`, ‰", value: 1000 * uses / all, limit: 54 },
+        RepositoryFigure { name: "functions with a tuple parameter", value: tuples, limit: 10 },
+        RepositoryFigure { name: "files of under 40 lines of code, ‰", value: 1000 * short / sources.len(), limit: 170 },
+        RepositoryFigure { name: "lines of code that are `use`, ‰", value: 1000 * uses / all, limit: 54 },
     ];
     check(&counts);
 }
@@ -130,9 +130,9 @@ fn pages_do_not_grow() {
         counted.map(|(_, text)| text.split_ascii_whitespace().count()).sum::<usize>()
     };
     let counts = [
-        Count { what: "words of all pages", value: words(&|_| true), limit: 115_000 },
-        Count {
-            what: "words of the book",
+        RepositoryFigure { name: "words of all pages", value: words(&|_| true), limit: 115_000 },
+        RepositoryFigure {
+            name: "words of the book",
             value: words(&|name| name.starts_with("docs/") && !name.starts_with("docs/evidence/")),
             limit: 93_000,
         },

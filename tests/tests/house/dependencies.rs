@@ -80,21 +80,21 @@ fn every_licence_is_one_of_the_policy() {
         .output()
         .expect("cargo metadata runs");
     let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo metadata prints JSON");
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for package in metadata["packages"].as_array().expect("packages") {
         let licence = package["license"].as_str().unwrap_or("none is stated");
         if !is_allowed(licence, &allowed) {
-            faults.push(format!("{}: {licence}", package["name"]));
+            violations.push(format!("{}: {licence}", package["name"]));
         }
     }
-    assert!(faults.is_empty(), "licences that deny.toml does not allow: {faults:?}");
+    assert!(violations.is_empty(), "licences that deny.toml does not allow: {violations:?}");
 }
 
 #[test]
 fn expressions_of_licences_are_read() {
     let allowed = BTreeSet::from(["MIT", "Zlib"].map(str::to_owned));
-    for legal in ["MIT", "MIT/X", "X OR MIT", "(X OR MIT) AND Zlib", "MIT WITH E OR X", "X AND Y OR Zlib"] {
-        assert!(is_allowed(legal, &allowed), "{legal}");
+    for valid in ["MIT", "MIT/X", "X OR MIT", "(X OR MIT) AND Zlib", "MIT WITH E OR X", "X AND Y OR Zlib"] {
+        assert!(is_allowed(valid, &allowed), "{valid}");
     }
     for illegal in ["X", "MIT AND X", "(MIT OR X) AND Y", "", "(MIT", "MIT Zlib"] {
         assert!(!is_allowed(illegal, &allowed), "{illegal}");
@@ -105,8 +105,8 @@ fn expressions_of_licences_are_read() {
 fn everything_comes_from_the_registry_of_the_policy() {
     let allowed: BTreeSet<String> = policy("allow-registry").iter().map(|index| format!("registry+{index}")).collect();
     let strange = |source: &String| !allowed.contains(source);
-    let faults: Vec<_> = locked().into_iter().filter(|(_, _, source)| source.as_ref().is_some_and(strange)).collect();
-    assert!(faults.is_empty(), "{faults:?}");
+    let violations: Vec<_> = locked().into_iter().filter(|(_, _, source)| source.as_ref().is_some_and(strange)).collect();
+    assert!(violations.is_empty(), "{violations:?}");
 }
 
 #[test]

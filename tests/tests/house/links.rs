@@ -47,8 +47,8 @@ fn slug(heading: &str) -> String {
 fn anchors(page: &str) -> HashSet<String> {
     let headings = lines(page).filter(|line| line.starts_with('#'));
     let own = headings.map(|line| slug(line.trim_start_matches('#').trim()));
-    let given = page.split("<a id=\"").skip(1).filter_map(|rest| rest.split('"').next()).map(str::to_owned);
-    own.chain(given).collect()
+    let explicit = page.split("<a id=\"").skip(1).filter_map(|rest| rest.split('"').next()).map(str::to_owned);
+    own.chain(explicit).collect()
 }
 
 /// The path without `..`.
@@ -65,7 +65,7 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 /// Why a page's link leads nowhere, if so.
-fn fault(page: &str, link: &str) -> Option<String> {
+fn link_error(page: &str, link: &str) -> Option<String> {
     let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
     let target = match path {
         "" => root().join(page),
@@ -80,16 +80,16 @@ fn fault(page: &str, link: &str) -> Option<String> {
 
 #[test]
 fn every_link_leads_somewhere() {
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     let mut count = 0;
     for page in files(&[".md"]) {
         let Ok(text) = std::fs::read_to_string(root().join(&page)) else { continue };
         let links = links(&text);
         count += links.len();
-        faults.extend(links.iter().filter_map(|link| fault(&page, link)));
+        violations.extend(links.iter().filter_map(|link| link_error(&page, link)));
     }
     assert!(count > 200, "{count} links");
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// The book (`just book`) lists every page of docs once. The pages of docs/evidence are outside the book.
@@ -109,21 +109,21 @@ fn the_book_lists_every_page() {
 #[test]
 fn pages_that_code_names_are_there() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for file in files(&[".rs", ".toml", ".py", ".md"]) {
         let Ok(text) = std::fs::read_to_string(root().join(&file)) else { continue };
         let words = text.split(|c| !is_part(c)).map(|word| word.trim_end_matches('.'));
         let pages = words.filter(|word| word.starts_with("docs/") && word.ends_with(".md"));
-        faults.extend(pages.filter(|page| !root().join(page).exists()).map(|page| format!("{file}: {page}")));
+        violations.extend(pages.filter(|page| !root().join(page).exists()).map(|page| format!("{file}: {page}")));
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 #[test]
 fn a_link_to_nowhere_is_found() {
     assert_eq!(slug("<a id=\"x\"></a>Presets of `[[materials]]`"), "presets-of-materials");
     assert_eq!(links("[a](b.md#c), `[[x]](y)`, [`[d]`](#e)\n```\n[f](g)\n```\n"), ["b.md#c", "#e"]);
-    assert!(fault("README.md", "docs/scene-format.md#units").is_none());
-    assert!(fault("README.md", "docs/scene-format.md#nowhere").is_some());
-    assert!(fault("docs/format/job.md", "../nothing.md").is_some());
+    assert!(link_error("README.md", "docs/scene-format.md#units").is_none());
+    assert!(link_error("README.md", "docs/scene-format.md#nowhere").is_some());
+    assert!(link_error("docs/format/job.md", "../nothing.md").is_some());
 }

@@ -70,7 +70,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// Libraries that matter, and the only crates that may use them.
-const KEEPERS: &[(&str, &[&str])] = &[
+const RESTRICTED_LIBRARIES: &[(&str, &[&str])] = &[
     ("obvhs", &["tracer"]),
     ("exr", &["io"]),
     ("image", &["io", "scenes"]),
@@ -119,14 +119,14 @@ fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
 fn crates_use_only_what_the_architecture_allows() {
     let dependencies = dependencies();
     let workspace: BTreeSet<&str> = dependencies.keys().map(String::as_str).collect();
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, allowed) in ARROWS {
         let used = dependencies.get(*name).unwrap_or_else(|| panic!("crate {name} is in the table but not there"));
         for arrow in used.iter().filter(|u| workspace.contains(u.as_str()) && !allowed.contains(&u.as_str())) {
-            faults.push(format!("{name} → {arrow}"));
+            violations.push(format!("{name} → {arrow}"));
         }
     }
-    assert!(faults.is_empty(), "arrows that are not in the table: {faults:?}");
+    assert!(violations.is_empty(), "arrows that are not in the table: {violations:?}");
     let listed: BTreeSet<&str> = ARROWS
         .iter()
         .map(|(name, _)| *name)
@@ -137,46 +137,46 @@ fn crates_use_only_what_the_architecture_allows() {
 
 #[test]
 fn libraries_stay_with_their_keepers() {
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, used) in dependencies() {
-        for (library, keepers) in KEEPERS {
+        for (library, keepers) in RESTRICTED_LIBRARIES {
             if used.contains(*library) && !keepers.contains(&name.as_str()) && name != "benches" {
-                faults.push(format!("{name} uses {library}"));
+                violations.push(format!("{name} uses {library}"));
             }
         }
     }
-    assert!(faults.is_empty(), "{faults:?}");
+    assert!(violations.is_empty(), "{violations:?}");
 }
 
 #[test]
 fn files_stay_readable_and_never_a_drawer() {
-    const LONGEST: usize = 450;
+    const MAX_FILE_LINES: usize = 450;
     let drawers = ["utils.rs", "util.rs", "common.rs", "helpers.rs", "misc.rs"];
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in texts(&[".rs"]) {
         let lines = text.lines().count();
-        if lines > LONGEST {
-            faults.push(format!("{name}: {lines} lines, more than {LONGEST}: one concept a file"));
+        if lines > MAX_FILE_LINES {
+            violations.push(format!("{name}: {lines} lines, more than {MAX_FILE_LINES}: one concept a file"));
         }
         if drawers.iter().any(|d| name.ends_with(&format!("/{d}"))) {
-            faults.push(format!("{name}: name the concept"));
+            violations.push(format!("{name}: name the concept"));
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 #[test]
 fn libraries_do_not_print_read_clocks_or_start_pools() {
     let forbidden = ["println!(", "eprintln!(", "SystemTime::now", "Instant::now", "build_global("];
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in texts(&[".rs"]) {
         let is_program = ["crates/cli/", "crates/python/"].iter().any(|folder| name.starts_with(folder));
         let library = name.starts_with("crates/") && !is_program && !name.contains("/examples/");
         if library && !name.contains("/tests/") {
-            faults.extend(forbidden.iter().filter(|f| text.contains(**f)).map(|f| format!("{name}: {f}")));
+            violations.extend(forbidden.iter().filter(|f| text.contains(**f)).map(|f| format!("{name}: {f}")));
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// Flags in texts below the front ends: messages name arguments by their fields, and a front end spells them. Left are commands of other programs and commands
@@ -214,22 +214,22 @@ fn only_front_ends_spell_flags() {
 #[test]
 fn nothing_names_a_machine() {
     let homes = ["root", "home", "work", "tmp"].map(|folder| format!("/{folder}/"));
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile", "run"]) {
-        faults.extend(homes.iter().filter(|h| text.contains(h.as_str())).map(|h| format!("{name}: {h}")));
+        violations.extend(homes.iter().filter(|h| text.contains(h.as_str())).map(|h| format!("{name}: {h}")));
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 #[test]
 fn no_merge_is_left_undone() {
     let marks = ["<<<<<<< ", "||||||| ", ">>>>>>> "];
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile"]) {
         let marked = text.lines().enumerate().filter(|(_, line)| marks.iter().any(|mark| line.starts_with(mark)));
-        faults.extend(marked.map(|(i, _)| format!("{name}:{}", i + 1)));
+        violations.extend(marked.map(|(i, _)| format!("{name}:{}", i + 1)));
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// Words of former versions that no engineer of the field would look for, with what stands in their place (docs/glossary.md). None is an
@@ -265,7 +265,7 @@ const REPLACED: &[(&str, &str)] = &[
 #[test]
 fn words_are_the_field_s_own() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".txt"]) {
         if ["tests/tests/house/tidy.rs", "docs/glossary.md", "CHANGELOG.md"].contains(&name.as_str()) {
             continue;
@@ -278,11 +278,11 @@ fn words_are_the_field_s_own() {
                 before && after
             });
             if stands {
-                faults.push(format!("{name}: {old}, now {new}"));
+                violations.push(format!("{name}: {old}, now {new}"));
             }
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// Words in backticks.
@@ -307,41 +307,41 @@ fn paths_for_contributors_exist() {
     let pages = contributors_pages();
     assert!(pages.len() > 8, "CONTRIBUTING.md and docs/how-to-add");
     let added = additions::files_of_all();
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, page) in &pages {
         let is_there = |path: &str| root().join(path).exists() || added.contains(path);
         let missing = quoted(page).filter(is_path).filter(|path| !is_there(path));
-        faults.extend(missing.map(|path| format!("{name}: {path} does not exist")));
+        violations.extend(missing.map(|path| format!("{name}: {path} does not exist")));
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// How many code files adding a thing touches is a measure of the design: each page states it, its steps name them, the index repeats it.
 #[test]
 fn how_to_add_counts_its_code_files() {
-    const LONGEST: usize = 80;
+    const MAX_FUNCTION_LINES: usize = 80;
     let pages = contributors_pages();
     let index = "docs/how-to-add/README.md";
     let (_, table) = pages.iter().find(|(name, _)| name == index).expect("an index");
-    let mut faults = Vec::new();
+    let mut violations = Vec::new();
     for (name, page) in pages.iter().filter(|(name, _)| name.starts_with("docs/how-to-add/") && name != index) {
         let stated = page.split_once("Touches ").and_then(|(_, rest)| rest.split_once(" code files"));
         let stated = stated.and_then(|(count, _)| count.parse::<usize>().ok());
         let steps = page.split_once("\n## Steps\n").map_or("", |(_, rest)| rest.split("\n## ").next().unwrap_or(rest));
         let files: BTreeSet<&str> = quoted(steps).filter(|w| w.starts_with("crates/") && w.ends_with(".rs")).collect();
         if stated != Some(files.len()) {
-            faults.push(format!("{name} states {stated:?} code files, its steps name {}", files.len()));
+            violations.push(format!("{name} states {stated:?} code files, its steps name {}", files.len()));
         }
         let file = name.trim_start_matches("docs/how-to-add/");
         let row = table.lines().find(|line| line.contains(&format!("]({file})")));
         if !row.is_some_and(|row| row.ends_with(&format!("| {} |", files.len()))) {
-            faults.push(format!("{index}: the row of {file} lacks its {} code files", files.len()));
+            violations.push(format!("{index}: the row of {file} lacks its {} code files", files.len()));
         }
-        if page.lines().count() > LONGEST {
-            faults.push(format!("{name}: more than {LONGEST} lines"));
+        if page.lines().count() > MAX_FUNCTION_LINES {
+            violations.push(format!("{name}: more than {MAX_FUNCTION_LINES} lines"));
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(violations.is_empty(), "{violations:#?}");
 }
 
 /// The change log, every package of the workspace and the Python package have one version; the program states it (`crates/cli/tests/binary/help.rs`).
@@ -349,11 +349,11 @@ fn how_to_add_counts_its_code_files() {
 fn there_is_one_version() {
     let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file of the repository");
     let changes = read("CHANGELOG.md");
-    let newest = changes.lines().find_map(|line| line.strip_prefix("## ")).expect("a release");
-    let newest = newest.split(' ').next().expect("its version");
+    let latest = changes.lines().find_map(|line| line.strip_prefix("## ")).expect("a release");
+    let latest = latest.split(' ').next().expect("its version");
     let metadata = metadata();
     for package in metadata["packages"].as_array().expect("packages") {
-        assert_eq!(package["version"], newest, "{} and the newest of CHANGELOG.md", package["name"]);
+        assert_eq!(package["version"], latest, "{} and the newest of CHANGELOG.md", package["name"]);
     }
     // maturin takes the version from the package of cargo.
     assert!(read("crates/python/pyproject.toml").contains("\ndynamic = [\"version\"]\n"));

@@ -11,8 +11,8 @@ use etendue_tests::{Job, Shot};
 
 const REFLECTANCE: f64 = 0.5;
 const ELEVATION_DEG: f64 = 45.0;
-const FOLLOWED: &str = "caustics = true";
-const LEFT_OUT: &str = "caustics = false";
+const WITH_CAUSTICS: &str = "caustics = true";
+const WITHOUT_CAUSTICS: &str = "caustics = false";
 
 fn shot(light: &str, caustics: &str) -> Shot {
     Job::new(format!(
@@ -67,7 +67,7 @@ fn sunlit(caustics: &str) -> (f64, f64) {
 
 #[test]
 fn left_out_the_ground_sees_the_sun_once_and_followed_twice() {
-    let (without, with) = (sunlit(LEFT_OUT), sunlit(FOLLOWED));
+    let (without, with) = (sunlit(WITHOUT_CAUSTICS), sunlit(WITH_CAUSTICS));
     // The normal irradiance of the band: what the wall-less ground of the same job would tell.
     let bare = etendue_spectra::illuminant::blackbody(20_000.0);
     let normal = bare.band_mean(500.0, 600.0) * 800.0 / bare.integral(300.0, 1100.0);
@@ -84,18 +84,18 @@ fn left_out_the_ground_sees_the_sun_once_and_followed_twice() {
 }
 
 #[test]
-fn light_of_the_surroundings_is_kept_to_the_bit() {
+fn environment_light_is_unchanged_to_the_bit() {
     let sky = "[scene.environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 1\n";
-    assert_eq!(shot(sky, LEFT_OUT).radiance().mean, shot(sky, FOLLOWED).radiance().mean);
+    assert_eq!(shot(sky, WITHOUT_CAUSTICS).radiance().mean, shot(sky, WITH_CAUSTICS).radiance().mean);
 }
 
 /// The wall's highlight widened to some tens of degrees: a part of the light lands elsewhere (the wall ends 100 m above, and the lobe reaches over the
 /// horizon), most of it here, less noisy than when chance finds it.
 #[test]
 fn widened_lobes_bring_the_light_by_many_samples() {
-    let (without, narrow, wide) = (sunlit(LEFT_OUT), sunlit(FOLLOWED), sunlit("regularize = true"));
-    let share = (wide.0 - without.0) / (narrow.0 - without.0);
-    assert!((0.5..1.0).contains(&share), "{share}: {without:?} {narrow:?} {wide:?}");
+    let (without, narrow, wide) = (sunlit(WITHOUT_CAUSTICS), sunlit(WITH_CAUSTICS), sunlit("regularize = true"));
+    let ratio = (wide.0 - without.0) / (narrow.0 - without.0);
+    assert!((0.5..1.0).contains(&ratio), "{ratio}: {without:?} {narrow:?} {wide:?}");
     assert!(wide.1 < 0.5 * narrow.1, "{wide:?} {narrow:?}");
     assert_eq!(sunlit("caustics = false\n        regularize = true"), without, "left out is left out");
 }

@@ -59,17 +59,17 @@ fn view(name: &str, index: usize) -> View {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/charts/{name}.toml"));
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
     let mut overrides = Overrides::default();
-    overrides.push_render("`spp` 16", "spp", "16");
-    let job = Description::load(&job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
-    let assets = load_assets(&job.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = compile(&job, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let shot = Shot::of_camera(plan, index);
+    overrides.add_render("`spp` 16", "spp", "16");
+    let job = Description::load(&job, &read, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
+    let assets = load_assets(&job.assets()).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let plan = compile(&job, &assets, &Choices::default()).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let shot = Shot::render_camera(plan, index);
     let electrons = shot.electrons();
-    let most = electrons.iter().copied().fold(0.0, f32::max);
+    let max_electrons = electrons.iter().copied().fold(0.0, f32::max);
     let raster = &shot.camera().body.raster;
-    let samples = electrons.iter().map(|e| [e / most; 3]).collect();
-    let picture = Plane::from_samples(raster.width(), raster.height(), samples).expect("one sample a pixel");
-    View { shot, picture }
+    let samples = electrons.iter().map(|e| [e / max_electrons; 3]).collect();
+    let image = Plane::from_samples(raster.width(), raster.height(), samples).expect("one sample a pixel");
+    View { shot, picture: image }
 }
 
 /// The inner corners of the board in the world.
@@ -90,8 +90,8 @@ fn towards(camera: &CameraPlan, point: DVec3) -> DVec3 {
 
 /// The corner near a raster point: where all edges' lines meet (Förstner & Gülch 1987) in the picture blurred by 1.5 px, by the
 /// gradients within ± 6 px; what the oracle does.
-fn corner(picture: &Plane<LinearRgb>, guess: DVec2) -> DVec2 {
-    let value = |x: i64, y: i64| f64::from(picture.at(x as usize, y as usize)[0]);
+fn corner(image: &Plane<LinearRgb>, guess: DVec2) -> DVec2 {
+    let value = |x: i64, y: i64| f64::from(image.at(x as usize, y as usize)[0]);
     let bell = |distance: f64, sigma: f64| exp(-0.5 * (distance / sigma) * (distance / sigma));
     let kernel: Vec<(i64, f64)> = (-5..=5).map(|i| (i, bell(i as f64, 1.5))).collect();
     let blurred = |x: i64, y: i64| {
@@ -133,19 +133,19 @@ const WORST_PX: f64 = 0.15;
 fn the_charts_of_the_figures_are_still_those_of_this_program() {
     let figures = figures();
     for (name, index) in [("perspective", 3), ("fisheye", 8)] {
-        let View { shot, picture } = view(name, index);
+        let View { shot, picture: image } = view(name, index);
         let camera = shot.camera();
         let stored = numbers(&figures["cameras"][name]["seen_px"][&camera.name]);
         let (mut to_stored, mut to_truth) = (Vec::new(), Vec::new());
-        for (point, seen) in board().into_iter().zip(stored.chunks(2)) {
+        for (point, expected_px) in board().into_iter().zip(stored.chunks(2)) {
             let truth = camera.body.raster.raster_px(camera.body.lens.project(towards(camera, point)).expect("seen"));
-            let found = corner(&picture, truth);
+            let actual = corner(&image, truth);
             // OpenCV counts pixel centres as whole numbers.
-            to_stored.push((found - DVec2::new(seen[0], seen[1]) - 0.5).length());
-            to_truth.push((found - truth).length());
+            to_stored.push((actual - DVec2::new(expected_px[0], expected_px[1]) - 0.5).length());
+            to_truth.push((actual - truth).length());
         }
-        for (what, (rms, worst)) in [("OpenCV's", spread(&to_stored)), ("the true", spread(&to_truth))] {
-            assert!(rms < RMS_PX && worst < WORST_PX, "{name}: {rms} px, at worst {worst} px from {what} corners");
+        for (reference, (rms, worst)) in [("OpenCV's", spread(&to_stored)), ("the true", spread(&to_truth))] {
+            assert!(rms < RMS_PX && worst < WORST_PX, "{name}: {rms} px, at worst {worst} px from {reference} corners");
         }
     }
 }
@@ -153,10 +153,10 @@ fn the_charts_of_the_figures_are_still_those_of_this_program() {
 /// The corners of an undistorted picture are where the twin's matrix puts the board's points, on straight lines.
 #[test]
 fn an_undistorted_chart_is_a_pinhole_s() {
-    let View { shot, picture } = view("perspective", 3);
+    let View { shot, picture: image } = view("perspective", 3);
     let camera = shot.camera();
-    let twin = RectifiedCamera::of(&camera.body, 0.9).expect("a twin");
-    let straight = twin.resampled(&camera.body, &picture);
+    let twin = RectifiedCamera::new(&camera.body, 0.9).expect("a twin");
+    let straight = twin.resampled(&camera.body, &image);
     let (mut off, mut moved) = (Vec::new(), 0.0_f64);
     for point in board() {
         let ray = towards(camera, point);

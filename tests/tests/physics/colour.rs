@@ -4,7 +4,7 @@ use etendue_isp::WhiteBalance;
 use etendue_spectra::colour::{lab, xyz_from_linear_srgb};
 use etendue_spectra::{illuminant, metal, observer, reflectance};
 use etendue_testkit::form_factor::simpson;
-use etendue_testkit::judge::against_truth;
+use etendue_testkit::judge::compare_with_truth;
 use etendue_tests::{Job, Shot};
 
 /// Luminance of the light, cd/m².
@@ -55,7 +55,7 @@ fn linear(shot: &Shot) -> [f64; 3] {
     let electrons = shot.light().electrons.expect("a sensor");
     let address = etendue_sensor::FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
     let start = etendue_sensor::SensorState::default();
-    let (_, frame) = etendue_pipeline::photograph::take(
+    let (_, frame) = etendue_pipeline::photograph::capture(
         &shot.camera().body,
         start,
         etendue_sensor::CaptureLight::steady(&electrons),
@@ -64,9 +64,9 @@ fn linear(shot: &Shot) -> [f64; 3] {
     .expect("raw");
     let largest = frame.raw.plane.samples().iter().max().expect("pixels");
     assert!(f64::from(*largest) < frame.raw.white_level_dn, "the card saturates: {largest}");
-    let picture = frame.picture.expect("a processing").linear;
-    let n = picture.samples().len() as f64;
-    std::array::from_fn(|c| picture.samples().iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / n)
+    let image = frame.picture.expect("a processing").linear;
+    let n = image.samples().len() as f64;
+    std::array::from_fn(|c| image.samples().iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / n)
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn the_chart_has_the_colours_that_spectra_and_matrix_say() {
         let points: Vec<(f64, f64)> =
             (380..=780).map(|nm| (f64::from(nm), f64::from(patch.reflectance.at(nm as f32)))).collect();
         let shot = card("{ spectrum = \"patch.csv\" }", 1024).with_spectrum("patch.csv", &points).shot();
-        let found = linear(&shot);
+        let linear_rgb = linear(&shot);
         let body = &shot.camera().body;
         let sensor = body.sensor.as_ref().expect("a sensor");
         let d65 = illuminant::d65();
@@ -104,12 +104,12 @@ fn the_chart_has_the_colours_that_spectra_and_matrix_say() {
             gains[c] * scale * simpson(380.0, 780.0, 800, product) / white_e
         });
         let brightest = camera.iter().copied().fold(0.0, f64::max);
-        for (row, found) in colour.matrix.rows().iter().zip(found) {
+        for (row, expected_row) in colour.matrix.rows().iter().zip(linear_rgb) {
             let truth: f64 = row.iter().zip(camera).map(|(m, v)| m * v).sum();
             // 64 pixels of 1024 samples of 8 wavelengths: each channel is known to about 1e-3, and the matrix's rows
             // (entries up to 2 in sum of squares 5) spread it: 5e-3 of the brightest is five standard errors.
             let allowed = 5e-3 * brightest;
-            assert!((found - truth).abs() < allowed, "{}: {found} for {truth} ± {allowed}", patch.name);
+            assert!((expected_row - truth).abs() < allowed, "{}: {expected_row} for {truth} ± {allowed}", patch.name);
         }
     }
 }
@@ -152,22 +152,22 @@ fn a_metal_sphere_in_uniform_light_shows_its_fresnel_reflectance() {
             "#
         ))
         .shot();
-        let seen = shot.radiance();
-        let index = metal::named(name).expect("known");
+        let reflected = shot.radiance();
+        let index = metal::by_name(name).expect("known");
         let reflectance = |cos: f64| {
-            let of = |nm: f64| fresnel(cos, f64::from(index.n.at(nm as f32)), f64::from(index.k.at(nm as f32)));
-            simpson(low_nm, high_nm, 40, of) / 10.0
+            let fresnel_at = |nm: f64| fresnel(cos, f64::from(index.n.at(nm as f32)), f64::from(index.k.at(nm as f32)));
+            simpson(low_nm, high_nm, 40, fresnel_at) / 10.0
         };
         // From 100 m, 2.4 mm of 1 m are 0.24 m aside on the sphere: the sine of the incidence is the distance at which the
         // ray passes the centre, over the radius.
         let cos = |i: usize| {
             let tangent = 2.4e-3 * (i as f64 - 4.0);
-            let aside2 = 1e4 * tangent * tangent / (1.0 + tangent * tangent);
-            (1.0 - aside2).sqrt()
+            let tangent_squared = 1e4 * tangent * tangent / (1.0 + tangent * tangent);
+            (1.0 - tangent_squared).sqrt()
         };
         // f32 Fresnel terms subtract nearly equal numbers: 1e-5, and the f32 hit point moves the incidence by as much.
-        let judged = against_truth(seen.estimate(), |i| reflectance(cos(i)), |_| 3e-5);
-        assert!(judged.is_ok(), "{name}: {judged:?}");
+        let comparison = compare_with_truth(reflected.estimate(), |i| reflectance(cos(i)), |_| 3e-5);
+        assert!(comparison.is_ok(), "{name}: {comparison:?}");
         assert!(cos(0) < 0.3, "from the middle to nearly the limb");
     }
 }

@@ -6,7 +6,7 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{LinearRgb, MeanElectrons};
-use etendue_pipeline::photograph::take;
+use etendue_pipeline::photograph::capture;
 use etendue_pipeline::plan::CameraBody;
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use etendue_spectra::colour::{D65_WHITE, Lab, ciede2000, lab, xyz_from_linear_srgb};
@@ -60,16 +60,16 @@ fn body(camera: &str, light: &str, demosaic: &str) -> CameraBody {
 }
 
 fn electrons_of(sensor: &Sensor, channel: usize, light: &Spectrum, patch: Option<&Spectrum>) -> f64 {
-    let seen = sensor.responsivity(channel).product(light);
-    patch.map_or_else(|| seen.clone(), |patch| seen.product(patch)).integral(300.0, 1100.0)
+    let filtered = sensor.responsivity(channel).product(light);
+    patch.map_or_else(|| filtered.clone(), |patch| filtered.product(patch)).integral(300.0, 1100.0)
 }
 
 /// Mean electrons of a picture of 24 patches.
 fn electrons(sensor: &Sensor, light: &Spectrum, chart: &[&Spectrum]) -> Plane<MeanElectrons> {
     let white = (0..3).map(|c| electrons_of(sensor, c, light, None)).fold(0.0, f64::max);
     let scale = WHITE * sensor.parameters().charge.full_well.capacity_e / white;
-    let of_patch = |patch: &&Spectrum| [0, 1, 2].map(|c| (scale * electrons_of(sensor, c, light, Some(patch))) as f32);
-    let patches: Vec<[f32; 3]> = chart.iter().map(of_patch).collect();
+    let patch_electrons = |patch: &&Spectrum| [0, 1, 2].map(|c| (scale * electrons_of(sensor, c, light, Some(patch))) as f32);
+    let patches: Vec<[f32; 3]> = chart.iter().map(patch_electrons).collect();
     let width = SIDE * COLUMNS;
     let samples = (0..width * SIDE * 4).map(|i| {
         let (x, y) = (i % width, i / width);
@@ -79,12 +79,12 @@ fn electrons(sensor: &Sensor, light: &Spectrum, chart: &[&Spectrum]) -> Plane<Me
 }
 
 /// The mean colour of a patch.
-fn colour(picture: &Plane<LinearRgb>, patch: usize) -> Lab {
+fn colour(image: &Plane<LinearRgb>, patch: usize) -> Lab {
     let corner = [patch % COLUMNS * SIDE + MARGIN, patch / COLUMNS * SIDE + MARGIN];
     let inner = SIDE - 2 * MARGIN;
     let mut sum = [0.0; 3];
     for i in 0..inner * inner {
-        let rgb = picture.at(corner[0] + i % inner, corner[1] + i / inner);
+        let rgb = image.at(corner[0] + i % inner, corner[1] + i / inner);
         (0..3).for_each(|c| sum[c] += f64::from(rgb[c]));
     }
     lab(xyz_from_linear_srgb(sum.map(|s| s / (inner * inner) as f64)), D65_WHITE)
@@ -95,13 +95,13 @@ fn chroma(lab: Lab) -> f64 {
 }
 
 /// The colours of 24 patches as a camera sees them under a light.
-fn seen(name: &str, light: &str, demosaic: &str, chart: &[&Spectrum]) -> Vec<Lab> {
-    let (body, spectrum) = (body(name, light, demosaic), illuminant::named(light).expect("an illuminant"));
+fn lab_patches(name: &str, light: &str, demosaic: &str, chart: &[&Spectrum]) -> Vec<Lab> {
+    let (body, spectrum) = (body(name, light, demosaic), illuminant::by_name(light).expect("an illuminant"));
     let electrons = electrons(body.sensor.as_ref().expect("electronics"), spectrum, chart);
     let address = FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
-    let (_, frame) = take(&body, SensorState::default(), CaptureLight::steady(&electrons), address).expect("a frame");
-    let picture = frame.picture.expect("a picture").linear;
-    (0..24).map(|i| colour(&picture, i)).collect()
+    let (_, frame) = capture(&body, SensorState::default(), CaptureLight::steady(&electrons), address).expect("a frame");
+    let image = frame.picture.expect("a picture").linear;
+    (0..24).map(|i| colour(&image, i)).collect()
 }
 
 fn reflectances() -> Vec<&'static Spectrum> {
@@ -118,13 +118,13 @@ struct Errors {
 fn errors(name: &str, light: &str, demosaic: &str) -> Errors {
     let truth = |patch: &&Spectrum| lab(observer::xyz_of_reflectance(patch, illuminant::d65()), D65_WHITE);
     let truth: Vec<Lab> = reflectances().iter().map(truth).collect();
-    let found = seen(name, light, demosaic, &reflectances());
-    let differences: Vec<f64> = found.iter().zip(&truth).map(|(a, b)| ciede2000(*a, *b)).collect();
-    let cast = |(a, b): (&Lab, &Lab)| chroma(Lab { a: a.a - b.a, b: a.b - b.b, ..*a });
+    let measured = lab_patches(name, light, demosaic, &reflectances());
+    let differences: Vec<f64> = measured.iter().zip(&truth).map(|(a, b)| ciede2000(*a, *b)).collect();
+    let tint = |(a, b): (&Lab, &Lab)| chroma(Lab { a: a.a - b.a, b: a.b - b.b, ..*a });
     Errors {
         mean: differences.iter().sum::<f64>() / 24.0,
         largest: differences.iter().copied().fold(0.0, f64::max),
-        greys: found.iter().zip(&truth).skip(FIRST_NEUTRAL).map(cast).fold(0.0, f64::max),
+        greys: measured.iter().zip(&truth).skip(FIRST_NEUTRAL).map(tint).fold(0.0, f64::max),
     }
 }
 
@@ -148,14 +148,14 @@ fn even_greys_are_neutral_at_every_brightness() {
     let greys: Vec<Spectrum> = (0..24).map(|i| Spectrum::constant(0.02 + 0.04 * f64::from(i))).collect();
     let greys: Vec<&Spectrum> = greys.iter().collect();
     for (name, light) in camera::names().iter().flat_map(|name| ["D65", "A"].map(|light| (name, light))) {
-        let found = seen(name, light, "bilinear", &greys);
-        let mean = |of: fn(&Lab) -> f64| found.iter().map(of).sum::<f64>() / 24.0;
+        let labs = lab_patches(name, light, "bilinear", &greys);
+        let mean = |component: fn(&Lab) -> f64| labs.iter().map(component).sum::<f64>() / 24.0;
         let (a, b) = (mean(|lab| lab.a), mean(|lab| lab.b));
         // The weakest channel (blue under A) holds 130 to 5 500 e⁻: 0.8 to 0.1 % of noise in a mean of 144 pixels, which moves
         // b* by 0.15 in the middle of the range and by 0.03 in the mean of all 24: four of these.
         assert!(a.abs().max(b.abs()) < 0.12, "{name} under {light}: a* {a}, b* {b}");
         // One by one a grey may lie five times 0.2 off, and no more in the darks, where L*, a*, b* are flatter.
-        assert!(found.iter().all(|lab| chroma(*lab) < 1.0), "{name} under {light}: {found:?}");
+        assert!(labs.iter().all(|lab| chroma(*lab) < 1.0), "{name} under {light}: {labs:?}");
     }
 }
 
@@ -164,9 +164,9 @@ fn every_demosaic_keeps_the_colours_of_even_patches() {
     let name = "nikon-d5100";
     let bilinear = errors(name, "D65", "bilinear");
     for demosaic in ["malvar", "hamilton_adams"] {
-        let found = errors(name, "D65", demosaic);
+        let measured = errors(name, "D65", demosaic);
         // Patches are even but for their noise, of which some hundredths are left (see above).
-        assert!((found.mean - bilinear.mean).abs() < 0.05, "{demosaic}: {} and {}", found.mean, bilinear.mean);
-        assert!((found.largest - bilinear.largest).abs() < 0.2, "{demosaic}: {}", found.largest);
+        assert!((measured.mean - bilinear.mean).abs() < 0.05, "{demosaic}: {} and {}", measured.mean, bilinear.mean);
+        assert!((measured.largest - bilinear.largest).abs() < 0.2, "{demosaic}: {}", measured.largest);
     }
 }

@@ -42,9 +42,9 @@ fn rendered(max_bounces: u64) -> Shot {
 /// Pixels that see an instance, and so do their neighbours; rows from the top.
 fn inside(ids: &Plane<Identity>, id: u32) -> Vec<usize> {
     let (width, height) = (ids.width(), ids.height());
-    let whole = |x: usize, y: usize| (y - 1..=y + 1).all(|y| (x - 1..=x + 1).all(|x| ids.at(x, y) == id));
+    let is_interior = |x: usize, y: usize| (y - 1..=y + 1).all(|y| (x - 1..=x + 1).all(|x| ids.at(x, y) == id));
     let pixels = (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| (x, y)));
-    pixels.filter(|(x, y)| whole(*x, *y)).map(|(x, y)| y * width + x).collect()
+    pixels.filter(|(x, y)| is_interior(*x, *y)).map(|(x, y)| y * width + x).collect()
 }
 
 /// Mean radiance of some pixels in a band and its standard error.
@@ -57,7 +57,7 @@ fn mean_of(shot: &Shot, band: usize, pixels: &[usize]) -> (f64, f64) {
         mean: &mean,
         variance_of_mean: &variance,
         replicates: shot.film.replicates,
-        alike: 1,
+        correlated_pixels: 1,
     })
 }
 
@@ -73,12 +73,12 @@ fn every_wall_is_as_bright_as_mitsubas_in_every_band() {
     for (i, wall) in walls.iter().enumerate() {
         let pixels = inside(&ids, i as u32 + 1);
         assert_eq!(pixels.len() as u64, wall["pixels"], "pixels of {}", wall["name"]);
-        for (band, theirs) in wall["mean"].as_array().expect("a list").iter().enumerate() {
-            let theirs = (theirs.as_f64().expect("a number"), wall["standard_error"][band].as_f64().expect("a number"));
-            let ours = mean_of(&shot, band, &pixels);
-            let error = (ours.1 * ours.1 + theirs.1 * theirs.1).sqrt();
-            let (apart, known) = ((ours.0 - theirs.0).abs(), error / theirs.0);
-            assert!(apart < critical * error, "{} band {band}: {ours:?}, Mitsuba {theirs:?}", wall["name"]);
+        for (band, mitsuba_mean) in wall["mean"].as_array().expect("a list").iter().enumerate() {
+            let mitsuba = (mitsuba_mean.as_f64().expect("a number"), wall["standard_error"][band].as_f64().expect("a number"));
+            let own = mean_of(&shot, band, &pixels);
+            let error = (own.1 * own.1 + mitsuba.1 * mitsuba.1).sqrt();
+            let (difference, known) = ((own.0 - mitsuba.0).abs(), error / mitsuba.0);
+            assert!(difference < critical * error, "{} band {band}: {own:?}, Mitsuba {mitsuba:?}", wall["name"]);
             // A test that could not fail would be of no use.
             assert!(known < 0.02, "{} band {band} is known to {known}", wall["name"]);
         }

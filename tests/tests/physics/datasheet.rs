@@ -15,15 +15,15 @@ fn body() -> CameraBody {
     let sheet = include_str!("../../../scenes/datasheets/made-up-cmos.toml");
     let sheet = sheet.replace("temporal_dark_noise_e = 2.50\n", "").replace("= 0.69", "= 0.6883");
     let sheet = load_datasheet(Path::new("sheet.toml"), &|_: &Path| Ok(sheet.clone())).expect("a sheet");
-    let made = imported(&sheet, "sheet").expect("consistent");
+    let datasheet_camera = imported(&sheet, "sheet").expect("consistent");
     let mut assets = Assets::default();
-    for (name, text) in &made.tables {
+    for (name, text) in &datasheet_camera.tables {
         let row = |line: &str| line.split_once(',').and_then(|(nm, v)| Some((nm.parse().ok()?, v.parse().ok()?)));
         let points = text.lines().skip(1).map(|line| row(line).expect("two numbers")).collect();
         assets.spectra.insert(name.into(), SpectrumAsset { points, hash: [0; 32] });
     }
     let small = Overrides::new(&["sensor.width_px=256".to_owned(), "sensor.height_px=256".to_owned()]);
-    let camera = load_camera(Path::new("camera.toml"), &|_: &Path| Ok(made.camera.clone()), &small).expect("a camera");
+    let camera = load_camera(Path::new("camera.toml"), &|_: &Path| Ok(datasheet_camera.camera.clone()), &small).expect("a camera");
     flat::bare(&compile_camera(&camera, &assets).expect("it compiles")).expect("electronics")
 }
 
@@ -34,8 +34,8 @@ fn measured(body: &CameraBody, series: &flat::PhotonTransfer, stack: usize) -> (
     let irradiance_w_m2 = if stack.photons > 0.0 { series.light.irradiance_w_m2 } else { 0.0 };
     let electrons = flat::electrons(body, flat::FlatLight { irradiance_w_m2, ..series.light }).expect("electronics");
     let frame = |frame| {
-        let begun = stack.state(sensor, SensorState::default());
-        sensor.step(begun, &electrons, FrameAddress { seed: 1, camera: 0, frame, capture: 0 }).1.plane
+        let start_state = stack.state(sensor, SensorState::default());
+        sensor.step(start_state, &electrons, FrameAddress { seed: 1, camera: 0, frame, capture: 0 }).1.plane
     };
     let (a, b) = (frame(0), frame(1));
     let pairs = || a.samples().iter().zip(b.samples()).map(|(a, b)| (f64::from(*a), f64::from(*b)));
@@ -50,7 +50,7 @@ fn noise_gain_and_efficiency_of_the_sheet_come_back() {
     let series = flat::photon_transfer(body.sensor.as_ref().expect("electronics"), 525.0, 20, 3).expect("linear");
     let (dark, dark_variance) = measured(&body, &series, 1);
     let (bright, variance) = measured(&body, &series, 20);
-    let near = |found: f64, stated: f64| assert!((found / stated - 1.0).abs() < 0.022, "{found}, stated {stated}");
+    let near = |actual: f64, stated: f64| assert!((actual / stated - 1.0).abs() < 0.022, "{actual}, stated {stated}");
     // The stated figure, quantisation included: it is not counted twice.
     near(dark_variance, 0.6883 * 0.6883);
     near((variance - dark_variance) / (bright - dark), 0.25);

@@ -7,7 +7,7 @@ const HEIGHT: usize = 40;
 
 /// A fast thick lens whose front rim clips, focused between panel and wall: blurs of 9.0 px and 4.2 px.
 fn job(render: &str) -> Job {
-    let chequers = |i: usize| if (i % 32 + i / 32).is_multiple_of(2) { 1.0 } else { 0.2 };
+    let checkerboard_value = |i: usize| if (i % 32 + i / 32).is_multiple_of(2) { 1.0 } else { 0.2 };
     Job::new(format!(
         r#"
         [scene]
@@ -53,7 +53,7 @@ fn job(render: &str) -> Job {
         irradiance = true
         "#
     ))
-    .with_image("chequers.hdr", 32, 32, (0..1024).map(|i| [chequers(i); 3]).collect())
+    .with_image("chequers.hdr", 32, 32, (0..1024).map(|i| [checkerboard_value(i); 3]).collect())
 }
 
 /// Irradiance behind stored radiance.
@@ -82,9 +82,9 @@ fn a_panel_before_a_wall_is_blurred_as_through_the_lens() {
     assert!(physical < 0.02 + noise, "{physical}, noise {noise}");
     assert!(sharp > 0.06, "{sharp}");
     let light = |e: &[f32]| e.iter().map(|e| f64::from(*e)).sum::<f64>();
-    let whole = light(&at_pupil("\"physical\"")) / light(&through.mean);
+    let full = light(&at_pupil("\"physical\"")) / light(&through.mean);
     // Light is kept but for what blurs move over the picture's edges, where the chequers change.
-    assert!((whole - 1.0).abs() < 0.005, "{whole}");
+    assert!((full - 1.0).abs() < 0.005, "{full}");
     let fast = apart(&through.mean, &at_pupil("{ fast = { near_m = [0.6, 1.2], blur_px = 9 } }"));
     assert!(fast < sharp && fast > physical, "{fast} between {physical} and {sharp}");
 }

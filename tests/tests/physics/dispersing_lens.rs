@@ -38,15 +38,15 @@ fn a_uniform_surround_keeps_its_spectrum_through_a_filter_and_glasses() {
         let centre = DVec2::new(f64::from(pixel % 4) + 0.5, f64::from(pixel / 4) + 0.5);
         let expected = mean_weight(body, centre, 400.0 + 50.0 * f64::from(band));
         let at = (band * 16 + pixel) as usize;
-        let found = f64::from(irradiance.mean[at]);
+        let actual = f64::from(irradiance.mean[at]);
         if band > 3 || expected == 0.0 {
             // The edge moves to the blue only.
-            assert_eq!(found, 0.0, "band {band} lies beyond the filter's edge");
+            assert_eq!(actual, 0.0, "band {band} lies beyond the filter's edge");
         } else if band < 2 {
             let sigma = f64::from(irradiance.variance[at]).sqrt();
             // 32 estimates: 5 σ of 16 replicates; the midpoint rule over pixels, bands and pupil is good to 0.5 %.
-            worst = worst.max(((found - expected).abs() - 0.005 * expected) / sigma);
-            sum += found / expected;
+            worst = worst.max(((actual - expected).abs() - 0.005 * expected) / sigma);
+            sum += actual / expected;
         }
     }
     assert!(worst < 5.0, "{worst} σ");

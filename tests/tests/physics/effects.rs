@@ -56,9 +56,9 @@ fn a_lamp_beyond_the_picture_veils_it_by_the_kernel_on_both_routes() {
     let glare = Glare::new(parameters).expect("legal");
     let margin = DVec2::new(WIDTH as f64, HEIGHT as f64) / 2.0;
     let veil = |x: usize, y: usize| {
-        let here = DVec2::new(x as f64, y as f64) + margin;
+        let position = DVec2::new(x as f64, y as f64) + margin;
         let from = |i: usize| DVec2::new((i % (2 * WIDTH)) as f64, (i / (2 * WIDTH)) as f64);
-        let density = |i: usize| glare.density_per_mm2(PITCH_MM * (here - from(i)).length());
+        let density = |i: usize| glare.density_per_mm2(PITCH_MM * (position - from(i)).length());
         (0..wide.len()).map(|i| f64::from(wide[i]) * 0.1 * density(i) * PITCH_MM * PITCH_MM).sum::<f64>()
     };
     for route in ["lens", "pupil"] {
@@ -66,10 +66,10 @@ fn a_lamp_beyond_the_picture_veils_it_by_the_kernel_on_both_routes() {
         assert!(dark.iter().all(|e| *e == 0.0), "the lamp is seen");
         let veiled = irradiance(&job(WIDTH, HEIGHT, route, GLARE));
         for (x, y) in [(1, 5), (8, 2), (15, 11)] {
-            let (found, expected) = (f64::from(veiled[y * WIDTH + x]), veil(x, y));
+            let (actual, expected) = (f64::from(veiled[y * WIDTH + x]), veil(x, y));
             // The lamp's border is sampled: 64 samples a pixel, a dozen border pixels; the kernel's mean over a pixel differs
             // from its middle by less than 1 %.
-            assert!((found / expected - 1.0).abs() < 0.03, "{route} ({x}, {y}): {found} for {expected}");
+            assert!((actual / expected - 1.0).abs() < 0.03, "{route} ({x}, {y}): {actual} for {expected}");
         }
     }
 }
@@ -90,17 +90,17 @@ fn displaced_samples_put_light_where_the_film_puts_it() {
         irradiance(&job.replaced("position_m = [2, 0.9, 0.1]", "position_m = [2, 0.3, 0.1]"))
     };
     let coma = "wavefront = [{ noll = 8, rms_um = 0.08 }], patches = [1, 1], reach_mm = 0.02";
-    let of = |by: &str| small(&format!("effects = {{ margin = 0.5, psf = {{ {coma}, spread_by = \"{by}\" }} }}"));
+    let job_with = |by: &str| small(&format!("effects = {{ margin = 0.5, psf = {{ {coma}, spread_by = \"{by}\" }} }}"));
     let moments = |light: &[f32]| {
         let sum: f64 = light.iter().map(|e| f64::from(*e)).sum();
         let at = |i: usize| DVec2::new((i % WIDTH) as f64, (i / WIDTH) as f64);
         let first: DVec2 = light.iter().enumerate().map(|(i, e)| f64::from(*e) * at(i)).sum();
         (sum, first / sum)
     };
-    let (samples, film, bare) = (of("samples"), of("film"), small(""));
-    let ((sum, at), (film_sum, film_at), (bare_sum, bare_at)) = (moments(&samples), moments(&film), moments(&bare));
+    let (samples, film, without_effects) = (job_with("samples"), job_with("film"), small(""));
+    let ((sum, at), (film_sum, film_at), (plain_sum, plain_at)) = (moments(&samples), moments(&film), moments(&without_effects));
     // All light but what leaves the picture; 256 samples of a lamp that fills few pixels.
-    assert!((sum / film_sum - 1.0).abs() < 0.01 && (sum / bare_sum - 1.0).abs() < 0.02, "{sum} {film_sum} {bare_sum}");
-    assert!((film_at - bare_at).length() > 0.15, "coma is to one side: {film_at} {bare_at}");
-    assert!((at - film_at).length() < 0.05, "{at} for {film_at}, without {bare_at}");
+    assert!((sum / film_sum - 1.0).abs() < 0.01 && (sum / plain_sum - 1.0).abs() < 0.02, "{sum} {film_sum} {plain_sum}");
+    assert!((film_at - plain_at).length() > 0.15, "coma is to one side: {film_at} {plain_at}");
+    assert!((at - film_at).length() < 0.05, "{at} for {film_at}, without {plain_at}");
 }

@@ -6,7 +6,7 @@
 use etendue_core::maths::f64::{exp, pow};
 use etendue_io::load_assets;
 use etendue_pipeline::compile_camera;
-use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
+use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, FrameStack};
 use etendue_pipeline::plan::CameraBody;
 use etendue_scene::{Overrides, load_camera, named_files};
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
@@ -80,7 +80,7 @@ struct Figures {
 }
 
 impl Figures {
-    fn of(name: &str) -> Self {
+    fn load(name: &str) -> Self {
         let all: Value = serde_json::from_str(include_str!("../../oracles/figures/emva.json")).expect("JSON");
         let camera = &all["cameras"][name];
         let level = |level: &Value| {
@@ -155,8 +155,8 @@ fn fitted(levels: &[Level]) -> &[Level] {
     &levels[..levels.iter().take_while(|l| l.signal_dn <= end).count()]
 }
 
-fn near(name: &str, what: &str, found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() <= relative, "{name}: {what} {found}, expected {expected} ± {relative}");
+fn near(name: &str, quantity: &str, actual: f64, expected: f64, relative: f64) {
+    assert!((actual / expected - 1.0).abs() <= relative, "{name}: {quantity} {actual}, expected {expected} ± {relative}");
 }
 
 /// One per cent, as is asked. The standard uncertainties of gain, efficiency and PRNU (pixels and levels as they are) are 0.1 to 0.3 %; of the
@@ -164,7 +164,7 @@ fn near(name: &str, what: &str, found: f64, expected: f64, relative: f64) {
 #[test]
 fn the_reference_recovers_what_was_put_in() {
     for camera in cameras() {
-        let (name, figures) = (camera.name, Figures::of(camera.name));
+        let (name, figures) = (camera.name, Figures::load(camera.name));
         near(name, "gain", figures.result("K"), camera.gain_dn_e, 0.01);
         near(name, "efficiency", 0.01 * figures.result("QE"), camera.efficiency, 0.01);
         near(name, "dark current", figures.result("u_I_mean"), camera.dark_e_s, 0.015);
@@ -191,13 +191,13 @@ fn the_reference_recovers_what_was_put_in() {
 #[test]
 fn saturation_is_where_the_clipped_variance_is_largest() {
     for camera in cameras() {
-        let figures = Figures::of(camera.name);
+        let figures = Figures::load(camera.name);
         let expected =
             |level: usize| clipped_variance(&camera, 1.05 * camera.saturation_e * (level + 1) as f64 / LEVELS as f64);
         let best = (0..LEVELS).max_by(|a, b| expected(*a).total_cmp(&expected(*b))).expect("levels");
-        let found = figures.result("index_u_ysat");
-        assert!((found - best as f64).abs() <= 1.0, "{}: level {found}, expected {best}", camera.name);
-        let bias = 1.05 * (found + 1.0) / LEVELS as f64;
+        let actual = figures.result("index_u_ysat");
+        assert!((actual - best as f64).abs() <= 1.0, "{}: level {actual}, expected {best}", camera.name);
+        let bias = 1.05 * (actual + 1.0) / LEVELS as f64;
         near(camera.name, "saturation", figures.result("u_e_sat"), bias * camera.saturation_e, 0.01);
     }
 }
@@ -207,7 +207,7 @@ fn clipped_variance(camera: &Camera, mean_e: f64) -> f64 {
     let prnu = camera.prnu[0];
     let steps = || (-400..=400).map(|i| 0.01 * f64::from(i));
     let bell = |z: f64| exp(-0.5 * z * z);
-    let of_pixel = |mean: f64| {
+    let clipped_pixel = |mean: f64| {
         let cut = |z: f64| (mean + mean.sqrt() * z).min(camera.saturation_e);
         let weight: f64 = steps().map(bell).sum();
         let first: f64 = steps().map(|z| bell(z) * cut(z)).sum::<f64>() / weight;
@@ -215,7 +215,7 @@ fn clipped_variance(camera: &Camera, mean_e: f64) -> f64 {
     };
     let responses = || (-8..=8).map(|i| 0.5 * f64::from(i));
     let weight: f64 = responses().map(bell).sum();
-    responses().map(|z| bell(z) * of_pixel(mean_e * (1.0 + prnu * z))).sum::<f64>() / weight
+    responses().map(|z| bell(z) * clipped_pixel(mean_e * (1.0 + prnu * z))).sum::<f64>() / weight
 }
 
 /// The same formulas on the same sums. The program also takes the square of the difference of two frames' means off their variance,
@@ -223,12 +223,12 @@ fn clipped_variance(camera: &Camera, mean_e: f64) -> f64 {
 #[test]
 fn the_standards_formulas_make_the_same_figures() {
     for camera in cameras() {
-        let (name, figures) = (camera.name, Figures::of(camera.name));
+        let (name, figures) = (camera.name, Figures::load(camera.name));
         let levels = levels(&figures);
         assert_eq!(saturated(&levels) as f64, figures.result("index_u_ysat"), "{name}");
         let fitted = fitted(&levels);
         assert_eq!((fitted.len() - 1) as f64, figures.result("index_sensitivity_max"), "{name}");
-        let points = |f: fn(&Level) -> (f64, f64), of: &[Level]| of.iter().map(f).collect::<Vec<_>>();
+        let points = |f: fn(&Level) -> (f64, f64), levels_of: &[Level]| levels_of.iter().map(f).collect::<Vec<_>>();
         let gain = slope_through_0(&points(|l| (l.signal_dn, l.variance - l.dark_variance), fitted));
         let responsivity = slope_through_0(&points(|l| (l.photons, l.signal_dn), fitted));
         near(name, "K", gain, figures.result("K"), 1e-4);
@@ -248,11 +248,11 @@ struct Bench {
 }
 
 impl Bench {
-    fn of(name: &str) -> Self {
+    fn new(name: &str) -> Self {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/emva/{name}.toml"));
         let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
         let camera = load_camera(&file, &read, &Overrides::default()).expect("a camera");
-        let assets = load_assets(&named_files::of_camera(&camera)).expect("its files");
+        let assets = load_assets(&named_files::camera_files(&camera)).expect("its files");
         let body = flat::bare(&compile_camera(&camera, &assets).expect("it compiles")).expect("electronics");
         let series = flat::photon_transfer(body.sensor.as_ref().expect("electronics"), 525.0, LEVELS as u32, 100);
         Self { series: series.expect("linear"), body }
@@ -263,15 +263,15 @@ impl Bench {
     }
 
     /// The first frames of a stack.
-    fn frames(&self, stack: &Stack, count: usize) -> Vec<Vec<u32>> {
+    fn frames(&self, stack: &FrameStack, count: usize) -> Vec<Vec<u32>> {
         let irradiance_w_m2 = if stack.photons > 0.0 { self.series.light.irradiance_w_m2 } else { 0.0 };
         let light = FlatLight { irradiance_w_m2, ..self.series.light };
         let electrons = flat::electrons(&self.body, light).expect("electronics");
         let mut state = SensorState::default();
         let take = |frame| {
             let address = FrameAddress { seed: 0, camera: 0, frame, capture: 0 };
-            let begun = stack.state(self.sensor(), std::mem::take(&mut state));
-            let (next, raw) = self.sensor().step(begun, &electrons, address);
+            let start_state = stack.state(self.sensor(), std::mem::take(&mut state));
+            let (next, raw) = self.sensor().step(start_state, &electrons, address);
             state = next;
             raw.linear().plane.samples().to_vec()
         };
@@ -290,12 +290,12 @@ fn sum_of_squares(frame: &[u32]) -> u64 {
 #[test]
 fn the_figures_are_those_of_this_programs_bits() {
     for name in ["web", "ccd", "automotive"] {
-        let (bench, figures) = (Bench::of(name), Figures::of(name));
+        let (bench, figures) = (Bench::new(name), Figures::load(name));
         for i in [0, 1, 24, 47, 66, 67, 98, 99] {
             let frames = bench.frames(&bench.series.stacks[i], 2);
             let squares: u64 = frames[0].iter().zip(&frames[1]).map(|(a, b)| u64::from(a.abs_diff(*b)).pow(2)).sum();
-            let found = [sum(&frames[0]) + sum(&frames[1]), squares].map(|n| n as f64);
-            assert_eq!(found, figures.levels[i][2..], "{name}, stack {i}");
+            let actual = [sum(&frames[0]) + sum(&frames[1]), squares].map(|n| n as f64);
+            assert_eq!(actual, figures.levels[i][2..], "{name}, stack {i}");
             near(name, "photons", bench.series.stacks[i].photons.max(1.0), figures.levels[i][1].max(1.0), 1e-6);
         }
         for (k, stack) in bench.series.stacks[2 * LEVELS..].iter().enumerate() {
@@ -309,8 +309,8 @@ fn the_figures_are_those_of_this_programs_bits() {
 /// Non-uniformity of one camera, from all of its frames, by the standard's equations (33) to (38).
 #[test]
 fn non_uniformity_is_the_same_from_the_same_frames() {
-    let (bench, figures) = (Bench::of("automotive"), Figures::of("automotive"));
-    let spatial = |stack: &Stack| {
+    let (bench, figures) = (Bench::new("automotive"), Figures::load("automotive"));
+    let spatial = |stack: &FrameStack| {
         let frames = bench.frames(stack, 100);
         let l = frames.len() as f64;
         let pixel = |i: usize| {

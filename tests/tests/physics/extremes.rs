@@ -61,23 +61,23 @@ fn still_life(scale: f64, at_m: [f64; 3], level: f64) -> Job {
     ))
 }
 
-fn assert_same_picture(a: &Samples, b: &Samples, what: &str) {
+fn assert_same_picture(a: &Samples, b: &Samples, subject: &str) {
     let test = planes::compare(&a.estimate(), &b.estimate(), SIGNIFICANCE).expect("same size");
-    assert_eq!(test.verdict, Verdict::Agree, "{what}: {test:?}");
+    assert_eq!(test.verdict, Verdict::Agree, "{subject}: {test:?}");
     let sum = |s: &Samples| s.mean.iter().map(|v| f64::from(*v)).sum::<f64>();
     let error = (a.variance.iter().chain(&b.variance).map(|v| f64::from(*v)).sum::<f64>()).sqrt();
     // The pictures' means, known to better than 0.5 %. Bands share their samples: the sum of variances is doubled to be safe.
-    assert!((sum(a) - sum(b)).abs() < 2.0 * 3.5 * error, "{what}: {} {} ± {error}", sum(a), sum(b));
-    assert!(error < 5e-3 * sum(a), "{what}: {error} of {}", sum(a));
+    assert!((sum(a) - sum(b)).abs() < 2.0 * 3.5 * error, "{subject}: {} {} ± {error}", sum(a), sum(b));
+    assert!(error < 5e-3 * sum(a), "{subject}: {error} of {}", sum(a));
 }
 
 #[test]
 fn scale_and_place_do_not_change_the_picture() {
-    let here = still_life(1.0, [0.0; 3], 1.0).with_seed(1).shot().irradiance();
+    let reference = still_life(1.0, [0.0; 3], 1.0).with_seed(1).shot().irradiance();
     let cases = [(1e-3, 0.0), (1e3, 0.0), (1.0, 1e6), (1.0, -1e6), (1e-3, 1e3), (1e3, 1e6)];
     for (seed, (scale, offset)) in (2..).zip(cases) {
-        let there = still_life(scale, [offset, -offset, offset], 1.0).with_seed(seed).shot().irradiance();
-        assert_same_picture(&here, &there, &format!("scale {scale}, offset {offset} m"));
+        let moved = still_life(scale, [offset, -offset, offset], 1.0).with_seed(seed).shot().irradiance();
+        assert_same_picture(&reference, &moved, &format!("scale {scale}, offset {offset} m"));
     }
 }
 
@@ -103,9 +103,9 @@ fn starlight_beside_more_than_sunlight_stays_finite() {
     let text = "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }";
     let sun = "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1e-9 }\n[[scene.lights]]\nname = \"sun\"\ntype = \"sun\"\n\
                elevation_deg = 30\nazimuth_deg = 100\nilluminant = \"solar\"\nirradiance_w_m2 = 1e12\nangular_diameter_deg = 0.01";
-    let seen = still_life(1.0, [0.0; 3], 1.0).replacing(text, sun).shot().irradiance();
-    assert!(seen.mean.iter().chain(&seen.variance).all(|v| v.is_finite() && *v >= 0.0));
-    assert!(seen.mean.iter().copied().fold(0.0, f32::max) > 1e6);
+    let irradiance = still_life(1.0, [0.0; 3], 1.0).replacing(text, sun).shot().irradiance();
+    assert!(irradiance.mean.iter().chain(&irradiance.variance).all(|v| v.is_finite() && *v >= 0.0));
+    assert!(irradiance.mean.iter().copied().fold(0.0, f32::max) > 1e6);
 }
 
 #[test]
@@ -121,9 +121,9 @@ fn one_pixel_of_one_sample_is_a_picture() {
         .replacing("spp = 256", "spp = 1")
         .replacing("replicates = 16", "replicates = 1")
         .shot();
-    let seen = small.irradiance();
-    assert!(seen.mean.iter().all(|v| v.is_finite()), "{seen:?}");
-    assert!(seen.variance.iter().all(|v| v.is_nan()), "one replicate knows no variance and says so");
+    let irradiance = small.irradiance();
+    assert!(irradiance.mean.iter().all(|v| v.is_finite()), "{irradiance:?}");
+    assert!(irradiance.variance.iter().all(|v| v.is_nan()), "one replicate knows no variance and says so");
 }
 
 #[test]

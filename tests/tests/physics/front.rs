@@ -43,7 +43,7 @@ fn ground_truth_by_a_mirror_is_where_the_ray_table_says() {
     let (mirror, path) = (truth.mirror.as_ref().expect("a mirror"), rays.path.as_ref().expect("a mirror"));
     let pose = shot.camera().path.at(0.0);
     let vector = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
-    let mut met = 0;
+    let mut hits = 0;
     for (x, y) in (0..256).map(|i| (i % 16, i / 16)) {
         if mirror.at(x, y)[0].is_nan() {
             assert_eq!((truth.depth.at(x, y), path.at(x, y)), (f32::INFINITY, 0.0), "past the mirror is the sky");
@@ -57,14 +57,14 @@ fn ground_truth_by_a_mirror_is_where_the_ray_table_says() {
         if truth.instance.at(x, y) != 1 {
             continue;
         }
-        met += 1;
+        hits += 1;
         let rest = f64::from(truth.distance.at(x, y)) - f64::from(path.at(x, y));
         let world = pose.position_m + pose.direction_to_world(origin + direction * rest);
         // f32 planes: 6e-8 of the distance, and of the direction times it.
         let tolerance = 3e-7 * (2.0 + rest);
         assert!(world.z.abs() < tolerance && (world - vector(truth.position.at(x, y))).length() < 2.0 * tolerance);
     }
-    assert!(met > 60, "{met} pixels see the ground");
+    assert!(hits > 60, "{hits} pixels see the ground");
 }
 
 /// A single viewpoint: what the middle shows is the camera's own place, and the picture is mirrored.
@@ -83,10 +83,10 @@ fn a_mirror_mirrors() {
 
 #[test]
 fn a_uniform_surround_is_as_bright_by_a_mirror_as_it_reflects() {
-    let (bare, mirrored) = (job(UNIFORM, "", "").shot().irradiance(), job(UNIFORM, MIRROR, "").shot().irradiance());
+    let (direct, mirrored) = (job(UNIFORM, "", "").shot().irradiance(), job(UNIFORM, MIRROR, "").shot().irradiance());
     // The corner looks past the mirror; the middle sees it by every ray. Same samples of the same pupil.
-    assert!((mirrored.mean[0] / bare.mean[0] - 1.0).abs() < 1e-6);
-    assert!((mirrored.mean[8 * 16 + 8] / bare.mean[8 * 16 + 8] - 0.75).abs() < 1e-6);
+    assert!((mirrored.mean[0] / direct.mean[0] - 1.0).abs() < 1e-6);
+    assert!((mirrored.mean[8 * 16 + 8] / direct.mean[8 * 16 + 8] - 0.75).abs() < 1e-6);
 }
 
 #[test]
@@ -105,6 +105,6 @@ fn dirt_is_the_same_by_both_routes() {
         // looks at the centre: 2 % of the light.
         assert!((a - b).abs() < 0.02 * brightest, "{a} and {b} of {brightest}");
     }
-    let least = lens.planes()[0].samples().iter().fold(brightest, |a, b| a.min(*b));
-    assert!(least < 0.2 * brightest, "the right is dark: {least} of {brightest}");
+    let min = lens.planes()[0].samples().iter().fold(brightest, |a, b| a.min(*b));
+    assert!(min < 0.2 * brightest, "the right is dark: {min} of {brightest}");
 }

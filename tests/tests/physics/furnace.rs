@@ -1,6 +1,6 @@
 //! Conservation of energy: furnaces and closed boxes.
 
-use etendue_testkit::judge::{against_truth, is_near, mean_and_error};
+use etendue_testkit::judge::{compare_with_truth, is_near, mean_and_error};
 use etendue_tests::{Job, Samples};
 
 /// f32 arithmetic of a few bounces, and the f32 sums of the densities: 1e-5 as the house demands.
@@ -32,15 +32,15 @@ fn furnace(material: &str, shape: &str, band_width_nm: u32) -> Samples {
     .radiance()
 }
 
-fn assert_is_one(radiance: &Samples, allowance: f64, what: &str) {
-    let judged = against_truth(radiance.estimate(), |_| 1.0, |_| allowance);
-    assert!(judged.is_ok(), "{what}: {judged:?}");
-    let whole = mean_and_error(radiance.estimate());
-    assert!(is_near(whole, 1.0, allowance, 30.0), "{what}: the picture's mean is {whole:?}");
+fn assert_is_one(radiance: &Samples, allowance: f64, subject: &str) {
+    let comparison = compare_with_truth(radiance.estimate(), |_| 1.0, |_| allowance);
+    assert!(comparison.is_ok(), "{subject}: {comparison:?}");
+    let mean = mean_and_error(radiance.estimate());
+    assert!(is_near(mean, 1.0, allowance, 30.0), "{subject}: the picture's mean is {mean:?}");
 }
 
 #[test]
-fn a_white_body_cannot_be_told_from_its_surroundings() {
+fn a_white_body_is_indistinguishable_from_its_surroundings() {
     for shape in ["type = \"sphere\", radius_m = 1", "type = \"box\", size_m = [1, 2, 1.5]"] {
         let radiance = furnace("type = \"diffuse\", reflectance = 1", shape, 100);
         assert_is_one(&radiance, ARITHMETIC, shape);
@@ -124,12 +124,12 @@ fn a_closed_box_fills_with_the_geometric_series() {
         let radiance = closed_box(albedo, max_bounces);
         let truth = 1.0 / (1.0 - albedo);
         let allowance = ARITHMETIC * truth;
-        let judged = against_truth(radiance.estimate(), |_| truth, |_| allowance);
-        assert!(judged.is_ok(), "albedo {albedo}: {judged:?}");
-        let whole = mean_and_error(radiance.estimate());
-        assert!(is_near(whole, truth, allowance, 30.0), "albedo {albedo}: mean {whole:?} for {truth}");
+        let comparison = compare_with_truth(radiance.estimate(), |_| truth, |_| allowance);
+        assert!(comparison.is_ok(), "albedo {albedo}: {comparison:?}");
+        let mean = mean_and_error(radiance.estimate());
+        assert!(is_near(mean, truth, allowance, 30.0), "albedo {albedo}: mean {mean:?} for {truth}");
         // A test that could not fail would be of no use: the picture's mean is known to 1 %.
-        assert!(whole.1 < 0.01 * truth, "albedo {albedo}: standard error {}", whole.1);
+        assert!(mean.1 < 0.01 * truth, "albedo {albedo}: standard error {}", mean.1);
     }
 }
 
@@ -138,7 +138,7 @@ fn a_limit_of_bounces_cuts_the_series_where_it_says() {
     for bounces in [1, 2, 3] {
         let truth: f64 = (0..=bounces).map(|k| etendue_core::maths::f64::pow(0.5, f64::from(k))).sum();
         let radiance = closed_box(0.5, bounces);
-        let judged = against_truth(radiance.estimate(), |_| truth, |_| ARITHMETIC * truth);
-        assert!(judged.is_ok(), "{bounces} bounces: {judged:?}");
+        let comparison = compare_with_truth(radiance.estimate(), |_| truth, |_| ARITHMETIC * truth);
+        assert!(comparison.is_ok(), "{bounces} bounces: {comparison:?}");
     }
 }

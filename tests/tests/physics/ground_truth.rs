@@ -53,8 +53,8 @@ fn undistorted(observed: DVec2, k1: f64, k2: f64) -> DVec2 {
     if target == 0.0 { observed } else { observed * (low / target) }
 }
 
-fn relative(found: f32, truth: f64) -> f64 {
-    (f64::from(found) / truth - 1.0).abs()
+fn relative(actual: f32, truth: f64) -> f64 {
+    (f64::from(actual) / truth - 1.0).abs()
 }
 
 const GROUND: &str = r#"
@@ -76,9 +76,9 @@ fn scene(objects: &str) -> String {
     format!("{text}\n{objects}")
 }
 
-fn assert_same_vector(found: [f32; 3], truth: DVec3, tolerance: f64, what: &str) {
-    let error = (DVec3::from_array(found.map(f64::from)) - truth).length();
-    assert!(error <= tolerance, "{what}: {found:?} for {truth}, off by {error:e}");
+fn assert_same_vector(actual: [f32; 3], truth: DVec3, tolerance: f64, subject: &str) {
+    let error = (DVec3::from_array(actual.map(f64::from)) - truth).length();
+    assert!(error <= tolerance, "{subject}: {actual:?} for {truth}, off by {error:e}");
 }
 
 #[test]
@@ -115,8 +115,8 @@ fn a_plane_is_where_it_is_up_to_grazing_incidence() {
 /// Distance to a sphere along a unit direction from the origin, without cancellation; `None` where it passes by.
 fn sphere_distance(ray: DVec3, centre: DVec3, radius: f64) -> Option<f64> {
     let along = ray.dot(centre);
-    let aside = (centre - ray * along).length();
-    (aside < radius).then(|| along - ((radius - aside) * (radius + aside)).sqrt())
+    let lateral = (centre - ray * along).length();
+    (lateral < radius).then(|| along - ((radius - lateral) * (radius + lateral)).sqrt())
 }
 
 #[test]
@@ -148,15 +148,15 @@ fn spheres_are_where_they_are_up_to_their_limbs() {
         counts[i] += 1;
         let normal = (ray * distance - centres[i]) / radii[i];
         let incidence = etendue_core::maths::f64::acos(-normal.dot(ray)).to_degrees();
-        let what = format!("pixel {x}, {y}, ball {i}, incidence {incidence}°");
+        let label = format!("pixel {x}, {y}, ball {i}, incidence {incidence}°");
         assert_eq!((truth.instance.at(x, y), truth.semantic.at(x, y), truth.material.at(x, y)), (i as u32 + 1, 3, 1));
         if incidence <= 89.4 {
             steepest = steepest.max(incidence);
-            assert!(relative(truth.distance.at(x, y), distance) < RELATIVE, "{what}");
-            assert!(relative(truth.depth.at(x, y), distance * ray.x) < RELATIVE, "{what}");
+            assert!(relative(truth.distance.at(x, y), distance) < RELATIVE, "{label}");
+            assert!(relative(truth.depth.at(x, y), distance * ray.x) < RELATIVE, "{label}");
             // f32 storage: half a unit in the last place of each component below 1, together below 1e-7.
-            assert_same_vector(truth.normal.at(x, y), normal, 1e-7, &what);
-            assert_same_vector(truth.position.at(x, y), ray * distance, RELATIVE * distance, &what);
+            assert_same_vector(truth.normal.at(x, y), normal, 1e-7, &label);
+            assert_same_vector(truth.position.at(x, y), ray * distance, RELATIVE * distance, &label);
         }
     }
     assert!(counts.iter().all(|n| *n > 200) && steepest > 85.0, "{counts:?}, steepest {steepest}°");
@@ -243,9 +243,9 @@ fn the_plan_says_where_depth_along_the_axis_means_nothing() {
     let fisheye = "{ type = \"calibrated\", f_number = 8, greatest_angle_deg = 100, projection = { type = \"equidistant\", fx_px = 15 } }";
     let ball = "[[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 0]";
     let job = || Job::new(camera(0.0, "", 64, 10.0) + &scene(ball));
-    let said = |job: Job| Summary(&job.shot().plan).to_string().contains("depth along the axis is NaN");
-    assert!(!said(job()));
-    assert!(said(job().replacing(pinhole, fisheye)));
+    let mentions_nan = |job: Job| Summary(&job.shot().plan).to_string().contains("depth along the axis is NaN");
+    assert!(!mentions_nan(job()));
+    assert!(mentions_nan(job().replacing(pinhole, fisheye)));
 }
 
 /// A square of 1.1 m that stands across the axis, as a survey's file has it, with its middle taken off.

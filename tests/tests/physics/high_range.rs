@@ -16,8 +16,8 @@ fn shipped(job: &str) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(job);
     let read = |file: &Path| std::fs::read_to_string(file).map_err(|error| error.to_string().into());
     let description =
-        Description::load(&path, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    compile(&description, &Assets::default(), &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+        Description::load(&path, &read, &Overrides::default()).unwrap_or_else(|errors| panic!("{errors}"));
+    compile(&description, &Assets::default(), &Choices::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 fn frame(sensor: &Sensor, means: &Plane<MeanElectrons>, frame: u32) -> Raw {
@@ -31,9 +31,9 @@ fn electrons(sensor: &Sensor, raw: &Raw) -> Vec<f64> {
 }
 
 /// Mean and temporal standard deviation of some pixels, by two frames: patterns cancel in their difference.
-fn of_pair(frames: &[Vec<f64>; 2], places: impl Iterator<Item = usize> + Clone) -> (f64, f64) {
-    let mean = Moments::of(places.clone().map(|i| frames[0][i])).mean();
-    let differences = Moments::of(places.map(|i| frames[0][i] - frames[1][i]));
+fn pair_statistics(frames: &[Vec<f64>; 2], places: impl Iterator<Item = usize> + Clone) -> (f64, f64) {
+    let mean = Moments::from_values(places.clone().map(|i| frames[0][i])).mean();
+    let differences = Moments::from_values(places.map(|i| frames[0][i] - frames[1][i]));
     (mean, (0.5 * differences.variance().expect("many")).sqrt())
 }
 
@@ -41,13 +41,13 @@ fn of_pair(frames: &[Vec<f64>; 2], places: impl Iterator<Item = usize> + Clone) 
 fn flat(sensor: &Sensor, mean_e: f64) -> (f64, f64) {
     const SIZE: usize = 128;
     let means = Plane::filled(SIZE, SIZE, mean_e as f32);
-    of_pair(&[0, 1].map(|k| electrons(sensor, &frame(sensor, &means, k))), 0..SIZE * SIZE)
+    pair_statistics(&[0, 1].map(|k| electrons(sensor, &frame(sensor, &means, k))), 0..SIZE * SIZE)
 }
 
 #[test]
 fn one_frame_holds_seven_decades() {
     const HALF: usize = 50;
-    let shot = Shot::of(shipped("sensors/range.toml"));
+    let shot = Shot::render(shipped("sensors/range.toml"));
     let sensor = shot.camera().body.sensor.clone().expect("electronics");
     let means = shot.light().electrons.expect("electrons");
     let frames = [0, 1].map(|k| electrons(&sensor, &frame(&sensor, &means, k)));
@@ -55,8 +55,8 @@ fn one_frame_holds_seven_decades() {
         columns.map(|x| {
             let square = (y - HALF..y + HALF).flat_map(|y| (x - HALF..x + HALF).map(move |x| (x, y)));
             let green = square.filter(|(x, y)| sensor.channel_at(*x, *y) == 1).map(|(x, y)| y * means.width() + x);
-            let (signal, sigma) = of_pair(&frames, green.clone());
-            let true_e = Moments::of(green.clone().map(|i| f64::from(means.samples()[i]))).mean();
+            let (signal, sigma) = pair_statistics(&frames, green.clone());
+            let true_e = Moments::from_values(green.clone().map(|i| f64::from(means.samples()[i]))).mean();
             // Noise of 5000 pixels, PRNU of 0.6 % over them; offsets and dark current are a fraction of an electron.
             let tolerance = 4.0 * sigma / 70.0 + 4.0 * 0.006 / 70.0 * true_e + 0.4;
             assert!((signal - true_e).abs() < tolerance, "{signal} ± {tolerance} for {true_e}");
@@ -76,11 +76,11 @@ fn the_declared_range_is_that_of_its_frames() {
     let (_, dark_e) = flat(&sensor, 0.0);
     let least_e = 0.5 * (1.0 + (1.0 + 4.0 * dark_e * dark_e).sqrt());
     // A ramp of 1 % steps, 64 rows: the last column that stays half a per cent below white.
-    let ramp = |x: usize| (declared.most_e * (0.5 + 0.005 * x as f64)) as f32;
+    let ramp = |x: usize| (declared.upper_e * (0.5 + 0.005 * x as f64)) as f32;
     let means = Plane::from_samples(200, 64, (0..200 * 64).map(|i| ramp(i % 200)).collect()).expect("filled");
     let e = electrons(&sensor, &frame(&sensor, &means, 0));
-    let column = |x: usize| Moments::of((0..64).map(|y| e[y * 200 + x])).mean();
-    let last = (0..200).rev().find(|x| column(*x) < 0.995 * declared.most_e).expect("half the range is not white");
+    let column = |x: usize| Moments::from_values((0..64).map(|y| e[y * 200 + x])).mean();
+    let last = (0..200).rev().find(|x| column(*x) < 0.995 * declared.upper_e).expect("half the range is not white");
     assert!(last < 199, "white is reached");
     let most_e = f64::from(ramp(last));
     let measured_db = db(most_e / least_e);
@@ -120,15 +120,15 @@ fn before_the_lamp(camera: usize) -> (Sensor, Vec<f64>, Vec<(usize, usize)>) {
     let noise_e =
         6.0 * (sensor.parameters().voltage.noise.white_e + 3.0) + 1.0 / sensor.parameters().read_out.gain_dn_e;
     assert!(e.iter().all(|e| *e < well + noise_e), "the well is never exceeded");
-    let (_, account) = raw.accounts[0];
-    assert!(account.imbalance_e().abs() < 1e-5 * account.generated_e && account.drained_e > 0.0);
+    let (_, charge_account) = raw.accounts[0];
+    assert!(charge_account.imbalance_e().abs() < 1e-5 * charge_account.generated_e && charge_account.drained_e > 0.0);
     let full = (0..e.len()).filter(|i| e[*i] > 0.97 * well - noise_e).map(|i| (i % 161, i / 161)).collect();
     (sensor, e, full)
 }
 
 /// First and last of some numbers.
-fn extent(of: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
-    (of.clone().min().expect("some"), of.max().expect("some"))
+fn extent(rows: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
+    (rows.clone().min().expect("some"), rows.max().expect("some"))
 }
 
 #[test]
@@ -139,17 +139,17 @@ fn a_ccd_shows_the_column() {
     let (top, bottom) = extent(full.iter().map(|(_, y)| *y));
     assert!((100..140).contains(&top) && (160..200).contains(&bottom), "{top} {bottom}");
     // Smear: ε t_line Σ μ/t_exp, as faint at the top as at the bottom, in the lamp's columns alone.
-    let column = |x: usize, rows: core::ops::Range<usize>| Moments::of(rows.map(|y| e[y * 161 + x])).mean();
+    let column = |x: usize, rows: core::ops::Range<usize>| Moments::from_values(rows.map(|y| e[y * 161 + x])).mean();
     let p = sensor.parameters();
     let rows = 301.0 + p.read_out.layout.optical_black.rows as f64;
     let lit = 13.0 * 3000.0 * p.charge.full_well.capacity_e;
     let leak = p.light.smear.as_ref().expect("a CCD").leak();
     let smear_e = leak * p.exposure.frame_period_s.expect("stated") / rows * lit / p.exposure.exposure_s;
     for rows in [0..90, 211..301] {
-        let seen = column(80, rows.clone()) - column(20, rows);
+        let difference = column(80, rows.clone()) - column(20, rows);
         // 90 pixels of that mean, the street's 10 e⁻ and read noise of 10 e⁻, twice; PRNU of 0.8 %.
         let tolerance = 4.0 * ((smear_e + 110.0 + 110.0) / 90.0).sqrt() + 0.004 * smear_e;
-        assert!((seen - smear_e).abs() < tolerance, "{seen} for {smear_e}");
+        assert!((difference - smear_e).abs() < tolerance, "{difference} for {smear_e}");
     }
 }
 
@@ -158,10 +158,10 @@ fn a_cmos_sensor_shows_a_round_halo() {
     let (_, e, full) = before_the_lamp(0);
     let ((left, right), (top, bottom)) = (extent(full.iter().map(|f| f.0)), extent(full.iter().map(|f| f.1)));
     // Wider than the lamp by some pixels, as wide as high.
-    let (wide, high) = (right - left + 1, bottom - top + 1);
-    assert!((19..=45).contains(&wide) && wide.abs_diff(high) <= 2, "{wide} × {high}");
+    let (width, high) = (right - left + 1, bottom - top + 1);
+    assert!((19..=45).contains(&width) && width.abs_diff(high) <= 2, "{width} × {high}");
     // Nothing in the rest of the lamp's column.
-    let column = |x: usize| Moments::of((0..100).map(|y| e[y * 161 + x])).mean();
+    let column = |x: usize| Moments::from_values((0..100).map(|y| e[y * 161 + x])).mean();
     // A hundred pixels of 8 e⁻ each, twice, and column patterns of 2 e⁻.
     assert!((column(80) - column(20)).abs() < 4.0 * (2.0 * 64.0 / 100.0_f64 + 8.0).sqrt());
 }

@@ -9,7 +9,7 @@ use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_spectra::{illuminant, observer};
 use etendue_stats::{ReplicateEstimate, planes};
 use etendue_testkit::form_factor::{disc, polygon, sphere};
-use etendue_testkit::judge::{SIGNIFICANCE, against_truth, is_near};
+use etendue_testkit::judge::{SIGNIFICANCE, compare_with_truth, is_near};
 use etendue_tests::{Job, Samples};
 use glam::DVec3;
 
@@ -54,14 +54,14 @@ fn point(pixel: usize) -> DVec3 {
     DVec3::new(-from_middle(pixel / SIDE_PX), -4.0 - from_middle(pixel % SIDE_PX), 0.0)
 }
 
-fn assert_lit(seen: &Samples, irradiance: impl Fn(DVec3) -> f64, what: &str) {
+fn assert_lit(samples: &Samples, irradiance: impl Fn(DVec3) -> f64, subject: &str) {
     let truth = |i: usize| REFLECTANCE / PI * irradiance(point(i));
     // Sums, densities and solid angles in f32.
-    let judged = against_truth(seen.estimate(), truth, |i| 1e-5 * truth(i));
-    assert!(judged.is_ok(), "{what}: {judged:?}");
+    let comparison = compare_with_truth(samples.estimate(), truth, |i| 1e-5 * truth(i));
+    assert!(comparison.is_ok(), "{subject}: {comparison:?}");
     // A test that could not fail would be of no use: the light of every pixel is known to 2 %.
-    let largest = seen.variance.iter().zip(&seen.mean).map(|(v, m)| v.sqrt() / m).fold(0.0, f32::max);
-    assert!(largest < 0.02, "{what}: relative standard error {largest}");
+    let largest = samples.variance.iter().zip(&samples.mean).map(|(v, m)| v.sqrt() / m).fold(0.0, f32::max);
+    assert!(largest < 0.02, "{subject}: relative standard error {largest}");
 }
 
 const LAMP: &str = r#"
@@ -78,9 +78,9 @@ fn a_sphere_over_a_plane() {
             "{LAMP}\n[[scene.objects]]\nname = \"ball\"\nmaterial = \"lamp\"\nposition_m = [0.5, 3, {height}]\n\
              shape = {{ type = \"sphere\", radius_m = {radius} }}"
         );
-        let seen = plane(&ball).shot().radiance();
+        let samples = plane(&ball).shot().radiance();
         let centre = DVec3::new(0.5, 3.0, height);
-        assert_lit(&seen, |p| 3.0 * sphere(p, DVec3::Z, centre, radius), &format!("radius {radius} at {height}"));
+        assert_lit(&samples, |p| 3.0 * sphere(p, DVec3::Z, centre, radius), &format!("radius {radius} at {height}"));
     }
 }
 
@@ -91,14 +91,14 @@ fn a_rectangle_over_a_plane() {
             "{LAMP}\n[[scene.objects]]\nname = \"panel\"\nmaterial = \"lamp\"\nposition_m = [0.5, 2.2, {height}]\n\
              rotation_deg = [0, {pitch_deg}, 0]\nshape = {{ type = \"quad\", size_m = [1.5, 1.2] }}"
         );
-        let seen = plane(&panel).shot().radiance();
+        let samples = plane(&panel).shot().radiance();
         // Pitch turns x to (cos, 0, −sin); y stays.
         let (sin, cos) = sin_cos(f64::to_radians(pitch_deg));
         let (centre, x, y) = (DVec3::new(0.5, 2.2, height), DVec3::new(cos, 0.0, -sin) * 0.75, DVec3::Y * 0.6);
         let corners = [centre - x - y, centre + x - y, centre + x + y, centre - x + y];
         // The panel's front looks down and to +x: seen points behind its plane get no light.
         let lit = |p: DVec3| 3.0 * polygon(p, DVec3::Z, &corners);
-        assert_lit(&seen, lit, &format!("panel at {height}, pitch {pitch_deg}"));
+        assert_lit(&samples, lit, &format!("panel at {height}, pitch {pitch_deg}"));
     }
 }
 
@@ -137,14 +137,14 @@ fn a_declared_illuminance_arrives_on_the_ground() {
         let job = plane(&sun).replacing(ONE_BAND, "wavelength_range_nm = [360, 830]\nband_width_nm = 5");
         // What bands of 5 nm cost: the band means of observer and lamp are multiplied instead of their product
         // integrated. Computed from the spectra alone; a lamp of lines pays more than the sun, all stay below 0.5 %.
-        let lamp = if name == "solar" { &illuminant::solar().direct } else { illuminant::named(name).expect("known") };
+        let lamp = if name == "solar" { &illuminant::solar().direct } else { illuminant::by_name(name).expect("known") };
         let means: Vec<f32> = lamp.band_means(bands).iter().map(|v| *v as f32).collect();
-        let of_bands = observer::xyz_of_bands(&means, bands)[1] / observer::luminance(lamp);
-        assert!((of_bands - 1.0).abs() < 5e-3, "{name}: {of_bands}");
+        let band_illuminance = observer::xyz_of_bands(&means, bands)[1] / observer::luminance(lamp);
+        assert!((band_illuminance - 1.0).abs() < 5e-3, "{name}: {band_illuminance}");
         // Neighbouring bands share their samples, so the error of the sum is told by independent pictures.
-        let pictures: Vec<f64> = (1..=8).map(|seed| ground_lx(&job.clone().with_seed(seed))).collect();
-        let ground = ReplicateEstimate::of(&pictures).expect("eight pictures");
-        let truth = LUX * sin(40_f64.to_radians()) * of_bands;
+        let illuminances: Vec<f64> = (1..=8).map(|seed| ground_lx(&job.clone().with_seed(seed))).collect();
+        let ground = ReplicateEstimate::from_replicates(&illuminances).expect("eight pictures");
+        let truth = LUX * sin(40_f64.to_radians()) * band_illuminance;
         let measured = (ground.mean, ground.standard_error());
         // f32 sums.
         assert!(is_near(measured, truth, 1e-5 * truth, 7.0), "{name}: {ground:?} for {truth}");
@@ -156,10 +156,10 @@ fn a_declared_illuminance_arrives_on_the_ground() {
 fn a_constant_picture_is_a_uniform_environment() {
     let visible = "wavelength_range_nm = [400, 700]\nband_width_nm = 50";
     let rgb = [0.8_f32, 0.5, 0.3];
-    let picture =
+    let uniform_image =
         "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
     let image =
-        plane(picture).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
+        plane(uniform_image).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
     // The luminance of linear sRGB: Rec. 709's row of Y.
     let luminance = 1000.0 * (0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]));
     let uniform = format!("[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = {luminance}\nrgb = {rgb:?}");
@@ -180,9 +180,9 @@ fn a_disc_over_a_plane() {
              rotation_deg = [0, 180, 0]\nshape = {{ type = \"disc\", radius_m = {radius} }}"
         );
         // A polygon of 256 sides and the same area as the circle: their second moments differ by 2e-9.
-        let seen = plane(&lamp).shot().radiance();
+        let samples = plane(&lamp).shot().radiance();
         let axis = DVec3::new(3.5, -7.5, 0.0);
-        assert_lit(&seen, |p| 3.0 * disc(height, (p - axis).length(), radius), &format!("radius {radius} at {height}"));
+        assert_lit(&samples, |p| 3.0 * disc(height, (p - axis).length(), radius), &format!("radius {radius} at {height}"));
         // The pixel below the middle is on the axis: E = π L R²/(R² + h²).
         let below = (0..64).find(|i| (point(*i) - axis).length() < 1e-9).expect("a pixel below the middle");
         let on_axis = 3.0 * PI * radius * radius / (radius * radius + height * height);
@@ -210,10 +210,10 @@ fn a_flux_is_shared_by_the_area_of_each_object() {
         let by_flux = format!("radiant_flux_w = {watts}, spectrum = \"flat.csv\"{sides}");
         let by_radiance = format!("radiance_w_m2_sr_nm = 3{sides}");
         let (a, b) = (flux_lamp(&by_flux, object).shot(), flux_lamp(&by_radiance, object).shot());
-        let seen = |shot: &etendue_tests::Shot| shot.radiance().mean.clone();
+        let radiances = |shot: &etendue_tests::Shot| shot.radiance().mean.clone();
         // The same paths; a spectrum scaled twice in f32.
-        let apart = seen(&a).iter().zip(seen(&b)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
-        assert!(apart < 1e-6 && seen(&a)[0] > 0.0, "{object}: {apart}");
+        let max_difference = radiances(&a).iter().zip(radiances(&b)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
+        assert!(max_difference < 1e-6 && radiances(&a)[0] > 0.0, "{object}: {max_difference}");
     }
 }
 

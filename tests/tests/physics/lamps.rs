@@ -73,12 +73,12 @@ fn fan() -> Vec<DVec3> {
     [(0.0, 0.0), (8.0, 3.0), (-20.0, -10.0), (35.0, 20.0), (-50.0, 5.0)].map(|(left, up)| ahead(left, up)).to_vec()
 }
 
-fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!((found - expected).abs() <= tolerance * expected, "{what}: {found} for {expected}");
+fn assert_near(actual: f64, expected: f64, tolerance: f64, subject: &str) {
+    assert!((actual - expected).abs() <= tolerance * expected, "{subject}: {actual} for {expected}");
 }
 
 #[test]
-fn a_lamp_alike_in_all_directions_is_told_in_lumens_candelas_or_watts() {
+fn an_isotropic_lamp_is_stated_in_lumens_candelas_or_watts() {
     // 1 000 cd of a flat spectrum over all directions and the 800 nm from 300 to 1 100 nm.
     let watts = 4.0 * PI * 800.0 * flat_per_lux() * 1000.0;
     for (strength, at_m) in [
@@ -96,8 +96,8 @@ fn a_lamp_alike_in_all_directions_is_told_in_lumens_candelas_or_watts() {
             job = job.replacing(FLAT, "spectrum = \"flat.csv\"").with_spectrum("flat.csv", &flat);
         }
         for (lux, d) in illuminances(&job).iter().zip(fan()) {
-            let way = d * (WALL_M / d.x) - DVec3::X * at_m;
-            let expected = 1000.0 * way.x / (way.length() * way.length_squared());
+            let offset = d * (WALL_M / d.x) - DVec3::X * at_m;
+            let expected = 1000.0 * offset.x / (offset.length() * offset.length_squared());
             assert_near(*lux, expected, SMOOTH, &format!("{strength} at {at_m} m towards {d}"));
         }
     }
@@ -119,14 +119,14 @@ fn a_spot_is_full_within_its_inner_angle_soft_to_its_field_angle_and_dark_beyond
                 inner_angle_deg = 30\nintensity_cd = 1000";
     let off_deg = [0.0, 5.0, 14.9, 18.0, 22.0, 27.0, 30.1, 45.0];
     let directions = off_deg.map(off_axis);
-    let found = intensities(&wall(spot, &directions), &directions);
-    for (found, deg) in found.into_iter().zip(off_deg) {
+    let actual = intensities(&wall(spot, &directions), &directions);
+    for (actual, deg) in actual.into_iter().zip(off_deg) {
         let [at, inner, outer] = [deg, 15.0, 30.0].map(|deg: f64| cos(deg.to_radians()));
         let t = ((at - outer) / (inner - outer)).clamp(0.0, 1.0);
         let expected = 1000.0 * t * t * (3.0 - 2.0 * t);
         // The soft edge falls by 11 % of the full intensity a degree at most: 0.006° are 6e-4 of it.
-        assert!((found - expected).abs() < 0.6, "{deg}°: {found} for {expected}");
-        assert!(deg < 30.0 || found == 0.0, "{deg}°: {found} beyond the field");
+        assert!((actual - expected).abs() < 0.6, "{deg}°: {actual} for {expected}");
+        assert!(deg < 30.0 || actual == 0.0, "{deg}°: {actual} beyond the field");
     }
     // The same by its flux: Φ = I · 2π ((1 − c_i) + (c_i − c_o)/2).
     let [inner, outer] = [15.0, 30.0].map(|deg: f64| cos(deg.to_radians()));
@@ -145,16 +145,16 @@ fn off_axis(deg: f64) -> DVec3 {
 fn a_mask_shapes_a_lamp_as_a_slide_does() {
     // Quarters of a picture: upper left 1, upper right 0.5, lower left 0.25, lower right black.
     let texel = |row: u32, column: u32| [[1.0, 0.5], [0.25, 0.0]][(row / 8) as usize][(column / 8) as usize];
-    let picture = (0..256).map(|i| [texel(i / 16, i % 16); 3]).collect();
+    let image = (0..256).map(|i| [texel(i / 16, i % 16); 3]).collect();
     let lamp = "type = \"point\"\nposition_m = [0, 0, 0]\nrotation_deg = [0, 0, 0]\nintensity_cd = 800\n\
                 mask = { file = \"mask.exr\", field_deg = [40, 30] }";
     // Middles of the quarters, then beyond the picture's right and upper edge.
-    let half = |full_deg: f64, share: f64| share * tan((0.5 * full_deg).to_radians());
+    let half = |full_deg: f64, fraction: f64| fraction * tan((0.5 * full_deg).to_radians());
     let at = |left: f64, up: f64| DVec3::new(1.0, half(40.0, left), half(30.0, up)).normalize();
     let directions = [at(0.5, 0.5), at(-0.5, 0.5), at(0.5, -0.5), at(-0.5, -0.5), at(-1.02, 0.5), at(0.5, 1.02)];
-    let job = wall(lamp, &directions).with_image("mask.exr", 16, 16, picture);
-    for (found, share) in intensities(&job, &directions).into_iter().zip([1.0, 0.5, 0.25, 0.0, 0.0, 0.0]) {
-        assert_near(found, 800.0 * share, SMOOTH, "a quarter of the slide");
+    let job = wall(lamp, &directions).with_image("mask.exr", 16, 16, image);
+    for (actual, fraction) in intensities(&job, &directions).into_iter().zip([1.0, 0.5, 0.25, 0.0, 0.0, 0.0]) {
+        assert_near(actual, 800.0 * fraction, SMOOTH, "a quarter of the slide");
     }
 }
 
@@ -215,9 +215,9 @@ fn assert_measured(
     let text = format!("type = \"measured\"\nfile = \"{name}\"\nposition_m = [0, 0, 0]\ntarget_m = [10, 0, 0]");
     let directions: Vec<DVec3> = angles.iter().map(|(h, v)| direction(*h, *v)).collect();
     let job = wall(&text, &directions).with_lamp(name, lamp.clone());
-    for (found, (h, v)) in intensities(&job, &directions).into_iter().zip(angles) {
+    for (actual, (h, v)) in intensities(&job, &directions).into_iter().zip(angles) {
         let expected = lamp.candela_at(*h, *v);
-        assert_near(found, expected, SMOOTH, &format!("{name} at {h}°, {v}°"));
+        assert_near(actual, expected, SMOOTH, &format!("{name} at {h}°, {v}°"));
         if h % 10.0 == 0.0 && v % 10.0 == 0.0 {
             assert_near(expected, candela(*h, *v), 1e-9, &format!("{name} at {h}°, {v}° as in the file"));
         }
@@ -287,18 +287,18 @@ fn a_low_beam_on_the_wall_passes_the_regulation_s_points() {
     for (traffic, mirror) in [("right", 1.0), ("left", -1.0)] {
         let lamp =
             format!("type = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"{traffic}\"\nposition_m = [0, 0, 0]");
-        let met = |mirror: f64| {
+        let fulfilled = |mirror: f64| {
             let directions = passing_beam::POINTS.map(|point| ahead(-mirror * point.right_deg, point.up_deg));
-            let found = intensities(&wall(&lamp, &directions), &directions);
-            found.iter().zip(passing_beam::POINTS).filter(|(candela, point)| point.limit.is_met(**candela)).count()
+            let actual = intensities(&wall(&lamp, &directions), &directions);
+            actual.iter().zip(passing_beam::POINTS).filter(|(candela, point)| point.limit.is_met(**candela)).count()
         };
-        assert_eq!(met(mirror), passing_beam::POINTS.len(), "traffic on the {traffic}");
-        assert!(met(-mirror) < passing_beam::POINTS.len(), "the cut-off is not symmetric");
+        assert_eq!(fulfilled(mirror), passing_beam::POINTS.len(), "traffic on the {traffic}");
+        assert!(fulfilled(-mirror) < passing_beam::POINTS.len(), "the cut-off is not symmetric");
     }
     // A high beam is none.
     let lamp = "type = \"head_lamp\"\nbeam = \"high_beam\"\nposition_m = [0, 0, 0]";
-    let dazzled = [ahead(3.43, 0.57)];
-    assert!(intensities(&wall(lamp, &dazzled), &dazzled)[0] > 10_000.0);
+    let glare_directions = [ahead(3.43, 0.57)];
+    assert!(intensities(&wall(lamp, &glare_directions), &glare_directions)[0] > 10_000.0);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan, cos, pow, tan};
 use etendue_testkit::form_factor::{by_sum, foote, lens_area};
-use etendue_testkit::judge::against_truth;
+use etendue_testkit::judge::compare_with_truth;
 use etendue_tests::{Job, Samples, Shot};
 
 const COLUMNS: usize = 41;
@@ -55,7 +55,7 @@ fn a_wall_through_a_thin_lens_follows_the_finite_aperture() {
             // The bound of the specification; scatter of 4096 points of the pupil is far below it.
             assert!(error.abs() < 3e-3, "f/{n}, column {column}: {error:e}");
         }
-        let judged = against_truth(
+        let comparison = compare_with_truth(
             row.estimate(),
             |i| PI * foote(tangent(i), 0.5 / n),
             |i| {
@@ -63,7 +63,7 @@ fn a_wall_through_a_thin_lens_follows_the_finite_aperture() {
                 1e-6 * PI * foote(tangent(i), 0.5 / n)
             },
         );
-        assert!(judged.is_ok(), "f/{n}: {judged:?}");
+        assert!(comparison.is_ok(), "f/{n}: {comparison:?}");
     }
 }
 
@@ -138,24 +138,24 @@ fn vignetting_is_the_common_area_of_two_discs() {
     // A slow lens, so that every point of the pupil counts nearly the same; a front rim as wide as the pupil, 20 pupil
     // radii ahead of it, leaves the common area of two equal discs at a distance of 20 tan θ radii. (Infinity focus.)
     let (n, pupil_mm) = (100.0, FOCAL_MM / 200.0);
-    let rim = format!("front_aperture = {{ position_mm = {}, radius_mm = {pupil_mm} }}", -5.0 * pupil_mm);
+    let aperture = format!("front_aperture = {{ position_mm = {}, radius_mm = {pupil_mm} }}", -5.0 * pupil_mm);
     let lens =
         format!("type = \"thick\", constant_pupil = \"entrance\", f_number = {n}, focus_distance_m = \"infinity\"");
-    let row = wall(&format!("{lens}, {rim}")).irradiance();
+    let row = wall(&format!("{lens}, {aperture}")).irradiance();
     let open = |t: f64| lens_area(1.0, 1.0, 5.0 * t) / PI;
-    let whole = |t: f64| PI * foote(t, 0.5 / n);
-    let judged = against_truth(
+    let full_aperture = |t: f64| PI * foote(t, 0.5 / n);
+    let comparison = compare_with_truth(
         row.estimate(),
-        |i| whole(tangent(i)) * open(tangent(i)),
+        |i| full_aperture(tangent(i)) * open(tangent(i)),
         |i| {
             // The weight varies over the pupil by 4 sin θ cos θ a ≤ 2 a = 1 % from side to side, and the centroid of the open
             // part lies off the centre by up to its radius: 0.5 % of the light left is the bound of what the area leaves out.
             // Where nearly all is shut no point of 4096 may meet the rest, and the scatter knows nothing: 7 points that were
             // expected are all missed once in e⁷ = 1100 times.
-            whole(tangent(i)) * (5e-3 * open(tangent(i)) + 7.0 / 4096.0)
+            full_aperture(tangent(i)) * (5e-3 * open(tangent(i)) + 7.0 / 4096.0)
         },
     );
-    assert!(judged.is_ok(), "{judged:?}");
+    assert!(comparison.is_ok(), "{comparison:?}");
     assert!(row.mean[COLUMNS / 4] > 0.0 && row.mean[COLUMNS - 1] == 0.0, "from half open to shut within the row");
 }
 
@@ -163,13 +163,13 @@ fn vignetting_is_the_common_area_of_two_discs() {
 fn vignetting_of_a_fast_lens_is_the_sum_over_what_is_open() {
     // At f/2 the weight varies over the pupil: each point counts by cos⁴. A rear rim clips on the side of the sensor.
     let pupil_mm = FOCAL_MM / 4.0;
-    let rims = [
+    let apertures = [
         (format!("front_aperture = {{ position_mm = -6, radius_mm = {} }}", 1.2 * pupil_mm), 6.0, 1.2, 1.0, 1.0),
         (format!("rear_aperture = {{ position_mm = 5, radius_mm = {} }}", 0.75 * pupil_mm), 5.0, 0.75, -1.0, 0.5),
     ];
-    for (rim, distance_mm, radius, side, scale) in rims {
+    for (aperture, distance_mm, radius, side, scale) in apertures {
         let lens = "type = \"thick\", constant_pupil = \"exit\", f_number = 2, focus_distance_m = \"infinity\"";
-        let row = wall(&format!("{lens}, {rim}")).irradiance();
+        let row = wall(&format!("{lens}, {aperture}")).irradiance();
         // A ray from the pupil's point q (in units of its radius, x along the sensor point) meets the front rim at
         // q − t d/a, and the rear rim, half way to the sensor, at q/2 + t d/a (t d is half the sensor point's distance).
         let truth = |column: usize| {
@@ -180,7 +180,7 @@ fn vignetting_of_a_fast_lens_is_the_sum_over_what_is_open() {
             })
         };
         // The sum over 300 rings cuts the rim's points to about 1/300 of the edge's share: 5e-4 of the open pupil.
-        let judged = against_truth(row.estimate(), truth, |i| 5e-4 * PI * foote(tangent(i), 0.25));
-        assert!(judged.is_ok(), "{rim}: {judged:?}");
+        let comparison = compare_with_truth(row.estimate(), truth, |i| 5e-4 * PI * foote(tangent(i), 0.25));
+        assert!(comparison.is_ok(), "{aperture}: {comparison:?}");
     }
 }

@@ -67,8 +67,8 @@ fn room() -> Job {
     ))
 }
 
-fn bits<Q: Quantity>(plane: &Plane<Q>, of: impl Fn(&Q::Sample) -> Vec<u32>) -> Vec<u32> {
-    plane.samples().iter().flat_map(of).collect()
+fn bits<Q: Quantity>(plane: &Plane<Q>, sample_bits: impl Fn(&Q::Sample) -> Vec<u32>) -> Vec<u32> {
+    plane.samples().iter().flat_map(sample_bits).collect()
 }
 
 /// Every plane of a ground truth, bit for bit.
@@ -85,8 +85,8 @@ fn levels_see_the_same_surfaces_bit_for_bit() {
     let [flat, direct, path] = <[Shot; 3]>::try_from(room().shots()).expect("three cameras").map(|s| s.truth());
     assert_eq!(all_bits(&flat), all_bits(&direct));
     assert_eq!(all_bits(&flat), all_bits(&path));
-    let seen: std::collections::BTreeSet<u32> = flat.instance.samples().iter().copied().collect();
-    assert!(seen.len() >= 4, "several surfaces are in view: {seen:?}");
+    let instances: std::collections::BTreeSet<u32> = flat.instance.samples().iter().copied().collect();
+    assert!(instances.len() >= 4, "several surfaces are in view: {instances:?}");
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::Unobserved;
-use etendue_pipeline::photograph::{Light, take};
-use etendue_pipeline::render::{Request, Shot as Picture, light};
+use etendue_pipeline::photograph::{Light, capture};
+use etendue_pipeline::render::{LightRequest, FrameCapture as Picture, light};
 use etendue_pipeline::truth::ground_truth;
 use etendue_sensor::{CaptureLight, FrameAddress, SensorState};
 use etendue_tests::{Job, Shot};
@@ -70,9 +70,9 @@ const BAR: &str = "shape = { type = \"quad\", size_m = [1, 0.02] }\nkeys = [{ ti
                    { time_s = 1001, position_m = [0, -1.94, 0] }]";
 
 pub(crate) fn electrons(shot: &Shot, frame: u32) -> Plane<MeanElectrons> {
-    let request = Request { shot: Picture { frame, capture: 0 }, ..Request::default() };
+    let request = LightRequest { frame_capture: Picture { frame, capture: 0 }, ..LightRequest::default() };
     let film = light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels");
-    Light::of_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics")
+    Light::from_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics")
 }
 
 /// Length of [a, b] ∩ [c, d].
@@ -114,7 +114,7 @@ fn a_bar_at_constant_speed_is_blurred_over_the_box_of_its_travel() {
 /// Rows that begin 300 µs after each other see the bar 0.3 px farther each: a leaning bar, in light and in truth.
 #[test]
 fn a_rolling_shutter_leans_an_upright_bar_by_speed_times_row_time() {
-    for (direction, way) in [("down", 1.0), ("up", -1.0)] {
+    for (direction, sign) in [("down", 1.0), ("up", -1.0)] {
         let sensor = format!(
             "exposure_s = 0.004\nshutter = {{ type = \"rolling\", row_time_us = 300, direction = \"{direction}\" }}"
         );
@@ -126,22 +126,22 @@ fn a_rolling_shutter_leans_an_upright_bar_by_speed_times_row_time() {
             let sum: f64 = (0..SIZE[0]).map(weight).sum();
             (0..SIZE[0]).map(|x| (x as f64 + 0.5) * weight(x)).sum::<f64>() / sum
         };
-        let seen: Vec<f64> = (0..SIZE[1]).map(|y| centre(&|x| f64::from(light.at(x, y)))).collect();
-        let told: Vec<f64> = (0..SIZE[1]).map(|y| centre(&|x| f64::from(truth.at(x, y).min(1)))).collect();
-        let read = |y: usize| if way > 0.0 { y } else { SIZE[1] - 1 - y };
+        let centres: Vec<f64> = (0..SIZE[1]).map(|y| centre(&|x| f64::from(light.at(x, y)))).collect();
+        let true_centres: Vec<f64> = (0..SIZE[1]).map(|y| centre(&|x| f64::from(truth.at(x, y).min(1)))).collect();
+        let read = |y: usize| if sign > 0.0 { y } else { SIZE[1] - 1 - y };
         for y in 0..SIZE[1] {
             // The middle of the row's exposure, 2 ms after its beginning, on the bar's way from column 20.
             let expected = 20.0 + 1000.0 * (0.002 + 300e-6 * read(y) as f64);
             // Means of 64 stratified samples of an edge 4 px wide: 0.1 px; a point-sampled box of 10 px: half a pixel.
             assert!(
-                (seen[y] - expected).abs() < 0.1 && (told[y] - expected).abs() < 0.51,
+                (centres[y] - expected).abs() < 0.1 && (true_centres[y] - expected).abs() < 0.51,
                 "{y}: {} {expected}",
-                seen[y]
+                centres[y]
             );
         }
-        let lean = slope(&rows, &seen);
+        let lean = slope(&rows, &centres);
         // 60 rows of 0.04 px scatter a slope by 0.04 √12/60^1.5 = 3e-4 px a row; three of those.
-        assert!((lean - way * 0.3).abs() < 1e-3, "{lean}");
+        assert!((lean - sign * 0.3).abs() < 1e-3, "{lean}");
     }
 }
 
@@ -156,23 +156,23 @@ fn rows_that_are_skipped_take_no_time_of_a_rolling_shutter() {
     let light = electrons(&shot, 0);
     let captures = CaptureLight { first: &light, further: &[] };
     let address = FrameAddress { seed: 0, camera: 0, frame: 0, capture: 0 };
-    let taken = take(&shot.camera().body, SensorState::default(), captures, address);
-    let raw = taken.expect("electronics").1.raw.plane;
+    let frames = capture(&shot.camera().body, SensorState::default(), captures, address);
+    let raw = frames.expect("electronics").1.raw.plane;
     assert_eq!((raw.width(), raw.height()), (SIZE[0], SIZE[1] / 3));
     let centre = |y: usize| {
         let weight = |x: usize| f64::from(raw.at(x, y)) - 64.0;
         let sum: f64 = (0..SIZE[0]).map(weight).sum();
         (0..SIZE[0]).map(|x| (x as f64 + 0.5) * weight(x)).sum::<f64>() / sum
     };
-    let seen: Vec<f64> = (0..raw.height()).map(centre).collect();
+    let centres: Vec<f64> = (0..raw.height()).map(centre).collect();
     let rows: Vec<f64> = (0..raw.height()).map(|y| y as f64).collect();
-    for (y, seen) in seen.iter().enumerate() {
+    for (y, row_centre) in centres.iter().enumerate() {
         let expected = 20.0 + 1000.0 * (0.002 + 300e-6 * y as f64);
         // As above, 0.1 px; rounding to digital numbers of a bar of some hundreds adds less than a hundredth of that.
-        assert!((seen - expected).abs() < 0.1, "{y}: {seen} {expected}");
+        assert!((row_centre - expected).abs() < 0.1, "{y}: {row_centre} {expected}");
     }
     // 20 rows of 0.04 px scatter a slope by 0.04 √12/20^1.5 = 1.5e-3 px a row; three of those.
-    let lean = slope(&rows, &seen);
+    let lean = slope(&rows, &centres);
     assert!((lean - 0.3).abs() < 5e-3, "{lean}");
 }
 
@@ -189,18 +189,18 @@ fn slope(x: &[f64], y: &[f64]) -> f64 {
 fn a_camera_that_moves_sees_what_a_still_one_sees_of_a_world_that_moves_the_other_way() {
     let still = BAR.split("keys").next().unwrap_or_default();
     let shutter = "exposure_s = 0.05\nshutter = { type = \"rolling\", row_time_us = 100 }";
-    let of_world = job(BAR, shutter, 64).shot();
+    let world_moves = job(BAR, shutter, 64).shot();
     let text = job(&format!("{still}position_m = [0, 0.06, 0]"), shutter, 64);
-    let of_camera = text
+    let camera_moves = text
         .replaced(
             "position_m = [0, 0, 1]\n        look_at_m = [0, 0, 0]\n        up = [1, 0, 0]",
             "keys = [{ time_s = 999, position_m = [0, -2, 1], look_at_m = [0, -2, 0], up = [1, 0, 0] }, \
              { time_s = 1001, position_m = [0, 2, 1], look_at_m = [0, 2, 0], up = [1, 0, 0] }]",
         )
         .shot();
-    let (a, b) = (electrons(&of_world, 0), electrons(&of_camera, 0));
+    let (a, b) = (electrons(&world_moves, 0), electrons(&camera_moves, 0));
     // The same random numbers: but for samples whose rounding crosses an edge of the bar, the same electrons.
-    let apart = a.samples().iter().zip(b.samples()).filter(|(a, b)| (*a - *b).abs() > 1e-3 * a.max(**b)).count();
-    assert!(apart * 200 < a.samples().len(), "{apart}");
-    assert!(electrons(&of_world, 1).samples().iter().all(|e| *e == 0.0), "the bar has left the picture");
+    let differing = a.samples().iter().zip(b.samples()).filter(|(a, b)| (*a - *b).abs() > 1e-3 * a.max(**b)).count();
+    assert!(differing * 200 < a.samples().len(), "{differing}");
+    assert!(electrons(&world_moves, 1).samples().iter().all(|e| *e == 0.0), "the bar has left the picture");
 }

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::path::Path;
 
 /// A lamp and eyes of one pixel, each from a place to another.
-fn seen(lamp: &str, eyes: &[(DVec3, DVec3)]) -> Job {
+fn job_seen_by(lamp: &str, eyes: &[(DVec3, DVec3)]) -> Job {
     let eyes: String = eyes.iter().enumerate().map(|(i, (from, at))| eye(&format!("eye{i}"), *from, *at)).collect();
     Job::new(format!(
         "{eyes}\n[render]\nspp = 4\nreplicates = 1\n{ONE_BAND}\n[[scene.lights]]\nname = \"lamp\"\n{FLAT}\n{lamp}\n"
@@ -23,9 +23,9 @@ fn luminances(job: &Job) -> Vec<f64> {
     job.shots().iter().map(|shot| f64::from(shot.radiance().mean[0]) / flat_per_lux()).collect()
 }
 
-fn assert_near(found: f64, expected: f64, what: &str) {
+fn assert_near(actual: f64, expected: f64, subject: &str) {
     // Radiances in f32, and directions within 0.1 mrad.
-    assert!((found - expected).abs() <= 5e-4 * expected, "{what}: {found} for {expected}");
+    assert!((actual - expected).abs() <= 5e-4 * expected, "{subject}: {actual} for {expected}");
 }
 
 /// What is read of a file of these contents.
@@ -71,11 +71,11 @@ fn rectangles_of_files_lie_along_and_across_the_photometric_horizontal() {
     let ldt = read("flat_opening.ldt", &eulumdat(400.0, 200.0, 0.0));
     for (name, asset) in [("lamp.ies", ies), ("lamp.ldt", ldt)] {
         let lamp = format!("type = \"measured\"\nfile = \"{name}\"\nposition_m = [0, 0, 3]\n{FILE}");
-        let found = luminances(&seen(&lamp, &eyes).with_lamp(name, asset));
+        let actual = luminances(&job_seen_by(&lamp, &eyes).with_lamp(name, asset));
         let expected = 500.0 / 0.08;
-        assert_near(found[0], expected, name);
-        assert_near(found[1], expected, name);
-        assert_eq!(found[2..], [0.0, 0.0], "{name}: beside the opening");
+        assert_near(actual[0], expected, name);
+        assert_near(actual[1], expected, name);
+        assert_eq!(actual[2..], [0.0, 0.0], "{name}: beside the opening");
     }
 }
 
@@ -85,16 +85,16 @@ fn bodies_of_files_have_their_height() {
     let side = [(DVec3::new(-3.0, 0.15, 3.04), DVec3::new(0.0, 0.15, 3.04))];
     let ldt = read("box_opening.ldt", &eulumdat(400.0, 200.0, 100.0));
     let lamp = format!("type = \"measured\"\nfile = \"lamp.ldt\"\nposition_m = [0, 0, 3]\n{FILE}");
-    assert_near(luminances(&seen(&lamp, &side).with_lamp("lamp.ldt", ldt))[0], 500.0 / 0.04, "a box");
+    assert_near(luminances(&job_seen_by(&lamp, &side).with_lamp("lamp.ldt", ldt))[0], 500.0 / 0.04, "a box");
     // An upright cylinder of 0.3 m across and 0.1 m: from below a disc; by EULUMDAT of width 0, by LM-63 of negative sizes.
     let area = core::f64::consts::PI * 0.15 * 0.15;
     let below = from_below(&[(0.1, 0.1), (0.12, 0.12)]);
     for (name, text) in [("round.ldt", eulumdat(300.0, 0.0, 100.0)), ("round.ies", lm63(1, [-0.3, -0.3, 0.1]))] {
         let lamp = format!("type = \"measured\"\nfile = \"{name}\"\nposition_m = [0, 0, 3]\n{FILE}");
-        let found = luminances(&seen(&lamp, &below).with_lamp(name, read(name, &text)));
+        let actual = luminances(&job_seen_by(&lamp, &below).with_lamp(name, read(name, &text)));
         // The end of the prism of 48 sides is smaller than the circle by a third of (π/48)².
-        assert!((found[0] * area / 500.0 - 1.001_43).abs() < 3e-4, "{name}: {found:?}");
-        assert_eq!(found[1], 0.0, "{name}: beside it");
+        assert!((actual[0] * area / 500.0 - 1.001_43).abs() < 3e-4, "{name}: {actual:?}");
+        assert_eq!(actual[1], 0.0, "{name}: beside it");
     }
 }
 
@@ -106,10 +106,10 @@ fn openings_of_types_a_and_b_face_their_axes() {
         let lamp = format!("type = \"measured\"\nfile = \"{name}\"\nposition_m = [0, 0, 0]\n{FILE}");
         let eyes = [(0.0, 0.0), (0.15, 0.0), (0.0, 0.09), (0.0, 0.11), (0.21, 0.0)]
             .map(|(y, z)| (DVec3::new(3.0, y, z), DVec3::new(0.0, y, z)));
-        let found = luminances(&seen(&lamp, &eyes).with_lamp(name, read(name, &lm63(kind, size))));
+        let actual = luminances(&job_seen_by(&lamp, &eyes).with_lamp(name, read(name, &lm63(kind, size))));
         let expected = 500.0 / (core::f64::consts::PI * 0.2 * 0.1);
-        found[..3].iter().for_each(|found| assert_near(*found, expected, name));
-        assert_eq!(found[3..], [0.0, 0.0], "{name}: 0.4 m wide and 0.2 m high");
+        actual[..3].iter().for_each(|actual| assert_near(*actual, expected, name));
+        assert_eq!(actual[3..], [0.0, 0.0], "{name}: 0.4 m wide and 0.2 m high");
     }
 }
 
@@ -117,7 +117,7 @@ fn openings_of_types_a_and_b_face_their_axes() {
 fn what_no_opening_can_be_is_refused_where_it_stands() {
     let measured = |name: &str, text: &str| {
         let lamp = format!("type = \"measured\"\nfile = \"{name}\"\nposition_m = [0, 0, 3]\n{FILE}");
-        let job = seen(&lamp, &from_below(&[(0.0, 0.0)])).with_lamp(name, read(name, text));
+        let job = job_seen_by(&lamp, &from_below(&[(0.0, 0.0)])).with_lamp(name, read(name, text));
         job.compiled().map(|_| ()).expect_err("refused")
     };
     let message = measured("point.ies", &lm63(1, [0.0; 3]));
@@ -127,10 +127,10 @@ fn what_no_opening_can_be_is_refused_where_it_stands() {
     let message = measured("line.ies", &lm63(1, [0.0, 1.2, 0.0]));
     assert!(message.contains("the opening is 1.2 × 0 × 0 m"), "{message}");
     let beam = "type = \"head_lamp\"\nbeam = \"high_beam\"\nposition_m = [0, 0, 0]\naim_down_deg = 1\n";
-    let job = seen(&format!("{beam}opening = {{ shape = \"disc\", radius_m = 0.04 }}"), &from_below(&[(0.0, 0.0)]));
+    let job = job_seen_by(&format!("{beam}opening = {{ shape = \"disc\", radius_m = 0.04 }}"), &from_below(&[(0.0, 0.0)]));
     assert!(job.compiled().is_ok(), "a head lamp's disc faces forward");
     let bright = "type = \"point\"\nintensity_cd = 1e33\nposition_m = [0, 0, 0]\nopening = { shape = \"sphere\", radius_m = 0.001 }";
-    let message = seen(bright, &from_below(&[(0.0, 0.0)])).compiled().map(|_| ()).expect_err("refused");
+    let message = job_seen_by(bright, &from_below(&[(0.0, 0.0)])).compiled().map(|_| ()).expect_err("refused");
     assert!(message.contains("more than the maximum of 1e30"), "{message}");
 }
 
@@ -143,7 +143,7 @@ fn ground_truth_knows_openings_as_it_knows_objects() {
         [(DVec3::ZERO, DVec3::X), (DVec3::Y, DVec3::new(1.0, 1.0, 0.0)), (-DVec3::Y, DVec3::new(1.0, -1.0, 0.0))];
     let object = "[[scene.materials]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[scene.objects]]\nname = \"ball\"\n\
                   material = \"m\"\nposition_m = [5, -1, 0]\nshape = { type = \"sphere\", radius_m = 0.5 }\n";
-    let shots = seen(&format!("{lamp}\n{object}"), &eyes).shots();
+    let shots = job_seen_by(&format!("{lamp}\n{object}"), &eyes).shots();
     let names: Vec<_> = shots[0].plan.identities.iter().map(|identity| identity.name.as_str()).collect();
     assert_eq!(names, ["ball", "first", "lamp 2"], "openings come after the objects");
     let truth: Vec<_> = shots.iter().map(etendue_tests::Shot::truth).collect();
@@ -156,12 +156,12 @@ fn ground_truth_knows_openings_as_it_knows_objects() {
 #[test]
 fn a_mask_shapes_what_leaves_the_opening() {
     // Left half white, right half black; seen from the left and from the right, 20 m away, the opening is bright and black.
-    let picture = (0..64).map(|i| if i % 8 < 4 { [1.0; 3] } else { [0.0; 3] }).collect();
+    let image = (0..64).map(|i| if i % 8 < 4 { [1.0; 3] } else { [0.0; 3] }).collect();
     let lamp = "type = \"point\"\nposition_m = [0, 0, 0]\nrotation_deg = [0, 0, 0]\nintensity_cd = 800\n\
                 mask = { file = \"mask.exr\", field_deg = [40, 30] }\nopening = { shape = \"rectangle\", width_m = 0.2, height_m = 0.1 }";
-    let aside = 20.0 * tan(10_f64.to_radians());
-    let eyes = [aside, -aside].map(|y| (DVec3::new(20.0, y, 0.0), DVec3::ZERO));
-    let found = luminances(&seen(lamp, &eyes).with_image("mask.exr", 8, 8, picture));
-    assert_near(found[0], 800.0 / (0.02 * etendue_core::maths::f64::cos(10_f64.to_radians())), "from the left");
-    assert_eq!(found[1], 0.0, "from the right");
+    let lateral_m = 20.0 * tan(10_f64.to_radians());
+    let eyes = [lateral_m, -lateral_m].map(|y| (DVec3::new(20.0, y, 0.0), DVec3::ZERO));
+    let actual = luminances(&job_seen_by(lamp, &eyes).with_image("mask.exr", 8, 8, image));
+    assert_near(actual[0], 800.0 / (0.02 * etendue_core::maths::f64::cos(10_f64.to_radians())), "from the left");
+    assert_eq!(actual[1], 0.0, "from the right");
 }

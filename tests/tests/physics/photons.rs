@@ -52,7 +52,7 @@ fn job(emission: &str, range_nm: [f64; 2], render: &str) -> Job {
 const LINE: [(f64, f64); 3] = [(554.0, 0.0), (555.0, 1.0), (556.0, 0.0)];
 
 fn electrons(job: &Job) -> Moments {
-    Moments::of(job.shot().electrons().iter().map(|e| f64::from(*e)))
+    Moments::from_values(job.shot().electrons().iter().map(|e| f64::from(*e)))
 }
 
 #[test]
@@ -72,14 +72,14 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
         // A band that is not centred on the line counts its light at the band's middle, 557.5 nm for 555 nm.
         ("accumulate = \"cube\"\nband_width_nm = 10", [552.5, 562.5], 2.5 / 555.0),
     ] {
-        let seen = electrons(&job(radiance, range_nm, render).with_spectrum("line.csv", &line));
+        let samples = electrons(&job(radiance, range_nm, render).with_spectrum("line.csv", &line));
         let truth = photons() * (1.0 + bias);
-        let error = seen.variance_of_mean().expect("16 pixels").sqrt();
+        let error = samples.variance_of_mean().expect("16 pixels").sqrt();
         // Pixels at most 1.5 pitches off the axis: cos⁴ costs 1e-6. Electrons are stored as f32.
         assert!(
-            (seen.mean() - truth).abs() < 4.0 * error + 3e-6 * truth,
+            (samples.mean() - truth).abs() < 4.0 * error + 3e-6 * truth,
             "{render}: {} ± {error} for {truth}",
-            seen.mean()
+            samples.mean()
         );
         assert!(error < 2e-3 * truth, "{render}: scatter {error}");
     }
@@ -88,11 +88,11 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
 #[test]
 fn a_declared_luminance_gives_its_photons() {
     let luminance = "luminance_cd_m2 = 100, spectrum = \"line.csv\"";
-    let seen =
+    let samples =
         electrons(&job(luminance, [554.0, 556.0], "accumulate = \"electrons\"").with_spectrum("line.csv", &LINE));
-    let error = seen.variance_of_mean().expect("16 pixels").sqrt();
+    let error = samples.variance_of_mean().expect("16 pixels").sqrt();
     // V(555 nm) = 1.0000 in the table of the observer and K = 683.002 lm/W for 683: 1e-5.
-    assert!((seen.mean() / photons() - 1.0).abs() < 4.0 * error / photons() + 1e-5, "{} ± {error}", seen.mean());
+    assert!((samples.mean() / photons() - 1.0).abs() < 4.0 * error / photons() + 1e-5, "{} ± {error}", samples.mean());
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn digital_numbers_are_electrons_times_the_gain() {
     let address = etendue_sensor::FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
     let start = etendue_sensor::SensorState::default();
     let (_, frame) =
-        etendue_pipeline::photograph::take(body, start, etendue_sensor::CaptureLight::steady(&electrons), address)
+        etendue_pipeline::photograph::capture(body, start, etendue_sensor::CaptureLight::steady(&electrons), address)
             .expect("a sensor");
     assert!(!sensor.parameters().noise);
     for (dn, e) in frame.raw.plane.samples().iter().zip(electrons.samples()) {

@@ -99,8 +99,8 @@ fn the_sun_s_disc_is_as_bright_as_the_sun() {
     let light: f64 = luminance.iter().sum::<f64>() * 0.4e-3 * 0.4e-3;
     let disc =
         PI * sin((0.5 * sun::ANGULAR_DIAMETER_DEG).to_radians()) * sin((0.5 * sun::ANGULAR_DIAMETER_DEG).to_radians());
-    let whole = light / disc;
-    assert!((whole / 1.3e9 - 1.0).abs() < 0.03, "mean of the disc: {whole} cd/m²");
+    let mean_luminance = light / disc;
+    assert!((mean_luminance / 1.3e9 - 1.0).abs() < 0.03, "mean of the disc: {mean_luminance} cd/m²");
 }
 
 /// The street lamp of the scenes: 6 000 lm, LM-63, type C.

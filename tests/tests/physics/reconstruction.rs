@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Seen in the other picture.
-const SEEN: u32 = 1;
+const VISIBLE: u32 = 1;
 
 fn figures() -> Value {
     serde_json::from_str(include_str!("../../oracles/figures/reconstruction.json")).expect("JSON")
@@ -26,9 +26,9 @@ fn figures() -> Value {
 fn room() -> Plan {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracles/figures/reconstruction/room.toml");
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
-    let job = Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let assets = load_assets(&job.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
-    compile(&job, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+    let job = Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|errors| panic!("{errors}"));
+    let assets = load_assets(&job.assets()).unwrap_or_else(|errors| panic!("{errors:?}"));
+    compile(&job, &assets, &Choices::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 fn view<'a>(plan: &'a Plan, name: &str, frame: u32) -> FrameView<'a> {
@@ -50,20 +50,20 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// `truth` of a pixel; the stored list holds every eighth pixel of every eighth row, from the fourth on.
-fn errors(estimate: &Value, seen: &Plane<Identity>, truth: impl Fn(usize, usize) -> [f64; 2]) -> Errors {
+fn errors(estimate: &Value, visible: &Plane<Identity>, truth: impl Fn(usize, usize) -> [f64; 2]) -> Errors {
     let step = figures()["step_px"].as_u64().expect("a number") as usize;
-    let columns = (seen.width() - step / 2).div_ceil(step);
+    let columns = (visible.width() - step / 2).div_ceil(step);
     let stored = estimate.as_array().expect("a list");
-    let off = stored.iter().enumerate().filter_map(|(i, found)| {
+    let off = stored.iter().enumerate().filter_map(|(i, estimated)| {
         let (x, y) = (step / 2 + step * (i % columns), step / 2 + step * (i / columns));
         let number = |value: &Value| value.as_f64().expect("a number");
-        let found = match found {
+        let estimated = match estimated {
             Value::Null => return None,
             Value::Array(uv) => [number(&uv[0]), number(&uv[1])],
             value => [number(value), 0.0],
         };
         let truth = truth(x, y);
-        (seen.at(x, y) == SEEN).then(|| [found[0] - truth[0], found[1] - truth[1]])
+        (visible.at(x, y) == VISIBLE).then(|| [estimated[0] - truth[0], estimated[1] - truth[1]])
     });
     let off: Vec<[f64; 2]> = off.collect();
     let lengths: Vec<f64> = off.iter().map(|[u, v]| (u * u + v * v).sqrt()).collect();
@@ -76,23 +76,23 @@ fn errors(estimate: &Value, seen: &Plane<Identity>, truth: impl Fn(usize, usize)
 }
 
 #[track_caller]
-fn assert_within(found: &Errors, stored: &Value, (median_px, outliers, shift_px): (f64, f64, f64)) {
+fn assert_within(actual: &Errors, stored: &Value, (median_px, outliers, shift_px): (f64, f64, f64)) {
     let number = |key: &str| stored["errors"][key].as_f64().expect("a number");
-    assert!(found.places > 900, "{} places", found.places);
+    assert!(actual.places > 900, "{} places", actual.places);
     for (median, over_3) in
-        [(found.median_px, found.outliers_over_3_px), (number("median_px"), number("outliers_over_3_px"))]
+        [(actual.median_px, actual.outliers_over_3_px), (number("median_px"), number("outliers_over_3_px"))]
     {
         assert!(median < median_px && over_3 < outliers, "median {median} px, {over_3} beyond 3 px");
     }
-    assert!(found.shift_px.iter().all(|px| px.abs() < shift_px), "{:?}", found.shift_px);
+    assert!(actual.shift_px.iter().all(|px| px.abs() < shift_px), "{:?}", actual.shift_px);
 }
 
 #[test]
 fn semi_global_matching_finds_the_disparity() {
     let (plan, figures) = (room(), figures());
-    let (truth, seen) = disparity(&plan, &view(&plan, "left", 0), &view(&plan, "right", 0), Simd::Auto);
-    let found = errors(&figures["disparity"]["estimate"], &seen, |x, y| [f64::from(truth.at(x, y)), 0.0]);
-    assert_within(&found, &figures["disparity"], (0.25, 0.015, 0.15));
+    let (truth, visible) = disparity(&plan, &view(&plan, "left", 0), &view(&plan, "right", 0), Simd::Auto);
+    let actual = errors(&figures["disparity"]["estimate"], &visible, |x, y| [f64::from(truth.at(x, y)), 0.0]);
+    assert_within(&actual, &figures["disparity"], (0.25, 0.015, 0.15));
     assert!(figures["disparity"]["found"].as_f64() > Some(0.9), "part of the pixels that has an estimate");
 }
 
@@ -100,9 +100,9 @@ fn semi_global_matching_finds_the_disparity() {
 fn dense_inverse_search_finds_the_flow() {
     let (plan, figures) = (room(), figures());
     let truth = motion_truth(&plan, &view(&plan, "left", 0), &[view(&plan, "left", 1)], Simd::Auto);
-    let (flow, seen) = (&truth.neighbours[0].flow, &truth.neighbours[0].visibility);
-    let found = errors(&figures["flow"]["estimate"], seen, |x, y| flow.at(x, y).map(f64::from));
-    assert_within(&found, &figures["flow"], (0.1, 0.01, 0.05));
+    let (flow, visible) = (&truth.neighbours[0].flow, &truth.neighbours[0].visibility);
+    let actual = errors(&figures["flow"]["estimate"], visible, |x, y| flow.at(x, y).map(f64::from));
+    assert_within(&actual, &figures["flow"], (0.1, 0.01, 0.05));
 }
 
 /// Angles of the relative pose of two frames against OpenCV's, degrees: of rotation and of direction; and the ratio of lengths.

@@ -95,12 +95,12 @@ fn a_picture_in_focus_gives_the_same_electrons() {
     const PICTURES: u64 = 12;
     let critical = student::critical(sidak_level(SIGNIFICANCE, WIDTH * HEIGHT), (PICTURES - 1) as f64);
     for lens in &LENSES[..2] {
-        let seen = |route: &str, seed: u64| ramp(job(WALL, lens, route)).with_seed(seed).shot().electrons();
+        let image = |route: &str, seed: u64| ramp(job(WALL, lens, route)).with_seed(seed).shot().electrons();
         let pictures: Vec<_> =
-            (1..=PICTURES).map(|seed| (seen("lens", seed), seen("pupil", seed + PICTURES))).collect();
+            (1..=PICTURES).map(|seed| (image("lens", seed), image("pupil", seed + PICTURES))).collect();
         for pixel in 0..WIDTH * HEIGHT {
             let ratios: Vec<f64> = pictures.iter().map(|(a, b)| f64::from(a[pixel] / b[pixel]) - 1.0).collect();
-            let ratio = ReplicateEstimate::of(&ratios).expect("twelve pictures");
+            let ratio = ReplicateEstimate::from_replicates(&ratios).expect("twelve pictures");
             // Resampling widens the pixel's box by the stored one's: of a linear ramp it changes nothing, of the lens's
             // cos⁴ and of the ramp's change of slope under the distortion it changes the curvature's share of a pixel,
             // (p/c)²/24 · 12 = 9e-4 for the étendue as above, and for the ramp no more.
@@ -108,11 +108,11 @@ fn a_picture_in_focus_gives_the_same_electrons() {
             assert!(ratio.mean.abs() < allowed, "{lens}, pixel {pixel}: {ratio:?}");
             assert!(ratio.standard_error() < 2e-3, "{lens}, pixel {pixel}: {ratio:?}");
         }
-        let sum = |picture: &[f32]| picture.iter().map(|v| f64::from(*v)).sum::<f64>();
+        let sum = |samples: &[f32]| samples.iter().map(|v| f64::from(*v)).sum::<f64>();
         // Over the whole picture the étendue at the centres of pixels differs from its mean by 9e-4 at most.
         let (direct, pupil) = pictures.iter().fold((0.0, 0.0), |(a, b), p| (a + sum(&p.0), b + sum(&p.1)));
-        let whole = direct / pupil;
-        assert!((whole - 1.0).abs() < 9e-4, "{lens}: {whole}");
+        let pupil_ratio = direct / pupil;
+        assert!((pupil_ratio - 1.0).abs() < 9e-4, "{lens}: {pupil_ratio}");
     }
 }
 

@@ -47,10 +47,10 @@ fn sign(material: &str, lamps: &[DVec3], viewers: &[DVec3]) -> Job {
 fn scene(material: &str, turned: &str, lamps: &[DVec3], viewers: &[DVec3], far_m: f64) -> Job {
     let eyes = viewers.iter().enumerate();
     let eyes: String = eyes.map(|(i, v)| eye(&format!("eye{i}"), *v * far_m, DVec3::ZERO)).collect();
-    let lamp = |(i, way): (usize, &DVec3)| {
+    let lamp = |(i, direction): (usize, &DVec3)| {
         format!(
             "[[scene.lights]]\ntype = \"point\"\nname = \"lamp{i}\"\nposition_m = {:?}\nintensity_cd = {}\n{FLAT}\n",
-            (*way * far_m).to_array(),
+            (*direction * far_m).to_array(),
             far_m * far_m
         )
     };
@@ -83,10 +83,10 @@ fn luminances(job: &Job) -> Vec<f64> {
 
 /// Directions in f32 make α uncertain by 1e-7 of 3.5e-3 rad, 3e-5, which the table's slope (up to R_A ~ α^−2.9) makes
 /// 1e-4; a lamp and the sign's place count as much. The issue grants 1 %.
-const GRANTED: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-3;
 
-fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected} cd/m²");
+fn assert_near(actual: f64, expected: f64, tolerance: f64, subject: &str) {
+    assert!((actual / expected - 1.0).abs() < tolerance, "{subject}: {actual} for {expected} cd/m²");
 }
 
 #[test]
@@ -95,10 +95,10 @@ fn a_sign_has_the_luminance_of_its_table_in_the_light_of_each_lamp() {
         // On the left and on the right.
         for lamp in [lamp(entrance_deg), lamp(-entrance_deg)] {
             let viewers = OBSERVATION_DEG.map(|deg| above(lamp, deg));
-            let found = luminances(&sign(MEASURED, &[lamp], &viewers));
-            for ((row, viewer), found) in viewers.iter().enumerate().zip(found) {
-                let what = format!("α = {}°, β = {entrance_deg}°", OBSERVATION_DEG[row]);
-                assert_near(found, COEFFICIENTS[row][column] / viewer.x, GRANTED, &what);
+            let actual = luminances(&sign(MEASURED, &[lamp], &viewers));
+            for ((row, viewer), actual) in viewers.iter().enumerate().zip(actual) {
+                let label = format!("α = {}°, β = {entrance_deg}°", OBSERVATION_DEG[row]);
+                assert_near(actual, COEFFICIENTS[row][column] / viewer.x, TOLERANCE, &label);
             }
         }
     }
@@ -112,9 +112,9 @@ fn two_lamps_add_their_own_coefficients() {
     let high = above(low, 1.33);
     let [both, one, other] =
         [&[low, high][..], &[low], &[high]].map(|lamps| luminances(&sign(MEASURED, lamps, &[viewer]))[0]);
-    assert_near(one, 12.0 / viewer.x, GRANTED, "the lower lamp");
+    assert_near(one, 12.0 / viewer.x, TOLERANCE, "the lower lamp");
     // The upper lamp's entrance angle is 30.02°: R_A less by 1e-4.
-    assert_near(other, 100.0 / viewer.x, 2.0 * GRANTED, "the upper lamp");
+    assert_near(other, 100.0 / viewer.x, 2.0 * TOLERANCE, "the upper lamp");
     // Which of the two equal lamps is drawn is stratified: half of the samples each, or one of 64 more.
     assert_near(both, one + other, 0.03, "both");
 }
@@ -129,11 +129,11 @@ fn classes_have_the_coefficients_of_the_standard() {
         for (column, entrance_deg) in ENTRANCE_DEG.into_iter().enumerate() {
             let lamp = lamp(entrance_deg);
             let viewers = [0.2, 0.33, 2.0].map(|deg| above(lamp, deg));
-            for ((row, viewer), found) in
+            for ((row, viewer), actual) in
                 viewers.iter().enumerate().zip(luminances(&sign(&material, &[lamp], &viewers)))
             {
-                let what = format!("{class}, row {row}, β = {entrance_deg}°");
-                assert_near(found, coefficients[row][column] / viewer.x, GRANTED, &what);
+                let label = format!("{class}, row {row}, β = {entrance_deg}°");
+                assert_near(actual, coefficients[row][column] / viewer.x, TOLERANCE, &label);
             }
         }
     }
@@ -167,14 +167,14 @@ fn a_higher_camera_sees_a_darker_sign() {
     // A sign 100 m ahead and lamps 0.65 m above the road, a camera 0.6 m above them (a car's) or 1.8 m (a lorry's).
     let lamp = lamp(5.0);
     let viewers = [0.6, 1.8].map(|up_m| (lamp * FAR_M + DVec3::Z * up_m).normalize());
-    let found = luminances(&sign(MEASURED, &[lamp], &viewers));
+    let actual = luminances(&sign(MEASURED, &[lamp], &viewers));
     let observation = viewers.map(|v| acos(v.dot(lamp)).to_degrees());
     assert!((observation[0] - 0.344).abs() < 1e-3 && (observation[1] - 1.031).abs() < 1e-3, "{observation:?}");
     let expected = [0, 1].map(|i| between_rows(observation[i]) / viewers[i].x);
     for i in 0..2 {
-        assert_near(found[i], expected[i], GRANTED, &format!("α = {}°", observation[i]));
+        assert_near(actual[i], expected[i], TOLERANCE, &format!("α = {}°", observation[i]));
     }
-    assert!(found[0] > 8.0 * found[1], "a lorry's driver sees it darker: {found:?}");
+    assert!(actual[0] > 8.0 * actual[1], "a lorry's driver sees it darker: {actual:?}");
 }
 
 #[test]
@@ -188,15 +188,15 @@ fn a_marking_returns_its_coefficient_at_30_m() {
         ("preset = \"marking_white_new\"", 300.0),
         ("preset = \"marking_white_wet\"", 35.0),
     ] {
-        let found = 1000.0 * luminances(&scene(material, "", &[lamp], &[viewer], 30.0))[0];
+        let actual = 1000.0 * luminances(&scene(material, "", &[lamp], &[viewer], 30.0))[0];
         // The pixel is 75 mm long on the road, over which R_L changes by 0.3 % one way and the other. The issue: 2 %.
-        assert_near(found, r_l, 2e-3, material);
+        assert_near(actual, r_l, 2e-3, material);
     }
 }
 
 #[test]
-fn lamps_far_from_the_way_of_view_light_only_the_base() {
+fn lamps_far_from_the_line_of_sight_light_only_the_base() {
     let lamp = lamp(60.0);
-    let found = luminances(&sign(MEASURED, &[lamp], &[DVec3::X]))[0];
-    assert_near(found, 0.3 / core::f64::consts::PI * lamp.x, 1e-5, "30 % matt");
+    let actual = luminances(&sign(MEASURED, &[lamp], &[DVec3::X]))[0];
+    assert_near(actual, 0.3 / core::f64::consts::PI * lamp.x, 1e-5, "30 % matt");
 }

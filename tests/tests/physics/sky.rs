@@ -39,12 +39,12 @@ fn towards(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
     DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)
 }
 
-fn band_mean(nm: u32, of: impl Fn(f64) -> f64) -> f64 {
-    (0..20).map(|i| of(f64::from(nm) - 0.95 + 0.1 * f64::from(i))).sum::<f64>() / 20.0
+fn band_mean(nm: u32, radiance_at: impl Fn(f64) -> f64) -> f64 {
+    (0..20).map(|i| radiance_at(f64::from(nm) - 0.95 + 0.1 * f64::from(i))).sum::<f64>() / 20.0
 }
 
-fn assert_near(found: f32, expected: f64, tolerance: f64, what: &str) {
-    assert!((f64::from(found) / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected}");
+fn assert_near(actual: f32, expected: f64, tolerance: f64, subject: &str) {
+    assert!((f64::from(actual) / expected - 1.0).abs() < tolerance, "{subject}: {actual} for {expected}");
 }
 
 #[test]
@@ -60,20 +60,20 @@ fn the_sun_s_radiance_is_the_model_s_at_its_centre_and_towards_its_limb() {
     let elevation = ELEVATION_DEG.to_radians();
     let centre = sun::radiance(TURBIDITY, elevation).expect("in range");
     let sky = SkyModel::new(TURBIDITY, ALBEDO, elevation).expect("in range");
-    let rim = tan((0.5 * sun::ANGULAR_DIAMETER_DEG).to_radians());
+    let edge = tan((0.5 * sun::ANGULAR_DIAMETER_DEG).to_radians());
     for nm in [450, 550, 680] {
-        let seen = job(&camera, true, nm).shot().radiance().mean;
+        let radiances = job(&camera, true, nm).shot().radiance().mean;
         let sky = f64::from(sky.radiance(sin(elevation), 1.0).at(nm as f32));
-        for (i, found) in seen.iter().enumerate() {
+        for (i, actual) in radiances.iter().enumerate() {
             // Sine over sine and tangent over tangent differ by 1e-5 in so small a disc.
-            let aside = PITCH_MM * 1e-3 * (i as f64 - 4.0) / rim;
-            let mu = (1.0 - aside * aside).max(0.0).sqrt();
+            let lateral = PITCH_MM * 1e-3 * (i as f64 - 4.0) / edge;
+            let mu = (1.0 - lateral * lateral).max(0.0).sqrt();
             let disc = band_mean(nm, |nm| f64::from(centre.at(nm as f32)) * sun::limb_darkening(nm, mu));
             // Directions in f32, 6e-8 of 4.7e-3, move the limb by 1e-5, which its slope at µ = 0.33 makes 5e-5;
             // 16 wavelengths in strata of 2 nm on a spectrum that changes by up to 1 % a nm: 5e-4.
-            assert_near(*found, disc + sky, 1e-3, &format!("{nm} nm, pixel {i}, µ = {mu:.3}"));
+            assert_near(*actual, disc + sky, 1e-3, &format!("{nm} nm, pixel {i}, µ = {mu:.3}"));
         }
-        assert!(seen[4] > 1.25 * seen[0] && seen[4] > 1.25 * seen[8], "{nm} nm: the limb is darker");
+        assert!(radiances[4] > 1.25 * radiances[0] && radiances[4] > 1.25 * radiances[8], "{nm} nm: the limb is darker");
     }
 }
 
@@ -94,8 +94,8 @@ fn the_sky_s_radiance_is_the_model_s() {
             let expected = band_mean(nm, |nm| f64::from(spectrum.at(nm as f32)));
             // The tables of the sky as surroundings: 1e-3. Wavelengths as above; continued beyond 720 nm by ASTM G-173,
             // whose water bands change faster.
-            let what = format!("{nm} nm at {azimuth}°, {elevation}°");
-            assert_near(shot.radiance().mean[0], expected, if nm > 720 { 5e-3 } else { 2e-3 }, &what);
+            let label = format!("{nm} nm at {azimuth}°, {elevation}°");
+            assert_near(shot.radiance().mean[0], expected, if nm > 720 { 5e-3 } else { 2e-3 }, &label);
         }
     }
 }

@@ -75,7 +75,7 @@ fn integral(low_nm: f64, high_nm: f64, f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Relative to ∫ E R: what `width_nm`-wide bands make of a channel of responsivity R in the light E.
-fn of_bands(light: &impl Fn(f64) -> f64, responsivity: &Spectrum, width_nm: u32) -> f64 {
+fn band_sum(light: &impl Fn(f64) -> f64, responsivity: &Spectrum, width_nm: u32) -> f64 {
     let r = |nm: f64| f64::from(responsivity.at(nm as f32));
     let band = |i: u32| {
         let (low, high) = (380.0 + f64::from(i * width_nm), 380.0 + f64::from((i + 1) * width_nm));
@@ -87,30 +87,30 @@ fn of_bands(light: &impl Fn(f64) -> f64, responsivity: &Spectrum, width_nm: u32)
 
 fn light() -> impl Fn(f64) -> f64 {
     let paint = upsample::reflectance_spectrum(PAINT);
-    let lamp = illuminant::named("FL2").expect("known").clone();
+    let lamp = illuminant::by_name("FL2").expect("known").clone();
     move |nm| f64::from(paint.at(nm as f32)) * f64::from(lamp.at(nm as f32))
 }
 
 /// Relative differences of the cube's electrons to the folded ones, channel by channel, over independent pictures.
 fn differences(band_width_nm: u32, wavelengths: u32) -> [ReplicateEstimate; 3] {
-    let pictures: Vec<[f64; 3]> = (1..=SEEDS)
+    let means: Vec<[f64; 3]> = (1..=SEEDS)
         .map(|seed| {
             // Other seeds: nothing is shared between the two.
             let cube = channel_means(&job("cube", band_width_nm, wavelengths, seed).shot());
-            let folded = channel_means(&job("electrons", band_width_nm, wavelengths, seed + SEEDS).shot());
-            std::array::from_fn(|c| cube[c] / folded[c] - 1.0)
+            let electron_means = channel_means(&job("electrons", band_width_nm, wavelengths, seed + SEEDS).shot());
+            std::array::from_fn(|c| cube[c] / electron_means[c] - 1.0)
         })
         .collect();
     std::array::from_fn(|c| {
-        let values: Vec<f64> = pictures.iter().map(|p| p[c]).collect();
-        ReplicateEstimate::of(&values).expect("several pictures")
+        let values: Vec<f64> = means.iter().map(|p| p[c]).collect();
+        ReplicateEstimate::from_replicates(&values).expect("several pictures")
     })
 }
 
 fn bias(band_width_nm: u32) -> [f64; 3] {
     let plan = job("electrons", 5, 4, 1).plan();
     let sensor = plan.cameras[0].body.sensor.as_ref().expect("a sensor");
-    std::array::from_fn(|c| of_bands(&light(), sensor.responsivity(c), band_width_nm) - 1.0)
+    std::array::from_fn(|c| band_sum(&light(), sensor.responsivity(c), band_width_nm) - 1.0)
 }
 
 #[test]
@@ -145,13 +145,13 @@ fn both_are_the_integral_of_light_and_responsivity() {
     let shots: Vec<[f64; 3]> = (1..=SEEDS).map(|seed| channel_means(&job("electrons", 5, 8, seed).shot())).collect();
     let plan = job("electrons", 5, 4, 1).plan();
     let sensor = plan.cameras[0].body.sensor.as_ref().expect("a sensor");
-    let lamp = illuminant::named("FL2").expect("known");
+    let lamp = illuminant::by_name("FL2").expect("known");
     let scale = 100.0 / etendue_spectra::observer::luminance(lamp) * core::f64::consts::PI / 64.0;
     for channel in 0..3 {
         let r = |nm: f64| f64::from(sensor.responsivity(channel).at(nm as f32));
         let truth = scale * integral(380.0, 780.0, |nm| light()(nm) * r(nm));
         let values: Vec<f64> = shots.iter().map(|s| s[channel] / truth - 1.0).collect();
-        let seen = ReplicateEstimate::of(&values).expect("several pictures");
-        assert!(is_near((seen.mean, seen.standard_error()), 0.0, 6e-5, 7.0), "channel {channel}: {seen:?}");
+        let estimate = ReplicateEstimate::from_replicates(&values).expect("several pictures");
+        assert!(is_near((estimate.mean, estimate.standard_error()), 0.0, 6e-5, 7.0), "channel {channel}: {estimate:?}");
     }
 }

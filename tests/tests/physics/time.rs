@@ -3,7 +3,7 @@
 use etendue_core::maths::f64::sin;
 use etendue_pipeline::Unobserved;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::render::{Request, Shot as Picture, light};
+use etendue_pipeline::render::{LightRequest, FrameCapture as Picture, light};
 use etendue_tests::{Job, Shot};
 
 /// A wall lit by one lamp without a size, seen by a narrow pinhole: every sample of a pixel finds the lamp.
@@ -58,16 +58,16 @@ fn job(rows: u32, modulation: &str, sensor: &str, more: &str) -> Job {
 
 /// Electrons of each row of a frame, the first capture's.
 fn rows(shot: &Shot, frame: u32) -> Vec<f64> {
-    let request = Request { shot: Picture { frame, capture: 0 }, ..Request::default() };
+    let request = LightRequest { frame_capture: Picture { frame, capture: 0 }, ..LightRequest::default() };
     let film = light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels");
-    let electrons = Light::of_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics");
+    let electrons = Light::from_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics");
     (0..electrons.height()).map(|y| f64::from(electrons.at(0, y))).collect()
 }
 
 /// Share of [start, start + length] in which a pulse of `duty` at the beginning of each period of `period_s` shines.
 fn lit(start_s: f64, length_s: f64, period_s: f64, duty: f64) -> f64 {
-    let whole = |t: f64| (t / period_s).floor() * duty * period_s + (t.rem_euclid(period_s)).min(duty * period_s);
-    (whole(start_s + length_s) - whole(start_s)) / length_s
+    let integral_to = |t: f64| (t / period_s).floor() * duty * period_s + (t.rem_euclid(period_s)).min(duty * period_s);
+    (integral_to(start_s + length_s) - integral_to(start_s)) / length_s
 }
 
 /// The rows of a rolling shutter under pulses: the analytic integral over each row's own exposure, in every frame. The same random numbers
@@ -80,10 +80,10 @@ fn rows_under_pulses_have_the_analytic_integral_of_their_exposure() {
     let (pulsed, steady) = (job(120, &pulses, sensor, "").shot(), job(120, "", sensor, "").shot());
     for frame in [0, 1, 7] {
         let mean = rows(&steady, frame);
-        for (y, (found, mean)) in rows(&pulsed, frame).iter().zip(&mean).enumerate() {
+        for (y, (actual, mean)) in rows(&pulsed, frame).iter().zip(&mean).enumerate() {
             let start_s = 0.25 + 0.04 * f64::from(frame) + 150e-6 * y as f64;
             let expected = mean * lit(start_s, 0.002, 1.0 / frequency_hz, duty) / duty;
-            assert!((found - expected).abs() <= 1e-6 * mean, "frame {frame}, row {y}: {found} for {expected}");
+            assert!((actual - expected).abs() <= 1e-6 * mean, "frame {frame}, row {y}: {actual} for {expected}");
         }
     }
     let (bands, mean) = (rows(&pulsed, 0), rows(&steady, 0));
@@ -92,7 +92,7 @@ fn rows_under_pulses_have_the_analytic_integral_of_their_exposure() {
 
 /// 90 Hz, duty 0.1, 1 ms: a pulse lasts 1.11 ms, and 81 % of exposures of any phase miss it (1 − (0.1 + 1 ms · 90 Hz)).
 #[test]
-fn short_exposures_miss_pulses_as_often_as_foretold() {
+fn short_exposures_miss_pulses_as_often_as_predicted() {
     let pulses = "modulation = { type = \"pwm\", frequency_hz = 90, duty_cycle = 0.1 }";
     // Even over ± half a period: all phases alike.
     let jitter = format!("trigger_jitter_s = {}", 0.5 / 90.0);
@@ -110,9 +110,9 @@ fn rows_of_a_global_reset_gather_light_until_they_are_read() {
     let sensor = |shutter: &str| format!("exposure_s = 0.002\nshutter = {{ type = \"{shutter}\" }}");
     let reset = sensor("global_reset\", row_time_us = 100, direction = \"up");
     let (reset, global) = (job(120, "", &reset, "").shot(), job(120, "", &sensor("global"), "").shot());
-    for (y, (found, mean)) in rows(&reset, 0).iter().zip(rows(&global, 0)).enumerate() {
+    for (y, (actual, mean)) in rows(&reset, 0).iter().zip(rows(&global, 0)).enumerate() {
         let expected = mean * (1.0 + (119 - y) as f64 * 100e-6 / 0.002);
-        assert!((found - expected).abs() <= 1e-6 * expected, "row {y}: {found} for {expected}");
+        assert!((actual - expected).abs() <= 1e-6 * expected, "row {y}: {actual} for {expected}");
     }
 }
 
@@ -128,16 +128,16 @@ fn exposures_that_follow_each_other_see_different_light() {
     };
     let captures = |shot: &Shot| {
         let film = |capture| {
-            let request = Request { shot: Picture { frame: 0, capture }, ..Request::default() };
+            let request = LightRequest { frame_capture: Picture { frame: 0, capture }, ..LightRequest::default() };
             light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels")
         };
-        Light::of_captures(shot.camera(), vec![film(0), film(1)], None).expect("finite")
+        Light::from_captures(shot.camera(), vec![film(0), film(1)], None).expect("finite")
     };
-    let (found, steady) = (captures(&changing), captures(&steady));
+    let (varying, steady) = (captures(&changing), captures(&steady));
     let planes = |light: &Light| [light.electrons.clone().expect("electrons"), light.further_electrons[0].clone()];
     let parts = [mean(0.25, 0.004), mean(0.254, 0.001)];
-    for ((found, steady), part) in planes(&found).iter().zip(planes(&steady)).zip(parts) {
-        let (found, expected) = (f64::from(found.at(0, 60)), part * f64::from(steady.at(0, 60)));
-        assert!((found - expected).abs() <= 1e-6 * expected, "{found} for {expected}");
+    for ((varying, steady), part) in planes(&varying).iter().zip(planes(&steady)).zip(parts) {
+        let (actual, expected) = (f64::from(varying.at(0, 60)), part * f64::from(steady.at(0, 60)));
+        assert!((actual - expected).abs() <= 1e-6 * expected, "{actual} for {expected}");
     }
 }

@@ -45,7 +45,7 @@ const GLOBAL: &str = "exposure_s = 0.05\nshutter = { type = \"global\" }";
 /// right of 30 has the share of the time in which the edge lies beyond it. Tolerance: of 512 stratified samples some 20 cannot tell on which side
 /// of the edge they lie, half of which are wrong either way: 2.2 of 512, 0.44 %, a pixel, 0.06 % the mean of 60 rows; three of these.
 #[test]
-fn a_bar_that_stretches_is_blurred_by_the_way_of_its_edge() {
+fn a_bar_that_stretches_is_blurred_by_the_path_of_its_edge() {
     let files = [bar(20.0, 30.0), bar(20.0, 60.0), bar(20.0, 70.0)].map(Vec::from);
     let times = "times_s = [1000, 1000.025, 1000.05]";
     let shot = moving(&files, times, "", GLOBAL, 512).shot();
@@ -63,10 +63,10 @@ fn a_bar_that_stretches_is_blurred_by_the_way_of_its_edge() {
         };
         let cover = |i: usize| overlap(x as f64, x as f64 + 1.0, 20.0, edge(i));
         let expected = (0..STEPS).map(cover).sum::<f64>() / STEPS as f64;
-        let found = mean(&blurred, x) / full;
-        assert!((found - expected).abs() < 0.002, "column {x}: {found} for {expected}");
-        let held = overlap(x as f64, x as f64 + 1.0, 20.0, 30.0);
-        assert!((mean(&before, x) / full - held).abs() < 0.002, "column {x} before the first file");
+        let actual = mean(&blurred, x) / full;
+        assert!((actual - expected).abs() < 0.002, "column {x}: {actual} for {expected}");
+        let overlap_before = overlap(x as f64, x as f64 + 1.0, 20.0, 30.0);
+        assert!((mean(&before, x) / full - overlap_before).abs() < 0.002, "column {x} before the first file");
     }
 }
 
@@ -94,7 +94,7 @@ fn world(at_px: DVec2) -> DVec2 {
     DVec2::new(30.0 - at_px.y, 50.0 - at_px.x) / 500.0
 }
 
-fn picture(world_m: DVec2) -> DVec2 {
+fn render_image(world_m: DVec2) -> DVec2 {
     DVec2::new(50.0 - 500.0 * world_m.y, 30.0 - 500.0 * world_m.x)
 }
 
@@ -111,9 +111,9 @@ fn flow_and_velocity_are_those_of_the_vertices() {
             for x in 0..SIZE[0] {
                 let at_px = DVec2::new(x as f64, y as f64) + 0.5;
                 let own = now.inverse() * (world(at_px) - shift);
-                let flow = picture(next * own + later) - at_px;
-                let found = DVec2::from(truth.neighbours[0].flow.at(x, y).map(f64::from));
-                assert!((found - flow).length() < 1e-4, "{at_px}: {found} for {flow}");
+                let flow = render_image(next * own + later) - at_px;
+                let actual = DVec2::from(truth.neighbours[0].flow.at(x, y).map(f64::from));
+                assert!((actual - flow).length() < 1e-4, "{at_px}: {actual} for {flow}");
                 let velocity = B * own + DVec2::new(0.0, along);
                 let [vx, vy, vz] = truth.velocity.at(x, y).map(f64::from);
                 assert!((DVec2::new(vx, vy) - velocity).length() < 1e-6 && vz.abs() < 1e-9, "{vx} {vy} for {velocity}");
@@ -141,9 +141,9 @@ fn boxes_are_those_of_the_time() {
         let view = FrameView { camera: &plan.cameras[0], frame };
         let ids = ground_truth(&plan, view.camera, frame, Simd::Auto).instance;
         let boxes = object_boxes(&plan, &view, &ids, Simd::Auto);
-        let [found] = &boxes[..] else { panic!("{boxes:?}") };
-        let amodal = found.amodal.expect("it has an image");
+        let [bounding_box] = &boxes[..] else { panic!("{boxes:?}") };
+        let amodal = bounding_box.amodal.expect("it has an image");
         assert!((amodal.low.x - 20.0).abs() < 1e-4 && (amodal.high.x - right).abs() < 1e-4, "{amodal:?}");
-        assert!((found.solid.size_m.y - (right - 20.0) / 500.0).abs() < 1e-7, "{:?}", found.solid);
+        assert!((bounding_box.solid.size_m.y - (right - 20.0) / 500.0).abs() < 1e-7, "{:?}", bounding_box.solid);
     }
 }

@@ -6,7 +6,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::Length;
 use etendue_pipeline::plan::Route;
 use etendue_pipeline::pupil_depth::pupil_depth;
-use etendue_pipeline::stored::Stored;
+use etendue_pipeline::stored::StoredRadianceImage;
 use etendue_stats::chi_square::sidak_level;
 use etendue_stats::{ReplicateEstimate, student};
 use etendue_testkit::judge::SIGNIFICANCE;
@@ -92,17 +92,17 @@ fn six_views_show_the_light_that_the_lens_sees() {
         let truth = job(lens, "lens").shot();
         let pixels = inside_a_wall(&truth);
         assert!(pixels.len() > 200, "{lens}: {} pixels", pixels.len());
-        let pictures: Vec<_> = (1..=PICTURES)
+        let samples: Vec<_> = (1..=PICTURES)
             .map(|seed| {
-                let seen = |route: &str, seed: u64| irradiance(&job(lens, route).with_seed(seed).shot());
-                (seen("lens", seed), seen("pupil", seed + PICTURES))
+                let image = |route: &str, seed: u64| irradiance(&job(lens, route).with_seed(seed).shot());
+                (image("lens", seed), image("pupil", seed + PICTURES))
             })
             .collect();
         let critical = student::critical(sidak_level(SIGNIFICANCE, pixels.len()), (PICTURES - 1) as f64);
         let mut sum = 0.0;
         for pixel in &pixels {
-            let ratios: Vec<f64> = pictures.iter().map(|(a, b)| b[*pixel] / a[*pixel] - 1.0).collect();
-            let ratio = ReplicateEstimate::of(&ratios).expect("four pictures");
+            let ratios: Vec<f64> = samples.iter().map(|(a, b)| b[*pixel] / a[*pixel] - 1.0).collect();
+            let ratio = ReplicateEstimate::from_replicates(&ratios).expect("four pictures");
             // A wall's light changes by 0.4 over 5.7 m: at the distance of 2 m to 3.5 m by at most 0.3 of itself a radian, seen
             // as steeply as here. Stored pixels (0.065 rad) count as uniform: an eighth of one's step on two axes, 5e-3; the
             // light's fall-off over a pixel of 0.065 rad (or 0.131 rad of a panorama): (p²/24) · 3 = 2e-3.
@@ -126,8 +126,8 @@ fn stored_distances_are_those_that_the_lens_sees() {
         let depth = pupil_depth(&plan, camera, 0, Simd::Auto).expect("at the pupil");
         let bands = camera.settings.bands.expect("a cube");
         let radiance = etendue_core::SpectralCube::new(projection.width(), projection.height(), bands);
-        let stored = Stored { projection, radiance: &radiance, distance: Some(&depth.distance) };
-        let seen = stored.seen(&camera.body, [0, 0]).expect("covered").distance.expect("stored");
+        let stored = StoredRadianceImage { projection, radiance: &radiance, distance: Some(&depth.distance) };
+        let seen = stored.resample(&camera.body, [0, 0]).expect("covered").distance.expect("stored");
         let direct = etendue_pipeline::truth::ground_truth(&plan, camera, 0, Simd::Auto).distance;
         for y in 1..HEIGHT - 1 {
             for x in 1..WIDTH - 1 {
@@ -148,6 +148,6 @@ fn stored_distances_are_those_that_the_lens_sees() {
 /// The least and the greatest distance among a pixel and its neighbours that have one.
 fn range(distance: &Plane<Length>, x: usize, y: usize) -> [f32; 2] {
     let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
-    let seen = around.map(|(i, j)| distance.at(i, j)).filter(|d| !d.is_nan());
-    seen.fold([f32::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
+    let distances = around.map(|(i, j)| distance.at(i, j)).filter(|d| !d.is_nan());
+    distances.fold([f32::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
 }

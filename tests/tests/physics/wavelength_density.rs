@@ -187,18 +187,18 @@ struct Row {
 }
 
 impl Row {
-    fn saved(&self) -> f64 {
+    fn variance_ratio(&self) -> f64 {
         self.by[1].relative / self.by[2].relative
     }
 
     /// Standard error of what is saved.
     fn saved_error(&self) -> f64 {
         let relative = |i: usize| self.by[i].error / self.by[i].relative;
-        self.saved() * (relative(1) * relative(1) + relative(2) * relative(2)).sqrt()
+        self.variance_ratio() * (relative(1) * relative(1) + relative(2) * relative(2)).sqrt()
     }
 
     fn words(&self) -> String {
-        format!("{} {} {}: {} ± {}", self.light, self.sensor, self.colour, self.saved(), self.saved_error())
+        format!("{} {} {}: {} ± {}", self.light, self.sensor, self.colour, self.variance_ratio(), self.saved_error())
     }
 }
 
@@ -237,22 +237,22 @@ fn electrons_are_the_same_by_every_density_and_the_lights_spectrum_saves_varianc
     }
     // Unbiased: sums of 96 pixels or more are apart by chance alone, all rows together (Bonferroni).
     let pairs = rows.iter().flat_map(|row| [(0, 1), (1, 2), (0, 2)].map(|(a, b)| (row.by[a], row.by[b])));
-    let apart: Vec<f64> = pairs.map(|(a, b)| (a.sum - b.sum).abs() / (a.variance + b.variance).sqrt()).collect();
-    let worst = apart.iter().copied().fold(0.0, f64::max);
-    let p = normal::two_sided_p(worst) * apart.len() as f64;
-    assert!(p > SIGNIFICANCE, "{worst} standard errors among {}", apart.len());
+    let differences: Vec<f64> = pairs.map(|(a, b)| (a.sum - b.sum).abs() / (a.variance + b.variance).sqrt()).collect();
+    let worst = differences.iter().copied().fold(0.0, f64::max);
+    let p = normal::two_sided_p(worst) * differences.len() as f64;
+    assert!(p > SIGNIFICANCE, "{worst} standard errors among {}", differences.len());
     for row in &rows {
-        let (saved, error) = (row.saved(), row.saved_error());
+        let (ratio, error) = (row.variance_ratio(), row.saved_error());
         // Where the default follows the light, no colour loses; bounds with four standard errors.
-        assert!(!row.is_default || saved + 4.0 * error > 1.0, "{}", row.words());
+        assert!(!row.is_default || ratio + 4.0 * error > 1.0, "{}", row.words());
         // Lines gain in any place.
-        let least = match (row.place, row.light, row.sensor) {
+        let min_gain = match (row.place, row.light, row.sensor) {
             (Place::Even, "sodium-low-pressure", "Bayer" | "RCCB") => 30.0,
             (Place::Even, "sodium-high-pressure", _) => 5.0,
             (Place::Room, "sodium-low-pressure", "Bayer" | "RCCB") => 1.5,
             _ => 0.0,
         };
-        assert!(saved - 4.0 * error > least || saved > 2.0 * least, "{}", row.words());
+        assert!(ratio - 4.0 * error > min_gain || ratio > 2.0 * min_gain, "{}", row.words());
     }
 }
 
@@ -279,10 +279,10 @@ const TAIL: &str = "
 fn page(rows: &[Row]) -> String {
     let mut page = HEAD.to_owned();
     for (sensor, light) in SENSORS.iter().flat_map(|sensor| LIGHTS.iter().map(move |light| (sensor.name, *light))) {
-        let [even, room] = [Place::Even, Place::Room].map(|place| saved_range(rows, place, sensor, light));
+        let [uniform, room] = [Place::Even, Place::Room].map(|place| saved_range(rows, place, sensor, light));
         let row = rows.iter().find(|row| row.sensor == sensor && row.light == light).expect("a row");
-        let bold = if row.is_default { "**" } else { "" };
-        writeln!(page, "| {sensor} | {light} | {even} | {room} | {bold}{:.2}{bold} |", row.gain.mean).expect("text");
+        let emphasis = if row.is_default { "**" } else { "" };
+        writeln!(page, "| {sensor} | {light} | {uniform} | {room} | {emphasis}{:.2}{emphasis} |", row.gain.mean).expect("text");
     }
     page + TAIL
 }
@@ -291,13 +291,13 @@ fn page(rows: &[Row]) -> String {
 fn saved_range(rows: &[Row], place: Place, sensor: &str, light: &str) -> String {
     let is_own = |row: &&Row| row.place == place && row.sensor == sensor && row.light == light;
     let mut own: Vec<&Row> = rows.iter().filter(is_own).collect();
-    own.sort_by(|a, b| a.saved().total_cmp(&b.saved()));
+    own.sort_by(|a, b| a.variance_ratio().total_cmp(&b.variance_ratio()));
     let figure =
-        |row: &Row| with_error(row.saved(), row.saved_error()).split(' ').next().unwrap_or_default().to_owned();
+        |row: &Row| with_error(row.variance_ratio(), row.saved_error()).split(' ').next().unwrap_or_default().to_owned();
     match own[..] {
         [] => String::new(),
         [only] => figure(only),
-        [least, .., most] => format!("{} to {}", figure(least), figure(most)),
+        [min, .., max] => format!("{} to {}", figure(min), figure(max)),
     }
 }
 
@@ -309,10 +309,10 @@ fn table(rows: &[Row]) -> String {
     for row in rows {
         let place = if row.place == Place::Even { "uniform illumination" } else { "room" };
         let cells = row.by.map(|c| with_error(1e3 * c.relative, 1e3 * c.error)).join(",");
-        let saved = with_error(row.saved(), row.saved_error());
+        let ratio_text = with_error(row.variance_ratio(), row.saved_error());
         let follows = if row.is_default { "yes" } else { "no" };
         let Row { sensor, colour, light, gain, .. } = row;
-        writeln!(table, "{place},{sensor},{colour},{light},{cells},{saved},{:.2},{follows}", gain.mean).expect("text");
+        writeln!(table, "{place},{sensor},{colour},{light},{cells},{ratio_text},{:.2},{follows}", gain.mean).expect("text");
     }
     table
 }
@@ -330,14 +330,14 @@ fn the_density_follows_the_light_where_that_pays() {
     assert!(sampling == WavelengthSampling::Response && gain.mean < 1.02, "{gain:?}");
     let (sampling, gain) = chosen(Place::Even, "sodium-low-pressure", &SENSORS[0], "");
     assert!(sampling == WavelengthSampling::ResponseAndSource && gain.mean > 2.0, "{gain:?}");
-    let asked = "wavelength_density = \"response\"";
-    assert_eq!(chosen(Place::Even, "sodium-low-pressure", &SENSORS[0], asked).0, WavelengthSampling::Response);
+    let key = "wavelength_density = \"response\"";
+    assert_eq!(chosen(Place::Even, "sodium-low-pressure", &SENSORS[0], key).0, WavelengthSampling::Response);
     // Bands beside electrons keep their share.
-    let kept = "[output]\nirradiance = true\nelectrons = true";
-    let (sampling, gain) = chosen(Place::Even, "sodium-low-pressure", &SENSORS[0], kept);
-    assert!(sampling == WavelengthSampling::Response && gain.pays(), "{gain:?}");
+    let output_keys = "[output]\nirradiance = true\nelectrons = true";
+    let (sampling, gain) = chosen(Place::Even, "sodium-low-pressure", &SENSORS[0], output_keys);
+    assert!(sampling == WavelengthSampling::Response && gain.should_apply(), "{gain:?}");
     // Where no electrons are summed the key is idle, and the plan says so.
     let plan = job(Place::Even, "D65", &SENSORS[0], "accumulate = \"cube\"\nwavelength_density = \"response\"").plan();
     assert!(plan.cameras[0].settings.spectral_gain.is_none());
-    assert!(plan.remarks.iter().any(|remark| remark.text.contains("no pixels sum electrons")), "{:?}", plan.remarks);
+    assert!(plan.notes.iter().any(|remark| remark.text.contains("no pixels sum electrons")), "{:?}", plan.notes);
 }

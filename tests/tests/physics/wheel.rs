@@ -32,26 +32,26 @@ fn wheel(sensor: &str, spp: u32) -> Job {
 }
 
 /// The angle of a picture's place about the hub, from up to the left, as one near `about` that differs by half turns: the bar has two ends.
-fn angle_near(at_px: DVec2, about: f64) -> f64 {
+fn angle_near(at_px: DVec2, reference_angle: f64) -> f64 {
     let from = at_px - HUB;
     let angle = etendue_core::maths::f64::atan2(-from.x, -from.y);
-    angle - PI * ((angle - about) / PI).round()
+    angle - PI * ((angle - reference_angle) / PI).round()
 }
 
 /// Mean and variance of the angle of a picture's light in a ring about the hub, the mean near `about`.
-fn angles(light: &Plane<MeanElectrons>, about: f64) -> (f64, f64) {
+fn angles(light: &Plane<MeanElectrons>, reference_angle: f64) -> (f64, f64) {
     let mut sums = [0.0; 3];
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
         let at_px = DVec2::new(x as f64, y as f64) + 0.5;
         if (10.0..22.0).contains(&(at_px - HUB).length()) {
-            let (weight, angle) = (f64::from(light.at(x, y)) / falloff(x, y), angle_near(at_px, about) - about);
+            let (weight, angle) = (f64::from(light.at(x, y)) / falloff(x, y), angle_near(at_px, reference_angle) - reference_angle);
             sums[0] += weight;
             sums[1] += weight * angle;
             sums[2] += weight * angle * angle;
         }
     }
     let mean = sums[1] / sums[0];
-    (about + mean, sums[2] / sums[0] - mean * mean)
+    (reference_angle + mean, sums[2] / sums[0] - mean * mean)
 }
 
 /// Within 20 ms the mark turns by 0.628 rad: its mean angle is that of the middle, and its variance that of the mark at rest and that of an even
@@ -82,7 +82,7 @@ fn rows_of_a_rolling_shutter_see_the_angle_of_their_own_time() {
     let truth = ground_truth(&shot.plan, shot.camera(), 0, Simd::Auto).instance;
     for frame in [0, 1] {
         let light = electrons(&shot, frame);
-        let (mut rows, mut greatest) = (0, 0.0_f64);
+        let (mut rows, mut max_bend_px) = (0, 0.0_f64);
         for y in 0..SIZE[1] {
             let above_px = HUB.y - (y as f64 + 0.5);
             let angle = RATE * (row_time_s * y as f64 + 0.5 * exposure_s);
@@ -95,15 +95,15 @@ fn rows_of_a_rolling_shutter_see_the_angle_of_their_own_time() {
                 let sum: f64 = (0..SIZE[0]).map(weight).sum();
                 (0..SIZE[0]).map(|x| (x as f64 + 0.5) * weight(x)).sum::<f64>() / sum
             };
-            let seen = centre(&|x| f64::from(light.at(x, y)) / falloff(x, y));
+            let actual = centre(&|x| f64::from(light.at(x, y)) / falloff(x, y));
             // A row has 2 000 samples of the mark, which scatter by 1.3 px: 0.03 px, three of these; and the mean of the tangent over exposure
             // and row differs from the tangent of the mean by h (ωT)²/12 tan″/2 < 0.003 px.
-            assert!((seen - expected).abs() < 0.1, "row {y}: {seen} for {expected}");
-            let told = centre(&|x| f64::from(truth.at(x, y).min(1)));
-            assert!((told - expected).abs() < 0.51, "row {y}: {told} for {expected}, by pixels' middles");
+            assert!((actual - expected).abs() < 0.1, "row {y}: {actual} for {expected}");
+            let truth_centre = centre(&|x| f64::from(truth.at(x, y).min(1)));
+            assert!((truth_centre - expected).abs() < 0.51, "row {y}: {truth_centre} for {expected}, by pixels' middles");
             rows += 1;
-            greatest = greatest.max((expected - HUB.x).abs());
+            max_bend_px = max_bend_px.max((expected - HUB.x).abs());
         }
-        assert!(rows == 28 && greatest > 4.0, "{rows} rows, bent by {greatest} px");
+        assert!(rows == 28 && max_bend_px > 4.0, "{rows} rows, bent by {max_bend_px} px");
     }
 }

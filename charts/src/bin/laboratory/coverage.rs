@@ -6,28 +6,28 @@ use std::fmt::Write as _;
 
 /// A parameter over the seeds.
 #[derive(Default)]
-pub(crate) struct Row {
+pub(crate) struct ParameterCoverage {
     /// Value and standard uncertainty.
-    found: Vec<[f64; 2]>,
+    estimates: Vec<[f64; 2]>,
     declared: Option<f64>,
 }
 
-pub(crate) type Rows = BTreeMap<String, Row>;
+pub(crate) type Rows = BTreeMap<String, ParameterCoverage>;
 
 /// Takes in what one laboratory told.
-pub(crate) fn gather(told: &Value, rows: &mut Rows) {
-    for (key, value) in told["found"].as_object().into_iter().flatten() {
+pub(crate) fn gather(report: &Value, rows: &mut Rows) {
+    for (key, value) in report["found"].as_object().into_iter().flatten() {
         if let (Some(value), Some(uncertainty)) = (value[0].as_f64(), value[1].as_f64()) {
             let row = rows.entry(key.clone()).or_default();
-            row.found.push([value, uncertainty]);
-            row.declared = told["declared"][key].as_f64();
+            row.estimates.push([value, uncertainty]);
+            row.declared = report["declared"][key].as_f64();
         }
     }
 }
 
-impl Row {
+impl ParameterCoverage {
     fn mean(&self) -> f64 {
-        self.found.iter().map(|[v, _]| v).sum::<f64>() / self.found.len() as f64
+        self.estimates.iter().map(|[v, _]| v).sum::<f64>() / self.estimates.len() as f64
     }
 
     /// What the intervals should hold: what is declared, or the mean over the seeds.
@@ -35,20 +35,20 @@ impl Row {
         self.declared.unwrap_or_else(|| self.mean())
     }
 
-    fn held(&self) -> usize {
+    fn covered_count(&self) -> usize {
         let truth = self.truth();
-        self.found.iter().filter(|[v, u]| (v - truth).abs() <= 2.0 * u).count()
+        self.estimates.iter().filter(|[v, u]| (v - truth).abs() <= 2.0 * u).count()
     }
 
     /// Whether the intervals hold the truth in less than 90 % of the seeds, as far as so many seeds tell (binomial, 2 σ). What less than half of the seeds tell is
     /// told by chance (so many hot pixels in the picture that they have a share), and is no sample of what it is.
     pub(crate) fn broken(&self, seeds: u64) -> Option<String> {
-        if 2 * (self.found.len() as u64) < seeds {
+        if 2 * (self.estimates.len() as u64) < seeds {
             return None;
         }
-        let (count, held) = (self.found.len() as f64, self.held() as f64);
+        let (count, covered) = (self.estimates.len() as f64, self.covered_count() as f64);
         let margin = 2.0 * (0.9 * 0.1 / count).sqrt();
-        (held / count < 0.9 - margin).then(|| format!("{held} of {count}"))
+        (covered / count < 0.9 - margin).then(|| format!("{covered} of {count}"))
     }
 }
 
@@ -70,16 +70,16 @@ pub(crate) fn table(name: &str, rows: &Rows) -> String {
         "\n## {name}\n\n| parameter | declared | mean found | mean standard uncertainty | scatter | held | of |\n| --- | --- | --- | --- | --- | --- | --- |\n"
     );
     for (key, row) in rows {
-        let count = row.found.len() as f64;
-        let u = row.found.iter().map(|[_, u]| u).sum::<f64>() / count;
+        let count = row.estimates.len() as f64;
+        let u = row.estimates.iter().map(|[_, u]| u).sum::<f64>() / count;
         let mean = row.mean();
         let scatter =
-            (row.found.iter().map(|[v, _]| (v - mean) * (v - mean)).sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
+            (row.estimates.iter().map(|[v, _]| (v - mean) * (v - mean)).sum::<f64>() / (count - 1.0).max(1.0)).sqrt();
         let declared = row.declared.map_or_else(|| "mean".to_owned(), number);
-        let share = 100.0 * row.held() as f64 / count;
+        let percent = 100.0 * row.covered_count() as f64 / count;
         let _ = writeln!(
             text,
-            "| `{key}` | {declared} | {} | {u:.2e} | {scatter:.2e} | {share:.0} % | {count} |",
+            "| `{key}` | {declared} | {} | {u:.2e} | {scatter:.2e} | {percent:.0} % | {count} |",
             number(mean)
         );
     }

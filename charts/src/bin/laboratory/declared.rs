@@ -1,7 +1,7 @@
 //! What a camera file declares of what is found.
 
 use etendue::measure::{CompareRequest, compare};
-use etendue::{Error, Existing, open_camera, write_file};
+use etendue::{Error, ExistingFiles, open_camera, write_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,15 +28,15 @@ const DECLARED: [(&str, &str, &str, f64); 17] = [
     ("calibrate", "k2", "lens.projection.k2", 1.0),
 ];
 /// Of the reference cameras' files themselves: thin lenses without diffraction.
-const NOTHING: [&str; 2] = ["effects.psf.variance_horizontal_px2", "effects.psf.variance_vertical_px2"];
+const ABSENT: [&str; 2] = ["effects.psf.variance_horizontal_px2", "effects.psf.variance_vertical_px2"];
 
 /// The truth by parameters, of a laboratory whose measurements are `measurements`.
 pub(crate) fn declared(place: &Path, measurements: &Value) -> Result<BTreeMap<String, f64>, Error> {
     let mut declared = written(&place.join("declared.toml"))?;
-    declared.extend(NOTHING.map(|key| (key.to_owned(), 0.0)));
+    declared.extend(ABSENT.map(|key| (key.to_owned(), 0.0)));
     for kind in ["ptc", "calibrate", "vignetting"] {
         for (quantity, value) in quantities(place, kind, &measurements[kind])? {
-            let known = DECLARED.iter().filter(|(of, name, ..)| *of == kind && quantity == *name);
+            let known = DECLARED.iter().filter(|(measured_quantity, name, ..)| *measured_quantity == kind && quantity == *name);
             declared.extend(known.map(|(_, _, key, factor)| ((*key).to_owned(), factor * value)));
         }
     }
@@ -51,46 +51,46 @@ fn written(file: &Path) -> Result<BTreeMap<String, f64>, Error> {
     let body = open_camera(file, &[])?;
     let sensor = body.sensor.ok_or_else(|| Error::run("the reference cameras have sensors"))?;
     let p = sensor.parameters();
-    let mut found = vec![
+    let mut parameters = vec![
         ("sensor.full_well_e", p.charge.full_well.capacity_e),
         ("sensor.black_level_dn", p.read_out.black_level_dn),
     ];
     if let Some(hot) = p.charge.dark.hot {
-        found.extend([("sensor.dark.hot.fraction", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
+        parameters.extend([("sensor.dark.hot.fraction", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
     }
     // Pixels that exchange nothing; else, in green, what is seen depends on the light of the neighbours' colours.
     if p.light.crosstalk.is_none() {
-        found.extend(["sensor.crosstalk.horizontal", "sensor.crosstalk.vertical"].map(|key| (key, 0.0)));
+        parameters.extend(["sensor.crosstalk.horizontal", "sensor.crosstalk.vertical"].map(|key| (key, 0.0)));
     }
-    Ok(found.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+    Ok(parameters.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }
 
 /// What the camera file declares of a measurement, by the measurement's names.
 fn quantities(place: &Path, kind: &str, measured: &Value) -> Result<Vec<(String, f64)>, Error> {
     let file = place.join(format!("{kind}.json"));
-    write_file(&file, measured.to_string().as_bytes(), Existing::Replace)?;
+    write_file(&file, measured.to_string().as_bytes(), ExistingFiles::Replace)?;
     let wavelength_nm = (kind == "ptc").then_some(WAVELENGTH_NM);
     // Hot pixels are told by themselves, and are no part of the dark current.
     let set = if kind == "ptc" { vec!["sensor.dark.hot=null".to_owned()] } else { Vec::new() };
     let request = CompareRequest { wavelength_nm, set, ..CompareRequest::new(file, place.join("declared.toml")) };
     let compared = compare(&request)?.report.json();
     let rows = compared["tables"]["quantities"].as_array().cloned().unwrap_or_default();
-    let told = |row: &Value| Some((row["quantity"].as_str()?.to_owned(), row["b"]["value"].as_f64()?));
-    Ok(rows.iter().filter_map(told).collect())
+    let entry = |row: &Value| Some((row["quantity"].as_str()?.to_owned(), row["b"]["value"].as_f64()?));
+    Ok(rows.iter().filter_map(entry).collect())
 }
 
 /// Quantum efficiencies of the channels at the flats' wavelength: photon transfer measures one of them.
 fn efficiencies(place: &Path, measured: &Value) -> Result<Vec<(&'static str, f64)>, Error> {
     let channels: &[&str] =
         if measured["settings"]["channel"].is_string() { &["red", "green", "blue"] } else { &["mono"] };
-    let mut found = Vec::new();
+    let mut channel_efficiencies = Vec::new();
     for channel in channels {
-        let mut of = measured.clone();
+        let mut channel_report = measured.clone();
         if *channel != "mono" {
-            of["settings"]["channel"] = (*channel).into();
+            channel_report["settings"]["channel"] = (*channel).into();
         }
-        let own = quantities(place, "ptc", &of)?.into_iter().find(|(name, _)| name == "quantum_efficiency");
-        found.extend(own.map(|(_, value)| (*channel, value)));
+        let own = quantities(place, "ptc", &channel_report)?.into_iter().find(|(name, _)| name == "quantum_efficiency");
+        channel_efficiencies.extend(own.map(|(_, value)| (*channel, value)));
     }
-    Ok(found)
+    Ok(channel_efficiencies)
 }

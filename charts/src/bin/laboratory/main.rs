@@ -12,8 +12,8 @@ mod declared;
 mod seed;
 
 use coverage::{Rows, introduction, table};
-use etendue::{Error, ErrorCode, Existing, write_file};
-use seed::Seed;
+use etendue::{Error, ErrorCode, ExistingFiles, write_file};
+use seed::SeededLaboratory;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -58,24 +58,24 @@ fn run(arguments: &[String]) -> Result<Vec<String>, Error> {
             format!("{unknown}: expected a reference camera: ccd-mono, ccd-bayer or web"),
         ));
     }
-    let wanted = |name: &str| named.is_empty() || named.iter().any(|own| *own == name);
+    let is_selected = |name: &str| named.is_empty() || named.iter().any(|own| *own == name);
     let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/laboratory".into()));
     let mut page = introduction(seeds);
     let mut broken = Vec::new();
-    for (name, set) in CAMERAS.iter().filter(|(name, _)| wanted(name)) {
+    for (name, set) in CAMERAS.iter().filter(|(name, _)| is_selected(name)) {
         let mut rows = Rows::new();
         for seed in 1..=seeds {
-            let seed = Seed { camera: name, set, seed };
-            let told = seed.told(&folder, !resume.is_empty())?;
-            coverage::gather(&told, &mut rows);
+            let seed = SeededLaboratory { camera: name, set, seed };
+            let seed_report = seed.seed_report(&folder, !resume.is_empty())?;
+            coverage::gather(&seed_report, &mut rows);
             eprintln!("{name}: seed {} of {seeds}", seed.seed);
         }
         page += &table(name, &rows);
         broken
-            .extend(rows.iter().filter_map(|(key, row)| row.broken(seeds).map(|why| format!("{name}: {key}: {why}"))));
+            .extend(rows.iter().filter_map(|(key, row)| row.broken(seeds).map(|reason| format!("{name}: {key}: {reason}"))));
     }
     let file = folder.join("coverage.md");
-    write_file(&file, page.as_bytes(), Existing::Replace)?;
+    write_file(&file, page.as_bytes(), ExistingFiles::Replace)?;
     println!("{}", file.display());
     Ok(broken)
 }

@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use super::{BLACK, BLEED, WHITE};
-use crate::drawing::{Drawing, Feature, Kind};
-use crate::shape::{Cell, Fill, Lattice};
+use crate::drawing::{Drawing, Feature, FeatureKind};
+use crate::shape::{CellContent, Fill, Lattice};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Size of the board relative to the fully visible rectangle.
-const ROOM: f64 = 0.92;
+const BOARD_FRACTION: f64 = 0.92;
 
 /// A checkerboard; `size` counts squares. Default: 12 columns of squares over the fully visible width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,18 +18,18 @@ pub struct Checkerboard {
 }
 
 impl Checkerboard {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
-        let grid = self.size.in_room(seen.inner_mm * ROOM, 12, 3)?;
-        let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), seen.outer_mm * BLEED);
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        let grid = self.size.fit_into(footprint.inner_mm * BOARD_FRACTION, 12, 3)?;
+        let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), footprint.outer_mm * BLEED);
         let sheet = lattice.sheet(|column, row| {
             let black = lattice.is_inside(column, row) && (column + row) % 2 == 0;
-            Cell::Plain(Fill::Ink(usize::from(black)))
+            CellContent::Plain(Fill::Ink(usize::from(black)))
         });
         let inks = vec![Ink::grey("white", WHITE), Ink::grey("black", BLACK)];
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
         // The corners between squares: the lower right corners of all but the last columns and rows.
         let corners = (1..grid.rows).flat_map(|row| (1..grid.columns).map(move |column| (column, row)));
-        let corner = |(column, row)| Feature::at(Kind::Corner, [column - 1, row - 1], lattice.cell(column, row)[2]);
+        let corner = |(column, row)| Feature::at(FeatureKind::Corner, [column - 1, row - 1], lattice.cell(column, row)[2]);
         drawing.features = corners.map(corner).collect();
         drawing.note("squares", vec![grid.columns, grid.rows]);
         drawing.note("inner_corners", vec![grid.columns - 1, grid.rows - 1]);
@@ -58,14 +58,14 @@ pub(super) struct Grid {
 }
 
 /// Maximum columns or rows; more are taken for a typing error.
-const MOST: u32 = 500;
+const MAX_GRID: u32 = 500;
 
 impl GridSize {
     /// The grid in a space (mm): as many of `columns` as the pitch allows, or the pitch that `columns` allow.
-    pub(super) fn in_room(self, room_mm: DVec2, columns: u32, least: u32) -> Result<Grid, ChartError> {
+    pub(super) fn fit_into(self, room_mm: DVec2, columns: u32, min_columns: u32) -> Result<Grid, ChartError> {
         let checked = |option, count: Option<u32>| match count {
-            Some(n) if !(least..=MOST).contains(&n) => {
-                Err(ChartError::option(option, n, format!("expected {least} … {MOST}")))
+            Some(n) if !(min_columns..=MAX_GRID).contains(&n) => {
+                Err(ChartError::option(option, n, format!("expected {min_columns} … {MAX_GRID}")))
             }
             given => Ok(given),
         };
@@ -80,12 +80,12 @@ impl GridSize {
             (None, x, None) => room_mm.x / f64::from(x.unwrap_or(columns)),
         };
         // Rounding must not remove the last column.
-        let fit = |room: f64| (room / pitch_mm * (1.0 + 1e-9)).floor().min(f64::from(MOST)) as u32;
-        let count = |given: Option<u32>, room: f64| given.unwrap_or_else(|| fit(room));
+        let fit = |room: f64| (room / pitch_mm * (1.0 + 1e-9)).floor().min(f64::from(MAX_GRID)) as u32;
+        let count = |count_option: Option<u32>, room: f64| count_option.unwrap_or_else(|| fit(room));
         let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));
-        if columns < least || rows < least {
+        if columns < min_columns || rows < min_columns {
             let message = format!(
-                "this leaves {columns} columns and {rows} rows in view, but {least} are needed; give a smaller value"
+                "this leaves {columns} columns and {rows} rows in view, but {min_columns} are needed; give a smaller value"
             );
             return Err(ChartError::option("pitch_mm", format!("{pitch_mm:.3}"), message));
         }
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn what_is_open_follows_from_the_room() {
         let room = DVec2::new(400.0, 300.0);
-        let grid = |size: GridSize| size.in_room(room, 40, 3).map(|g| (g.columns, g.rows, g.pitch_mm));
+        let grid = |size: GridSize| size.fit_into(room, 40, 3).map(|g| (g.columns, g.rows, g.pitch_mm));
         assert_eq!(grid(GridSize::default()), Ok((40, 30, 10.0)));
         assert_eq!(grid(GridSize { pitch_mm: Some(20.0), ..GridSize::default() }), Ok((20, 15, 20.0)));
         assert_eq!(grid(GridSize { columns: Some(10), rows: Some(10), ..GridSize::default() }), Ok((10, 10, 30.0)));

@@ -20,9 +20,9 @@ const TILE_PX: f64 = 512.0;
 /// Radii of its leaves, texels.
 const RADII: [f64; 2] = [2.0, 120.0];
 /// Distance of the wall relative to that of the farthest panel.
-const WALL: f64 = 1.25;
+const WALL_DISTANCE: f64 = 1.25;
 /// Overlap of a panel behind the nearer one, as a fraction of its width.
-const BEHIND: f64 = 0.05;
+const OVERLAP: f64 = 0.05;
 
 /// A staircase and a slanted plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct DepthWedge {
 }
 
 impl DepthWedge {
-    pub(super) fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
         if !(2..=100).contains(&self.steps) {
             return Err(ChartError::option("steps", self.steps, "expected 2 … 100 steps"));
         }
@@ -42,21 +42,21 @@ impl DepthWedge {
             return Err(ChartError::option("far_ratio", self.far_ratio, "expected a ratio above 1 and up to 1000"));
         }
         // Half of the field relative to the distance: a point at tangent t and distance d is d t from the axis.
-        let tangent = seen.outer_mm * BLEED / (2e3 * seen.distance_m);
-        let distances_m = self.distances_m(seen.distance_m);
-        let mut panels = vec![wall(seen.distance_m * self.far_ratio * WALL, tangent)];
+        let tangent = footprint.outer_mm * BLEED / (2e3 * footprint.distance_m);
+        let distances_m = self.distances_m(footprint.distance_m);
+        let mut panels = vec![wall(footprint.distance_m * self.far_ratio * WALL_DISTANCE, tangent)];
         let width = tangent.x / f64::from(self.steps);
         panels.extend(distances_m.iter().enumerate().map(|(i, distance_m)| {
             let from = -tangent.x + width * i as f64;
-            step(i, *distance_m, from - if i == 0 { 0.0 } else { BEHIND * width }, from + width, tangent.y)
+            step(i, *distance_m, from - if i == 0 { 0.0 } else { OVERLAP * width }, from + width, tangent.y)
         }));
-        panels.push(slant(seen.distance_m * self.far_ratio, seen.distance_m, tangent));
+        panels.push(slant(footprint.distance_m * self.far_ratio, footprint.distance_m, tangent));
         let mut drawing = Drawing::printed(panels.remove(0), Vec::new());
         drawing.panels.extend(panels);
-        self.paint(&mut drawing, seen, seed);
+        self.paint(&mut drawing, footprint, seed);
         drawing.note("steps_m", json!(distances_m));
-        drawing.note("slant_m", json!([seen.distance_m * self.far_ratio, seen.distance_m]));
-        drawing.note("wall_m", seen.distance_m * self.far_ratio * WALL);
+        drawing.note("slant_m", json!([footprint.distance_m * self.far_ratio, footprint.distance_m]));
+        drawing.note("wall_m", footprint.distance_m * self.far_ratio * WALL_DISTANCE);
         Ok(drawing)
     }
 
@@ -67,19 +67,19 @@ impl DepthWedge {
     }
 
     /// Paints each panel with a texture of its own scale, which has the same size in the image at every distance.
-    fn paint(&self, drawing: &mut Drawing, seen: &Footprint, seed: u64) {
+    fn paint(&self, drawing: &mut Drawing, footprint: &Footprint, seed: u64) {
         let (values, _) = leaves(SIDE, RADII[0], RADII[1], seed);
         let mean = values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64 / 65_535.0;
         let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: 1, y: 0 }, NoiseDraw::Shot);
         for (i, panel) in drawing.panels.iter_mut().enumerate() {
             let nearest_m = panel.position_m.x.min(panel.world_m(DVec2::new(panel.sheet.size_mm.x / 2.0, 0.0)).x);
-            let tile = DVec2::splat(TILE_PX * seen.pixel_mm * nearest_m / seen.distance_m);
+            let tile = DVec2::splat(TILE_PX * footprint.pixel_mm * nearest_m / footprint.distance_m);
             let (name, file) = (format!("{}-texture", panel.name), "leaves.png".to_owned());
             // Every panel starts at another place of the texture, so that neighbours differ.
             let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.random(), random.random());
             let place_mm = (corner, corner + tile);
             let values = values.clone();
-            drawing.textures.push(Texture { name, file, panel: i, place_mm, width: SIDE, height: SIDE, values });
+            drawing.textures.push(Texture { name, file, panel: i, position_mm: place_mm, width: SIDE, height: SIDE, values });
             drawing.inks.push(Ink::new(panel.name.clone(), Paint::Texture { texture: i, mean }));
             let half = panel.sheet.size_mm / 2.0;
             panel.sheet = Sheet::plain(panel.sheet.size_mm, i);

@@ -16,15 +16,15 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use glam::DVec2;
 
 use super::{BLEED, GridSize, discs};
-use crate::drawing::{Drawing, Feature, Kind};
+use crate::drawing::{Drawing, Feature, FeatureKind};
 use crate::ink::{Ink, Paint};
-use crate::shape::{Cell, Figure, Fill, Lattice, disc};
+use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Minimum number of dots of a chart with marks.
 const MIN_MARKED: usize = 150;
 /// Columns and rows from the first mark to the chart's centre, and from it to the other two.
-const FIRST: [usize; 2] = [4, 3];
+const FIRST_MARK: [usize; 2] = [4, 3];
 const LEGS: [usize; 2] = [3, 2];
 
 /// A chart of dots.
@@ -38,15 +38,15 @@ pub struct Dots {
 }
 
 impl Dots {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=0.9).contains(&self.dot_ratio) {
             return Err(ChartError::option("dot_ratio", self.dot_ratio, "expected 0.05 … 0.9"));
         }
-        let grid = self.size.in_room(seen.outer_mm, usual_columns(seen.outer_mm.x / seen.pixel_mm), 3)?;
+        let grid = self.size.fit_into(footprint.outer_mm, usual_columns(footprint.outer_mm.x / footprint.pixel_mm), 3)?;
         let marks = marks(grid.columns, grid.rows);
         // Cells are numbered from 1.
-        let here = |column: usize, row: usize| !marks.contains(&[column.wrapping_sub(1), row.wrapping_sub(1)]);
-        let mut drawing = discs::draw(seen, &grid, self.dot_ratio, here);
+        let is_dot = |column: usize, row: usize| !marks.contains(&[column.wrapping_sub(1), row.wrapping_sub(1)]);
+        let mut drawing = discs::draw(footprint, &grid, self.dot_ratio, is_dot);
         drawing.note("columns", grid.columns);
         drawing.note("rows", grid.rows);
         drawing.note("left_out", marks.iter().map(|mark| mark.to_vec()).collect::<Vec<_>>());
@@ -58,30 +58,30 @@ impl Dots {
 fn marks(columns: usize, rows: usize) -> Vec<[usize; 2]> {
     let middle = [columns / 2, rows / 2];
     // Each mark has dots on its four sides.
-    let room = middle[0] > FIRST[0] && middle[1] > FIRST[1];
+    let room = middle[0] > FIRST_MARK[0] && middle[1] > FIRST_MARK[1];
     if columns * rows < MIN_MARKED || !room {
         return Vec::new();
     }
-    let [x, y] = [middle[0] - FIRST[0], middle[1] - FIRST[1]];
+    let [x, y] = [middle[0] - FIRST_MARK[0], middle[1] - FIRST_MARK[1]];
     vec![[x, y], [x + LEGS[0], y], [x, y + LEGS[1]]]
 }
 
 /// Columns for an image width in px: steps of 24 px if these leave six columns; otherwise six columns, with steps of 12 px or
 /// more.
 fn usual_columns(width_px: f64) -> u32 {
-    const MOST: f64 = 33.0;
-    const FEW: f64 = 6.0;
+    const MAX_DOTS: f64 = 33.0;
+    const MIN_DOTS: f64 = 6.0;
     const STEP_PX: f64 = 24.0;
     const MIN_STEP_PX: f64 = 12.0;
     // Rounding must not remove the last column.
     let fit = |step: f64| (width_px / step * (1.0 + 1e-9)).floor();
-    fit(STEP_PX).max(fit(MIN_STEP_PX).min(FEW)).clamp(3.0, MOST) as u32
+    fit(STEP_PX).max(fit(MIN_STEP_PX).min(MIN_DOTS)).clamp(3.0, MAX_DOTS) as u32
 }
 
 /// Size of the lattice relative to the fully visible rectangle.
-const ROOM: f64 = 0.92;
+const LATTICE_FRACTION: f64 = 0.92;
 /// Diameter relative to the side of a circle's cell.
-const DOT_SHARE: f64 = 0.6;
+const DOT_FRACTION: f64 = 0.6;
 
 /// A lattice of circles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,11 +93,11 @@ pub struct Circles {
 }
 
 impl Circles {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let columns = if self.asymmetric { 15 } else { 11 };
-        let grid = self.size.in_room(seen.inner_mm * ROOM, columns, 3)?;
-        let here = |column: usize, row: usize| !self.asymmetric || (column + row).is_multiple_of(2);
-        let mut drawing = discs::draw(seen, &grid, DOT_SHARE, here);
+        let grid = self.size.fit_into(footprint.inner_mm * LATTICE_FRACTION, columns, 3)?;
+        let is_dot = |column: usize, row: usize| !self.asymmetric || (column + row).is_multiple_of(2);
+        let mut drawing = discs::draw(footprint, &grid, DOT_FRACTION, is_dot);
         drawing.note("cells", vec![grid.columns, grid.rows]);
         drawing.note("asymmetric", self.asymmetric);
         Ok(drawing)
@@ -117,28 +117,28 @@ pub struct Points {
 }
 
 impl Points {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=10.0).contains(&self.diameter_px) {
             return Err(ChartError::option("diameter_px", self.diameter_px, "expected 0.05 … 10 px"));
         }
-        let grid = self.size.in_room(seen.inner_mm, 15, 1)?;
-        let radius = self.diameter_px * seen.pixel_mm / 2.0;
-        let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), seen.outer_mm * BLEED);
+        let grid = self.size.fit_into(footprint.inner_mm, 15, 1)?;
+        let radius = self.diameter_px * footprint.pixel_mm / 2.0;
+        let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), footprint.outer_mm * BLEED);
         let mut features = Vec::new();
         let sheet = lattice.sheet(|column, row| {
             if !lattice.is_inside(column, row) {
-                return Cell::Plain(Fill::Ink(0));
+                return CellContent::Plain(Fill::Ink(0));
             }
             let centre = lattice.middle(column, row);
-            let lamp = Feature::at(Kind::Point, [column - 1, row - 1], centre);
+            let lamp = Feature::at(FeatureKind::Point, [column - 1, row - 1], centre);
             features.push(Feature { radius_mm: Some(radius), ..lamp });
-            Cell::Figure(Figure::one(centre, disc(centre, radius, CORNERS, FRAC_PI_4), 1), Fill::Ink(0))
+            CellContent::Figure(ZoneFigure::one(centre, disc(centre, radius, CORNERS, FRAC_PI_4), 1), Fill::Ink(0))
         });
         // A pixel that contains a whole lamp is as bright as if the light of the chart filled it.
-        let share = 1.0 / (PI * self.diameter_px * self.diameter_px / 4.0).min(1.0);
-        let inks = vec![Ink::new("dark", Paint::Glow(0.0)), Ink::new("lamp", Paint::Glow(share))];
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
-        drawing.lit = false;
+        let fraction = 1.0 / (PI * self.diameter_px * self.diameter_px / 4.0).min(1.0);
+        let inks = vec![Ink::new("dark", Paint::Luminous(0.0)), Ink::new("lamp", Paint::Luminous(fraction))];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
+        drawing.is_illuminated = false;
         drawing.features = features;
         drawing.note("points", vec![grid.columns, grid.rows]);
         drawing.note("pitch_mm", grid.pitch_mm);

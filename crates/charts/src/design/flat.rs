@@ -8,10 +8,10 @@
 
 use glam::DVec2;
 
-use super::{BLEED, GridSize, WHITE, share};
+use super::{BLEED, GridSize, WHITE, reflectance_option};
 use crate::drawing::{Cavity, Drawing, Patch};
 use crate::ink::{Ink, Paint};
-use crate::shape::{Cell, Figure, Fill, Lattice, Sheet, Zone, disc, rectangle};
+use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Sheet, Zone, disc, rectangle};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// A white sheet.
@@ -26,23 +26,23 @@ pub struct FlatField {
 pub struct Backlit;
 
 impl FlatField {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
-        let reflectance = share("reflectance", self.reflectance)?;
-        Ok(even(seen, Ink::grey("sheet", reflectance)))
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        let reflectance = reflectance_option("reflectance", self.reflectance)?;
+        Ok(uniform_sheet(footprint, Ink::grey("sheet", reflectance)))
     }
 }
 
 impl Backlit {
-    pub(super) fn draw(self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
-        Ok(Drawing { lit: false, ..even(seen, Ink::new("panel", Paint::Glow(1.0))) })
+    pub(super) fn draw(self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        Ok(Drawing { is_illuminated: false, ..uniform_sheet(footprint, Ink::new("panel", Paint::Luminous(1.0))) })
     }
 }
 
-fn even(seen: &Footprint, ink: Ink) -> Drawing {
-    let half = seen.outer_mm * BLEED / 2.0;
+fn uniform_sheet(footprint: &Footprint, ink: Ink) -> Drawing {
+    let half = footprint.outer_mm * BLEED / 2.0;
     let patch = Patch { name: ink.name.clone(), panel: 0, ink: 0, outline_mm: rectangle(-half, half) };
     let sheet = Sheet::plain(2.0 * half, 0);
-    let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), vec![ink]);
+    let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), vec![ink]);
     drawing.patches.push(patch);
     // Sampling of the spectrum and of the pupil leaves about 0.1 % in a pixel.
     drawing.spp = 256;
@@ -52,9 +52,9 @@ fn even(seen: &Footprint, ink: Ink) -> Drawing {
 /// Corners of a hole.
 const CORNERS: usize = 64;
 /// Depth of a trap relative to the diameter of its opening.
-const DEPTH: f64 = 3.0;
+const TRAP_DEPTH: f64 = 3.0;
 /// Reflectance inside a trap.
-const INSIDE: f64 = 0.01;
+const TRAP_REFLECTANCE: f64 = 0.01;
 
 /// A white field with light traps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,19 +66,19 @@ pub struct Flare {
 }
 
 impl Flare {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.02..=0.8).contains(&self.trap_ratio) {
             return Err(ChartError::option("trap_ratio", self.trap_ratio, "expected 0.02 … 0.8"));
         }
-        let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
+        let grid = self.size.fit_into(footprint.inner_mm, 5, 1)?;
         let radius = self.trap_ratio * grid.pitch_mm / 2.0;
-        let depth_mm = 2.0 * DEPTH * radius;
+        let depth_mm = 2.0 * TRAP_DEPTH * radius;
         let pitch = DVec2::splat(grid.pitch_mm);
-        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
+        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, footprint.outer_mm * BLEED);
         let (mut patches, mut cavities) = (Vec::new(), Vec::new());
         let sheet = lattice.sheet(|column, row| {
             if !lattice.is_inside(column, row) {
-                return Cell::Plain(Fill::Ink(0));
+                return CellContent::Plain(Fill::Ink(0));
             }
             let centre = lattice.middle(column, row);
             let opening_mm = disc(centre, radius, CORNERS, std::f64::consts::FRAC_PI_4);
@@ -86,16 +86,16 @@ impl Flare {
             patches.push(Patch { name, panel: 0, ink: 1, outline_mm: opening_mm.clone() });
             cavities.push(Cavity { panel: 0, opening_mm: opening_mm.clone(), depth_mm, ink: 1 });
             let hole = Zone { outline: opening_mm, fills: vec![Fill::Hole] };
-            Cell::Figure(Figure { centre, zones: vec![hole] }, Fill::Ink(0))
+            CellContent::Figure(ZoneFigure { centre, zones: vec![hole] }, Fill::Ink(0))
         });
-        let inks = vec![Ink::grey("white", WHITE), Ink::grey("trap-inside", INSIDE)];
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        let inks = vec![Ink::grey("white", WHITE), Ink::grey("trap-inside", TRAP_REFLECTANCE)];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
         (drawing.patches, drawing.cavities) = (patches, cavities);
         drawing.note("traps", vec![grid.columns, grid.rows]);
         drawing.note("pitch_mm", grid.pitch_mm);
         drawing.note("opening_mm", 2.0 * radius);
         drawing.note("depth_mm", depth_mm);
-        drawing.note("luminance_of_a_trap_s_bottom_over_white_about", INSIDE / (1.0 + 4.0 * DEPTH * DEPTH) / WHITE);
+        drawing.note("luminance_of_a_trap_s_bottom_over_white_about", TRAP_REFLECTANCE / (1.0 + 4.0 * TRAP_DEPTH * TRAP_DEPTH) / WHITE);
         Ok(drawing)
     }
 }

@@ -19,7 +19,7 @@ mod slanted_edges;
 mod slanted_star;
 
 use crate::{drawing::Drawing, error::ChartError, ray_camera::Footprint};
-use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
+use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, reflectance_option};
 
 pub use checkerboard::{Checkerboard, GridSize};
 pub use dead_leaves::DeadLeaves;

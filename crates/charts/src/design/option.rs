@@ -12,15 +12,15 @@ pub(super) const WHITE: f64 = 0.9;
 pub(super) const BLACK: f64 = 0.03;
 
 /// A reflectance between 0 and 1.
-pub(super) fn share(option: &'static str, value: f64) -> Result<f64, ChartError> {
-    let legal = (0.0..=1.0).contains(&value);
-    legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a fraction, 0 … 1"))
+pub(super) fn reflectance_option(option: &'static str, value: f64) -> Result<f64, ChartError> {
+    let is_valid = (0.0..=1.0).contains(&value);
+    is_valid.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a fraction, 0 … 1"))
 }
 
 /// An angle by which edges are rotated, degrees, in radians.
 pub(super) fn angle(degrees: f64) -> Result<f64, ChartError> {
-    let legal = (-45.0..=45.0).contains(&degrees);
-    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
+    let is_valid = (-45.0..=45.0).contains(&degrees);
+    is_valid.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
 }
 
 /// True if an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
@@ -32,8 +32,8 @@ pub(super) fn is_measurable(degrees: f64) -> bool {
 
 /// A ratio of luminances.
 pub(super) fn contrast(ratio: f64) -> Result<f64, ChartError> {
-    let legal = ratio > 1.0 && ratio <= 1000.0;
-    legal
+    let is_valid = ratio > 1.0 && ratio <= 1000.0;
+    is_valid
         .then_some(ratio)
         .ok_or_else(|| ChartError::option("contrast", ratio, "expected a ratio above 1 and up to 1000"))
 }

@@ -14,11 +14,11 @@ use serde_json::json;
 use super::{BLEED, GridSize};
 use crate::drawing::{Drawing, Patch};
 use crate::ink::{Ink, Paint};
-use crate::shape::{Cell, Figure, Fill, Lattice, Sheet, Zone, disc};
+use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Sheet, Zone, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Size of the patches' field relative to the fully visible rectangle.
-pub(super) const ROOM: f64 = 0.92;
+pub(super) const FIELD_FRACTION: f64 = 0.92;
 /// Side of a patch relative to the distance between centres.
 pub(super) const SIDE: f64 = 0.86;
 /// Reflectance of the frame between colours.
@@ -38,9 +38,9 @@ pub struct ContrastPatches {
 }
 
 impl ColorChecker {
-    pub(super) fn draw(self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let size = GridSize { columns: Some(6), rows: Some(4), pitch_mm: None };
-        let grid = size.in_room(seen.inner_mm * ROOM, 6, 1)?;
+        let grid = size.fit_into(footprint.inner_mm * FIELD_FRACTION, 6, 1)?;
         let name = |name: &str| {
             let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
             let text: String = name.chars().map(plain).collect();
@@ -49,8 +49,8 @@ impl ColorChecker {
         let patches = colorchecker().iter();
         let patches = patches.map(|patch| Ink::new(name(patch.name), Paint::Spectral(patch.reflectance.clone())));
         let inks: Vec<Ink> = std::iter::once(Ink::grey("frame", FRAME)).chain(patches).collect();
-        let (sheet, patches) = rows(6, 4, grid.pitch_mm, seen, &inks);
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        let (sheet, patches) = rows(6, 4, grid.pitch_mm, footprint, &inks);
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
         drawing.patches = patches;
         drawing.note("side_mm", SIDE * grid.pitch_mm);
         drawing.note("pitch_mm", grid.pitch_mm);
@@ -59,20 +59,20 @@ impl ColorChecker {
 }
 
 impl ContrastPatches {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(self.decades > 0.0 && self.decades <= 8.0) {
             return Err(ChartError::option("decades", self.decades, "expected a number above 0 and up to 8"));
         }
-        let grid = self.size.in_room(seen.inner_mm * ROOM, 6, 1)?;
+        let grid = self.size.fit_into(footprint.inner_mm * FIELD_FRACTION, 6, 1)?;
         let count = grid.columns * grid.rows;
         let last = count.saturating_sub(1).max(1) as f64;
-        let glow = |i: usize| Paint::Glow(pow(10.0, -self.decades * i as f64 / last));
+        let glow = |i: usize| Paint::Luminous(pow(10.0, -self.decades * i as f64 / last));
         let patches = (0..count).map(|i| Ink::new(format!("patch-{:03}", i + 1), glow(i)));
-        let frame = Ink::new("frame", Paint::Glow(pow(10.0, -self.decades / 2.0)));
+        let frame = Ink::new("frame", Paint::Luminous(pow(10.0, -self.decades / 2.0)));
         let inks: Vec<Ink> = std::iter::once(frame).chain(patches).collect();
-        let (sheet, patches) = rows(grid.columns, grid.rows, grid.pitch_mm, seen, &inks);
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
-        drawing.lit = false;
+        let (sheet, patches) = rows(grid.columns, grid.rows, grid.pitch_mm, footprint, &inks);
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
+        drawing.is_illuminated = false;
         drawing.patches = patches;
         drawing.note("patches", vec![grid.columns, grid.rows]);
         drawing.note("side_mm", SIDE * grid.pitch_mm);
@@ -83,14 +83,14 @@ impl ContrastPatches {
 }
 
 /// Patches row by row from the top left, with the inks from the second on, on a ground of the first.
-pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
+pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, footprint: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
     let lines = |count: usize, edge: f64| -> Vec<f64> {
         let first = -pitch_mm * (count as f64 - 1.0) / 2.0;
         let sides = (0..count).flat_map(|i| [-0.5, 0.5].map(|s| first + pitch_mm * (i as f64 + s * SIDE)));
         let edge = edge.max(-first + 0.55 * pitch_mm);
         [-edge].into_iter().chain(sides).chain([edge]).collect()
     };
-    let half = seen.outer_mm * BLEED / 2.0;
+    let half = footprint.outer_mm * BLEED / 2.0;
     let lattice = Lattice::new(lines(columns, half.x), lines(rows, half.y));
     let mut patches = Vec::new();
     let sheet = lattice.sheet(|column, row| {
@@ -100,7 +100,7 @@ pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint,
             let outline_mm: Vec<DVec2> = lattice.cell(column, row);
             patches.push(Patch { name: inks[ink].name.clone(), panel: 0, ink, outline_mm });
         }
-        Cell::Plain(Fill::Ink(ink))
+        CellContent::Plain(Fill::Ink(ink))
     });
     (sheet, patches)
 }
@@ -127,7 +127,7 @@ pub struct OecfSteps {
 }
 
 impl OecfSteps {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(2..=60).contains(&self.steps) {
             return Err(ChartError::option("steps", self.steps, "expected 2 … 60 steps"));
         }
@@ -140,10 +140,10 @@ impl OecfSteps {
         }
         let steps = self.steps as usize;
         let corners = steps * (ARC + GAP);
-        let half = seen.inner_mm.min_element() / 2.0;
+        let half = footprint.inner_mm.min_element() / 2.0;
         // The first step begins at the top and the others follow clockwise.
         let start = -FRAC_PI_2 - TAU * ARC as f64 / (2 * corners) as f64;
-        let [within, around] = RADII.map(|share| disc(DVec2::ZERO, share * half, corners, start));
+        let [within, around] = RADII.map(|fraction| disc(DVec2::ZERO, fraction * half, corners, start));
         let step_of = |i: usize| if i % (ARC + GAP) < ARC { 1 + i / (ARC + GAP) } else { 0 };
         let fills = (0..corners).map(|i| Fill::Ink(step_of(i))).collect();
         let patch = |step: usize| {
@@ -153,21 +153,21 @@ impl OecfSteps {
             Patch { name: format!("step-{:02}", step + 1), panel: 0, ink: step + 1, outline_mm }
         };
         let patches = (0..steps).map(patch).collect();
-        let figure = Figure {
+        let figure = ZoneFigure {
             centre: DVec2::ZERO,
             zones: vec![Zone::even(within.clone(), 0), Zone { outline: around.clone(), fills }],
         };
-        let lattice = Lattice::framed(1, 1, DVec2::splat(2.0 * half), seen.outer_mm * BLEED);
+        let lattice = Lattice::framed(1, 1, DVec2::splat(2.0 * half), footprint.outer_mm * BLEED);
         let sheet = lattice.sheet(|column, row| match lattice.is_inside(column, row) {
-            true => Cell::Figure(figure.clone(), Fill::Ink(0)),
-            false => Cell::Plain(Fill::Ink(0)),
+            true => CellContent::Figure(figure.clone(), Fill::Ink(0)),
+            false => CellContent::Plain(Fill::Ink(0)),
         });
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), self.inks());
-        drawing.lit = !self.backlit;
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), self.inks());
+        drawing.is_illuminated = !self.backlit;
         drawing.patches = patches;
         drawing.note("steps", self.steps);
         drawing.note("densities", json!(self.densities()));
-        drawing.note("radii_mm", json!(RADII.map(|share| share * half)));
+        drawing.note("radii_mm", json!(RADII.map(|fraction| fraction * half)));
         Ok(drawing)
     }
 
@@ -178,8 +178,8 @@ impl OecfSteps {
 
     fn inks(&self) -> Vec<Ink> {
         let paint = |density: f64| {
-            let share = pow(10.0, -density);
-            if self.backlit { Paint::Glow(share) } else { Paint::Grey(share) }
+            let fraction = pow(10.0, -density);
+            if self.backlit { Paint::Luminous(fraction) } else { Paint::Grey(fraction) }
         };
         let steps = self.densities().into_iter().enumerate();
         let steps = steps.map(|(i, density)| Ink::new(format!("step-{:02}", i + 1), paint(density)));

@@ -11,8 +11,8 @@ use glam::DVec2;
 use serde_json::json;
 
 use super::BLEED;
-use crate::drawing::{Drawing, Feature, Kind, Patch};
-use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use crate::drawing::{Drawing, Feature, FeatureKind, Patch};
+use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Zone, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Steps per cycle.
@@ -35,11 +35,11 @@ pub struct SiemensStar {
 }
 
 impl SiemensStar {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(4..=360).contains(&self.cycles) {
             return Err(ChartError::option("cycles", self.cycles, "expected 4 … 360 cycles"));
         }
-        let outer = REACH * seen.inner_mm.min_element() / 2.0;
+        let outer = REACH * footprint.inner_mm.min_element() / 2.0;
         let corners = STEPS * self.cycles as usize;
         // The first maximum is to the right, in the middle of its half cycle.
         let start = -TAU / (4.0 * f64::from(self.cycles));
@@ -51,17 +51,17 @@ impl SiemensStar {
             outline_mm: outline.iter().step_by(corners / 64).copied().collect(),
         };
         let patches = vec![patch("centre", &within)];
-        let rim = around.iter().step_by(corners / 64).copied().collect();
+        let edge_points = around.iter().step_by(corners / 64).copied().collect();
         let zones = vec![Zone::even(within, 0), Zone { outline: around, fills: self.fills(corners) }];
-        let lattice = Lattice::framed(1, 1, DVec2::splat(2.04 * outer), seen.outer_mm * BLEED);
-        let figure = Figure { centre: DVec2::ZERO, zones };
+        let lattice = Lattice::framed(1, 1, DVec2::splat(2.04 * outer), footprint.outer_mm * BLEED);
+        let figure = ZoneFigure { centre: DVec2::ZERO, zones };
         let sheet = lattice.sheet(|column, row| match lattice.is_inside(column, row) {
-            true => Cell::Figure(figure.clone(), Fill::Ink(0)),
-            false => Cell::Plain(Fill::Ink(0)),
+            true => CellContent::Figure(figure.clone(), Fill::Ink(0)),
+            false => CellContent::Plain(Fill::Ink(0)),
         });
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), self.inks());
-        drawing.features.push(Feature::at(Kind::Centre, [0, 0], DVec2::ZERO));
-        drawing.features.push(Feature { points_mm: rim, ..Feature::at(Kind::Rim, [0, 0], DVec2::ZERO) });
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), self.inks());
+        drawing.features.push(Feature::at(FeatureKind::Centre, [0, 0], DVec2::ZERO));
+        drawing.features.push(Feature { points_mm: edge_points, ..Feature::at(FeatureKind::Outline, [0, 0], DVec2::ZERO) });
         drawing.patches = patches;
         drawing.note("cycles", self.cycles);
         drawing.note("binary", self.binary);
@@ -86,8 +86,8 @@ impl SiemensStar {
         let level = |i: usize| {
             // Steps from the minimum: a quarter of a cycle before the start.
             let step = (i + half / 2) % STEPS;
-            let from_trough = if step < half { step } else { STEPS - 1 - step };
-            1 + if self.binary { usize::from(from_trough >= half / 2) } else { from_trough }
+            let steps_from_trough = if step < half { step } else { STEPS - 1 - step };
+            1 + if self.binary { usize::from(steps_from_trough >= half / 2) } else { steps_from_trough }
         };
         (0..corners).map(|i| Fill::Ink(level(i))).collect()
     }
@@ -107,14 +107,14 @@ mod tests {
     /// Fourier coefficient of harmonic `k` over a cycle of the star's levels.
     fn harmonic(star: SiemensStar, k: usize) -> (f64, f64) {
         let inks = star.inks();
-        let share = |fill: &Fill| match fill {
+        let fraction = |fill: &Fill| match fill {
             Fill::Ink(i) => match inks[*i].paint {
                 crate::Paint::Grey(r) => r / MEAN - 1.0,
                 _ => f64::NAN,
             },
             Fill::Hole => f64::NAN,
         };
-        let levels: Vec<f64> = star.fills(STEPS).iter().map(share).collect();
+        let levels: Vec<f64> = star.fills(STEPS).iter().map(fraction).collect();
         let edge = |i: usize| (i as f64 / STEPS as f64 - 0.25) * TAU * k as f64;
         let part = |f: fn(f64) -> f64, sign: f64| -> f64 {
             let piece = |i: usize| levels[i] * sign * (f(edge(i + 1)) - f(edge(i)));

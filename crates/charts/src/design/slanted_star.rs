@@ -5,8 +5,8 @@ use glam::DVec2;
 use serde_json::json;
 
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
-use crate::drawing::{Drawing, Feature, Kind};
-use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use crate::drawing::{Drawing, Feature, FeatureKind};
+use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Zone, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Outer radius relative to the distance between centres.
@@ -30,29 +30,29 @@ pub struct SlantedStar {
 }
 
 impl SlantedStar {
-    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
-        let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
+    pub(super) fn draw(&self, footprint: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        let (angle_rad, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
         if !(2..=36).contains(&self.spokes) {
             return Err(ChartError::option("spokes", self.spokes, "expected 2 … 36 dark wedges"));
         }
         let unmeasurable_deg = self.unmeasurable_deg();
         if unmeasurable_deg.len() == 2 * self.spokes as usize {
-            let told =
+            let message =
                 "no edge of these stars lies 2° to 43° off rows and columns: expected another angle or more spokes";
-            return Err(ChartError::option("angle_deg", self.angle_deg, told));
+            return Err(ChartError::option("angle_deg", self.angle_deg, message));
         }
-        let grid = self.size.in_room(seen.inner_mm, 3, 1)?;
+        let grid = self.size.fit_into(footprint.inner_mm, 3, 1)?;
         let pitch = DVec2::splat(grid.pitch_mm);
-        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
+        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, footprint.outer_mm * BLEED);
         let (outer, corners) = (OUTER * grid.pitch_mm, 2 * self.spokes as usize);
         let mut features = Vec::new();
         let sheet = lattice.sheet(|column, row| {
             if !lattice.is_inside(column, row) {
-                return Cell::Plain(Fill::Ink(0));
+                return CellContent::Plain(Fill::Ink(0));
             }
             let (centre, index) = (lattice.middle(column, row), [column - 1, row - 1]);
-            let [within, around] = [INNER * outer, outer].map(|radius| disc(centre, radius, corners, turn));
-            features.push(Feature::at(Kind::Centre, index, centre));
+            let [within, around] = [INNER * outer, outer].map(|radius| disc(centre, radius, corners, angle_rad));
+            features.push(Feature::at(FeatureKind::Centre, index, centre));
             // Even corners begin a dark wedge, which is on the right of the outward direction (clockwise); odd ones end it.
             features.extend((0..corners).map(|i| match i % 2 {
                 0 => Feature::edge(index, within[i], around[i]),
@@ -60,10 +60,10 @@ impl SlantedStar {
             }));
             let wedges = (0..corners).map(|i| Fill::Ink(1 - i % 2)).collect();
             let zones = vec![Zone::even(within, 0), Zone { outline: around, fills: wedges }];
-            Cell::Figure(Figure { centre, zones }, Fill::Ink(0))
+            CellContent::Figure(ZoneFigure { centre, zones }, Fill::Ink(0))
         });
         let inks = vec![Ink::grey("light", LIGHT), Ink::grey("dark", LIGHT / contrast)];
-        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
         drawing.features = features;
         drawing.note("stars", vec![grid.columns, grid.rows]);
         drawing.note("pitch_mm", grid.pitch_mm);
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn edges_along_rows_columns_and_diagonals_are_told() {
+    fn edges_along_rows_columns_and_diagonals_are_reported() {
         let star = |spokes: u32, angle_deg: f64| {
             SlantedStar { size: GridSize::default(), spokes, angle_deg, contrast: 4.0 }.unmeasurable_deg()
         };

@@ -7,22 +7,22 @@ use etendue_scene::{record::samples::SampleKeys, record::sensor::charge::NonUnif
 use etendue_spectra::colour::encode;
 
 use crate::drawing::{Drawing, Texture};
-use crate::light::{Light, Meter};
+use crate::light::{Light, CameraResponse};
 use crate::ray_camera::{Footprint, RayCamera};
 use crate::{camera_station::CameraStation, design::Chart};
 
 /// Everything that decides a chart's files.
-pub struct Request<'a> {
+pub struct ChartSpecification<'a> {
     /// The chart.
     pub chart: &'a Chart,
     /// Its drawing.
     pub drawing: &'a Drawing,
     /// The camera's view of its plane.
-    pub seen: Footprint,
+    pub footprint: Footprint,
     /// The camera's rays.
     pub ray_camera: &'a RayCamera<'a>,
     /// The camera's response to light; `None` without electronics.
-    pub meter: Option<&'a Meter<'a>>,
+    pub response: Option<&'a CameraResponse<'a>>,
     /// The light.
     pub light: &'a Light,
     /// The cameras of the job.
@@ -32,7 +32,7 @@ pub struct Request<'a> {
     /// Keys to remove from it.
     pub remove: &'a [&'a str],
     /// Unit that all cameras of a series share (fixed patterns), if the camera file does not state one.
-    pub specimen: Option<u64>,
+    pub unit_seed: Option<u64>,
     /// The seed.
     pub seed: u64,
     /// Changes `key=value` to the job's keys, applied after the chart is drawn.
@@ -70,7 +70,7 @@ pub(super) fn print_name(texture: &Texture) -> String {
 }
 
 /// The job file.
-pub(super) fn job(request: &Request<'_>) -> String {
+pub(super) fn job(request: &ChartSpecification<'_>) -> String {
     let series = request.stations.iter().any(|station| station.exposure_s.is_some());
     let cameras: Vec<_> = request.stations.iter().map(|station| camera_entry(station, series)).collect();
     // Level "direct": flat sheets light nothing except the camera. Boxes behind holes do.
@@ -84,10 +84,10 @@ pub(super) fn job(request: &Request<'_>) -> String {
         Render { samples, integrator: Some(integrator.into()), seed: Some(request.seed.into()), ..Render::default() };
     let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("render", render.to_table());
     let name = request.chart.name();
-    let about = format!(
+    let comment = format!(
         "The chart \"{name}\": etendue render job.toml -o DIR. truth.json states the positions and properties of its features."
     );
-    File::new(job).head(about).to_string()
+    File::new(job).head(comment).to_string()
 }
 
 /// A station as a camera of the job; in a series, whose views are equal, without ground truth.
@@ -112,15 +112,15 @@ pub fn camera_file(station: &CameraStation) -> String {
 }
 
 /// The camera of a station: the caller's, with the differences.
-pub(super) fn camera(request: &Request<'_>, station: &CameraStation) -> String {
+pub(super) fn camera(request: &ChartSpecification<'_>, station: &CameraStation) -> String {
     let mut camera = Table::new().with("base", request.camera);
     if !request.remove.is_empty() {
         camera.put("remove", request.remove.to_vec());
     }
     if let Some(exposure_s) = station.exposure_s {
         let mut sensor = Table::new().with("exposure_s", exposure_s);
-        if let Some(specimen) = request.specimen {
-            let pattern = NonUniformity { seed: Some(specimen.into()), ..NonUniformity::default() };
+        if let Some(unit_seed) = request.unit_seed {
+            let pattern = NonUniformity { seed: Some(unit_seed.into()), ..NonUniformity::default() };
             sensor.put("non_uniformity", pattern.to_table());
         }
         camera.put("sensor", sensor);

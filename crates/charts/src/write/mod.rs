@@ -8,12 +8,12 @@ mod truth;
 
 use job::{print_name, print_of};
 
-pub use job::{ChartFile, Contents, Request, camera_file};
-pub use picture::picture;
+pub use job::{ChartFile, Contents, ChartSpecification, camera_file};
+pub use picture::chart_image;
 
 /// The files of a chart.
 #[must_use]
-pub fn files(request: &Request<'_>) -> Vec<ChartFile> {
+pub fn files(request: &ChartSpecification<'_>) -> Vec<ChartFile> {
     let text = |name: &str, text: String| ChartFile { name: name.to_owned(), contents: Contents::Text(text) };
     let drawing = request.drawing;
     let mut files = vec![

@@ -13,7 +13,7 @@ use crate::shape::{Fill, Piece, Sheet};
 
 /// The mesh of a panel, with the boxes behind its holes.
 pub(super) fn mesh(drawing: &Drawing, panel: usize) -> String {
-    let mut mesh = Mesh { textured: !drawing.textures.is_empty(), ..Mesh::default() };
+    let mut mesh = ChartMesh { textured: !drawing.textures.is_empty(), ..ChartMesh::default() };
     let own = &drawing.panels[panel];
     for (ink, name) in drawing.inks.iter().map(|ink| &ink.name).enumerate() {
         let pieces: Vec<&Piece> = own.sheet.pieces.iter().filter(|piece| piece.fill == Fill::Ink(ink)).collect();
@@ -28,7 +28,7 @@ pub(super) fn mesh(drawing: &Drawing, panel: usize) -> String {
 }
 
 #[derive(Default)]
-struct Mesh {
+struct ChartMesh {
     textured: bool,
     known: BTreeMap<[u64; 3], usize>,
     points: String,
@@ -36,7 +36,7 @@ struct Mesh {
     faces: String,
 }
 
-impl Mesh {
+impl ChartMesh {
     /// Adds a piece of the sheet. Seen from its front, faces turn anticlockwise.
     fn piece(&mut self, panel: &Panel, outline: &[DVec2]) {
         let corners: Vec<usize> = outline.iter().rev().map(|point| self.corner(panel, *point, 0.0)).collect();
@@ -45,11 +45,11 @@ impl Mesh {
 
     /// Adds a box behind a hole, seen from inside: its walls and its bottom.
     fn cavity(&mut self, panel: &Panel, cavity: &Cavity) {
-        let rim: Vec<usize> = cavity.opening_mm.iter().map(|p| self.corner(panel, *p, 0.0)).collect();
+        let opening: Vec<usize> = cavity.opening_mm.iter().map(|p| self.corner(panel, *p, 0.0)).collect();
         let deep: Vec<usize> = cavity.opening_mm.iter().map(|p| self.corner(panel, *p, cavity.depth_mm)).collect();
-        for i in 0..rim.len() {
-            let next = (i + 1) % rim.len();
-            self.face(&[rim[i], rim[next], deep[next], deep[i]]);
+        for i in 0..opening.len() {
+            let next = (i + 1) % opening.len();
+            self.face(&[opening[i], opening[next], deep[next], deep[i]]);
         }
         let bottom: Vec<usize> = deep.iter().rev().copied().collect();
         self.face(&bottom);
@@ -103,7 +103,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
     path(&mut text, sheet, Fill::Hole, "#000000");
     for (i, ink) in drawing.inks.iter().enumerate() {
         if let Paint::Texture { texture, .. } = ink.paint {
-            pictures(&mut text, sheet, i, &super::print_name(&drawing.textures[texture]));
+            svg_images(&mut text, sheet, i, &super::print_name(&drawing.textures[texture]));
         }
     }
     text.push_str("</svg>\n");
@@ -130,7 +130,7 @@ fn path(text: &mut String, sheet: &Sheet, fill: Fill, colour: &str) {
 }
 
 /// A texture over the whole sheet, visible where its ink is; textured pieces are rectangles.
-fn pictures(text: &mut String, sheet: &Sheet, ink: usize, file: &str) {
+fn svg_images(text: &mut String, sheet: &Sheet, ink: usize, file: &str) {
     for piece in sheet.pieces.iter().filter(|piece| piece.fill == Fill::Ink(ink)) {
         let (low, high) = crate::shape::bounds(&piece.outline);
         let DVec2 { x: w, y: h } = high - low;

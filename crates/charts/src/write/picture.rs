@@ -15,7 +15,7 @@ const MM_PER_INCH: f64 = 25.4;
 ///
 /// # Errors
 /// If the chart is not one flat sheet, or the image size is not reasonable.
-pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
+pub fn chart_image(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
     if !drawing.is_flat() {
         return Err(ChartError::option(
             "png",
@@ -28,11 +28,11 @@ pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError
     let size = (sheet.size_mm * px_per_mm).round();
     if !(dpi > 0.0 && size.min_element() >= 1.0 && size.element_product() <= MAX_PX) {
         let [w, h] = sheet.size_mm.to_array();
-        let told = format!(
+        let message = format!(
             "at this resolution a sheet of {w:.0} x {h:.0} mm has {:.0} x {:.0} pixels; expected 1 to 2e8",
             size.x, size.y
         );
-        return Err(ChartError::option("png", dpi, told));
+        return Err(ChartError::option("png", dpi, message));
     }
     let (width, height) = (size.x as usize, size.y as usize);
     let mut linear = vec![[0.0_f64; 3]; width * height];
@@ -49,7 +49,7 @@ pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError
             _ => None,
         };
         let (low, high) = bounds(&corners);
-        cover(&corners, width, height, |x, y, share| {
+        cover(&corners, width, height, |x, y, coverage| {
             let colour = texture.map_or(plain, |texture| {
                 let at = (DVec2::new(x as f64, y as f64) + 0.5 - low) / (high - low);
                 let place = |t: f64, n: usize| ((t * n as f64).max(0.0) as usize).min(n - 1);
@@ -57,7 +57,7 @@ pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError
                 [f64::from(texture.values[row * texture.width + column]) / 65_535.0; 3]
             });
             let pixel = &mut linear[y * width + x];
-            (0..3).for_each(|c| pixel[c] += share * colour[c]);
+            (0..3).for_each(|c| pixel[c] += coverage * colour[c]);
         });
     }
     let encoded = linear.into_iter().map(|rgb| rgb.map(|v| encode(v as f32))).collect();
@@ -74,9 +74,9 @@ fn cover(outline: &[DVec2], width: usize, height: usize, mut take: impl FnMut(us
         }
         let (low, high) = bounds(&row);
         for x in cells(low.x, high.x, width) {
-            let share = area(&between(&row, DVec2::X, x as f64));
-            if share > 0.0 {
-                take(x, y, share);
+            let coverage = area(&between(&row, DVec2::X, x as f64));
+            if coverage > 0.0 {
+                take(x, y, coverage);
             }
         }
     }
@@ -94,18 +94,18 @@ fn between(outline: &[DVec2], axis: DVec2, start: f64) -> Vec<DVec2> {
 
 /// Part of a convex outline where `side` is positive (Sutherland and Hodgman 1974).
 fn cut(outline: &[DVec2], side: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
-    let mut kept = Vec::with_capacity(outline.len() + 1);
+    let mut clipped = Vec::with_capacity(outline.len() + 1);
     for (i, a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];
         let (at_a, at_b) = (side(*a), side(b));
         if at_a >= 0.0 {
-            kept.push(*a);
+            clipped.push(*a);
         }
         if (at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0) {
-            kept.push(*a + (b - *a) * (at_a / (at_a - at_b)));
+            clipped.push(*a + (b - *a) * (at_a / (at_a - at_b)));
         }
     }
-    kept
+    clipped
 }
 
 #[cfg(test)]
@@ -117,16 +117,16 @@ mod tests {
     fn coverage_is_exact() {
         let outline = disc(DVec2::new(10.3, 7.7), 5.0, 64, 0.1);
         let (mut sum, mut largest) = (0.0, 0.0_f64);
-        cover(&outline, 30, 30, |_, _, share| {
-            sum += share;
-            largest = largest.max(share);
+        cover(&outline, 30, 30, |_, _, coverage| {
+            sum += coverage;
+            largest = largest.max(coverage);
         });
         assert!((sum / area(&outline) - 1.0).abs() < 1e-12 && (largest - 1.0).abs() < 1e-12);
-        let mut beyond = 0.0;
-        cover(&outline, 10, 30, |x, _, share| {
+        let mut covered_beyond = 0.0;
+        cover(&outline, 10, 30, |x, _, coverage| {
             assert!(x < 10);
-            beyond += share;
+            covered_beyond += coverage;
         });
-        assert!(beyond < sum && beyond > 0.0);
+        assert!(covered_beyond < sum && covered_beyond > 0.0);
     }
 }

@@ -1,7 +1,7 @@
 //! The scene: inks as materials, uniform light from all directions or none.
 
 use etendue_core::ExactTime;
-use etendue_scene::record::light::modulation::{PwmModulation, Recurring};
+use etendue_scene::record::light::modulation::{PwmModulation, ModulationTiming};
 use etendue_scene::record::material::{Diffuse, Emitter};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{
@@ -25,15 +25,15 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
         textures: drawing.textures.iter().map(texture).collect(),
         materials: drawing.inks.iter().map(|ink| material(ink, drawing, light)).collect(),
         objects: drawing.panels.iter().map(|panel| object(panel, drawing)).collect(),
-        environment: drawing.lit.then(|| Environment::Uniform(emission(light, 1.0))),
+        environment: drawing.is_illuminated.then(|| Environment::Uniform(emission(light, 1.0))),
         ..Scene::default()
     };
-    let about = "Equal from all directions: a diffuse surface of reflectance R has R times this luminance.";
-    File::new(scene.to_table()).above("environment", about).to_string()
+    let comment = "Equal from all directions: a diffuse surface of reflectance R has R times this luminance.";
+    File::new(scene.to_table()).above("environment", comment).to_string()
 }
 
 fn texture(texture: &Texture, drawing: &Drawing) -> record::Texture {
-    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm.0, texture.place_mm.1);
+    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.position_mm.0, texture.position_mm.1);
     record::Texture {
         wrap: Some(Wrap::Mirror.into()),
         uv_scale: Some(scale.into()),
@@ -63,25 +63,25 @@ fn mapping(size_mm: DVec2, low: DVec2, high: DVec2) -> ([f64; 2], [f64; 2]) {
 }
 
 /// Emission of a fraction of the light.
-fn emission(light: &Light, share: f64) -> Emission {
-    let level = Level::Luminance((share * light.luminance_cd_m2()).into());
+fn emission(light: &Light, fraction: f64) -> Emission {
+    let level = Level::Luminance((fraction * light.luminance_cd_m2()).into());
     Emission { colour: Some(LightColour::Illuminant(light.name().into())), ..Emission::new(level) }
 }
 
 fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> Material {
     let name = ink.name.as_str();
-    let matt = |reflectance| Material::new(name, Surface::Diffuse(Diffuse::new(reflectance)));
+    let diffuse = |reflectance| Material::new(name, Surface::Diffuse(Diffuse::new(reflectance)));
     match &ink.paint {
-        Paint::Grey(reflectance) => matt(Reflectance::Plain(Colour::Grey((*reflectance).into()))),
-        Paint::Spectral(_) => matt(Reflectance::Plain(Colour::Spectrum(spectrum_file(ink).as_str().into()))),
+        Paint::Grey(reflectance) => diffuse(Reflectance::Plain(Colour::Grey((*reflectance).into()))),
+        Paint::Spectral(_) => diffuse(Reflectance::Plain(Colour::Spectrum(spectrum_file(ink).as_str().into()))),
         Paint::Texture { texture, .. } => {
-            matt(Reflectance::Texture { name: drawing.textures[*texture].name.as_str().into(), scale: None })
+            diffuse(Reflectance::Texture { name: drawing.textures[*texture].name.as_str().into(), scale: None })
         }
-        Paint::Glow(share) => glowing(name, SurfaceEmission::new(emission(light, *share))),
-        Paint::Pulses { share, frequency_hz, duty, delay_s } => {
-            let timing = Recurring { delay_s: Some(ExactTime::from(*delay_s).into()), ..Recurring::default() };
+        Paint::Luminous(fraction) => glowing(name, SurfaceEmission::new(emission(light, *fraction))),
+        Paint::Pulses { fraction, frequency_hz, duty, delay_s } => {
+            let timing = ModulationTiming { delay_s: Some(ExactTime::from(*delay_s).into()), ..ModulationTiming::default() };
             let modulation = Some(Modulation::Pwm(PwmModulation::new(*frequency_hz, *duty, timing)));
-            glowing(name, SurfaceEmission { modulation, ..SurfaceEmission::new(emission(light, *share)) })
+            glowing(name, SurfaceEmission { modulation, ..SurfaceEmission::new(emission(light, *fraction)) })
         }
     }
 }
@@ -103,11 +103,11 @@ fn shown<'a>(drawing: &'a Drawing, panel: &Panel) -> impl Iterator<Item = &'a st
 
 /// The files of measured reflectances.
 pub(super) fn spectra(drawing: &Drawing) -> Vec<(String, String)> {
-    let of = |ink: &Ink| match &ink.paint {
+    let spectrum_entry = |ink: &Ink| match &ink.paint {
         Paint::Spectral(reflectance) => Some((spectrum_file(ink), csv(reflectance))),
         _ => None,
     };
-    drawing.inks.iter().filter_map(of).collect()
+    drawing.inks.iter().filter_map(spectrum_entry).collect()
 }
 
 fn spectrum_file(ink: &Ink) -> String {

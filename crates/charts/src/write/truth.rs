@@ -6,17 +6,17 @@ use etendue_core::CameraPose;
 use glam::{DVec2, DVec3};
 use serde_json::{Map, Value, json};
 
-use super::Request;
-use crate::drawing::{Feature, Kind, Patch};
+use super::ChartSpecification;
+use crate::drawing::{Feature, FeatureKind, Patch};
 use crate::ink::{Ink, Paint};
 use crate::shape::{centroid, disc};
 use crate::{camera_station::CameraStation, light::Panel, ray_camera::RasterRay};
 
 /// Points of a dot's outline that are projected.
-const OUTLINE: usize = 32;
+const OUTLINE_POINTS: usize = 32;
 
 /// `truth.json`.
-pub(super) fn truth(request: &Request<'_>) -> String {
+pub(super) fn truth(request: &ChartSpecification<'_>) -> String {
     let drawing = request.drawing;
     let mut facts = json!({
         "format": 1,
@@ -35,14 +35,14 @@ pub(super) fn truth(request: &Request<'_>) -> String {
                           before all sensor effects except the quantum efficiency",
         },
         "seen": {
-            "distance_m": request.seen.distance_m,
-            "field_mm": request.seen.outer_mm.to_array(),
-            "whole_field_mm": request.seen.inner_mm.to_array(),
-            "pixel_mm": request.seen.pixel_mm,
-            "fills_the_field": request.seen.fills,
+            "distance_m": request.footprint.distance_m,
+            "field_mm": request.footprint.outer_mm.to_array(),
+            "whole_field_mm": request.footprint.inner_mm.to_array(),
+            "pixel_mm": request.footprint.pixel_mm,
+            "fills_the_field": request.footprint.fills,
         },
         "light": {
-            "kind": if drawing.lit { "uniform, from all directions" } else { "emitted by the chart, in the dark" },
+            "kind": if drawing.is_illuminated { "uniform, from all directions" } else { "emitted by the chart, in the dark" },
             "illuminant": request.light.name(),
             "luminance_cd_m2": request.light.luminance_cd_m2(),
             "xyz": request.light.white_xyz(),
@@ -60,31 +60,31 @@ pub(super) fn truth(request: &Request<'_>) -> String {
         facts["changed_keys"] = json!(request.changes);
     }
     let mut text = String::new();
-    lay_out(&facts, 0, &mut text);
+    format_json(&facts, 0, &mut text);
     text.push('\n');
     text
 }
 
 /// Depth to which tables and lists are broken into lines.
-const BROKEN: usize = 3;
+const LINE_DEPTH: usize = 3;
 
 /// Readable JSON: one line for each entry of a value that contains tables or long lists, to a depth.
-fn lay_out(value: &Value, depth: usize, text: &mut String) {
+fn format_json(value: &Value, depth: usize, text: &mut String) {
     let indent = "  ".repeat(depth + 1);
     let mut list = |open: char, close: char, entries: Vec<(String, &Value)>| {
         text.push(open);
         for (i, (key, entry)) in entries.iter().enumerate() {
             let comma = if i == 0 { "" } else { "," };
             let _ = write!(text, "{comma}\n{indent}{key}");
-            lay_out(entry, depth + 1, text);
+            format_json(entry, depth + 1, text);
         }
         let _ = write!(text, "\n{}{close}", "  ".repeat(depth));
     };
     match value {
-        Value::Object(map) if depth < BROKEN && !map.is_empty() => {
+        Value::Object(map) if depth < LINE_DEPTH && !map.is_empty() => {
             list('{', '}', map.iter().map(|(key, entry)| (format!("{key:?}: "), entry)).collect());
         }
-        Value::Array(all) if depth < BROKEN && all.iter().any(|v| v.is_object() || v.is_array()) => {
+        Value::Array(all) if depth < LINE_DEPTH && all.iter().any(|v| v.is_object() || v.is_array()) => {
             list('[', ']', all.iter().map(|entry| (String::new(), entry)).collect());
         }
         plain => text.push_str(&plain.to_string()),
@@ -97,13 +97,13 @@ fn panel(panel: &Panel) -> Value {
     json!({ "name": panel.name, "size_mm": panel.sheet.size_mm.to_array(), "sheet_mm_to_world_m": rows })
 }
 
-fn ink(ink: &Ink, request: &Request<'_>) -> Value {
+fn ink(ink: &Ink, request: &ChartSpecification<'_>) -> Value {
     let light = request.light;
     let lab = ink.lab(light);
     let kind = match &ink.paint {
         Paint::Grey(_) => "flat reflectance",
         Paint::Spectral(_) => "measured reflectance",
-        Paint::Glow(_) => "emits light",
+        Paint::Luminous(_) => "emits light",
         Paint::Pulses { .. } => "emits pulses, their mean",
         Paint::Texture { .. } => "texture, its mean",
     };
@@ -115,8 +115,8 @@ fn ink(ink: &Ink, request: &Request<'_>) -> Value {
         "lab": [lab.l, lab.a, lab.b],
         "xyz": ink.xyz(light),
     });
-    if let Some(meter) = request.meter {
-        let channels = (meter.electrons)(&ink.radiance(light)).into_iter();
+    if let Some(response) = request.response {
+        let channels = (response.electrons)(&ink.radiance(light)).into_iter();
         facts["electrons"] = channels.map(|(name, electrons)| (name, json!(electrons))).collect::<Map<_, _>>().into();
     }
     facts
@@ -140,7 +140,7 @@ fn feature(feature: &Feature, panels: &[Panel]) -> Value {
     facts
 }
 
-fn patch(patch: &Patch, request: &Request<'_>) -> Value {
+fn patch(patch: &Patch, request: &ChartSpecification<'_>) -> Value {
     let ink = &request.drawing.inks[patch.ink];
     json!({
         "name": patch.name,
@@ -151,35 +151,35 @@ fn patch(patch: &Patch, request: &Request<'_>) -> Value {
 }
 
 /// Pose, exposure and feature positions of each camera. Cameras of one pose share the positions.
-fn cameras(request: &Request<'_>) -> Vec<Value> {
+fn cameras(request: &ChartSpecification<'_>) -> Vec<Value> {
     let starts = request.ray_camera.starts();
-    let mut told: Vec<(CameraPose, Map<String, Value>)> = Vec::new();
-    let mut of = |station: &CameraStation| {
+    let mut views: Vec<(CameraPose, Map<String, Value>)> = Vec::new();
+    let mut station_json = |station: &CameraStation| {
         let pose = station.pose();
-        let known = told.iter().find(|(other, _)| *other == pose).map(|(_, seen)| seen.clone());
-        let seen = known.unwrap_or_else(|| {
-            let view = View { request, starts: &starts, pose };
-            let seen = if station.dark { Map::new() } else { view.seen() };
-            told.push((pose, seen.clone()));
-            seen
+        let known = views.iter().find(|(other, _)| *other == pose).map(|(_, view_json)| view_json.clone());
+        let view_json = known.unwrap_or_else(|| {
+            let view = CameraView { request, starts: &starts, pose };
+            let view_json = if station.dark { Map::new() } else { view.visible_positions() };
+            views.push((pose, view_json.clone()));
+            view_json
         });
         let mut facts = camera(request, station, &pose);
-        facts.extend(seen);
+        facts.extend(view_json);
         Value::Object(facts)
     };
-    request.stations.iter().map(&mut of).collect()
+    request.stations.iter().map(&mut station_json).collect()
 }
 
-fn camera(request: &Request<'_>, station: &CameraStation, pose: &CameraPose) -> Map<String, Value> {
+fn camera(request: &ChartSpecification<'_>, station: &CameraStation, pose: &CameraPose) -> Map<String, Value> {
     let rows: [[f64; 4]; 3] = std::array::from_fn(|i| {
         let row = pose.rotation.row(i);
         [row.x, row.y, row.z, pose.position_m[i]]
     });
-    let exposure_s = station.exposure_s.or(request.meter.map(|m| m.exposure_s));
+    let exposure_s = station.exposure_s.or(request.response.map(|m| m.exposure_s));
     let white = request
-        .meter
+        .response
         .zip(exposure_s)
-        .map(|(meter, exposure_s)| meter.share(request.light.radiance()) * exposure_s / meter.exposure_s);
+        .map(|(response, exposure_s)| response.saturation_fraction(request.light.radiance()) * exposure_s / response.exposure_s);
     let mut facts = Map::new();
     facts.insert("name".into(), json!(station.name));
     facts.insert("file".into(), json!(super::job::camera_file(station)));
@@ -193,34 +193,34 @@ fn camera(request: &Request<'_>, station: &CameraStation, pose: &CameraPose) -> 
 }
 
 /// A camera with its pose.
-struct View<'a> {
-    request: &'a Request<'a>,
+struct CameraView<'a> {
+    request: &'a ChartSpecification<'a>,
     starts: &'a [(DVec2, RasterRay)],
     pose: CameraPose,
 }
 
-impl View<'_> {
-    fn seen(&self) -> Map<String, Value> {
+impl CameraView<'_> {
+    fn visible_positions(&self) -> Map<String, Value> {
         let drawing = self.request.drawing;
         let points = |feature: &Feature| {
-            let of = |p: &DVec2| self.raster(&drawing.panels[feature.panel], *p);
-            feature.points_mm.iter().map(of).collect::<Vec<Value>>()
+            let raster_point = |p: &DVec2| self.raster(&drawing.panels[feature.panel], *p);
+            feature.points_mm.iter().map(raster_point).collect::<Vec<Value>>()
         };
         let outline = |patch: &Patch| {
-            let of = |p: &DVec2| self.raster(&drawing.panels[patch.panel], *p);
-            patch.outline_mm.iter().map(of).collect::<Vec<Value>>()
+            let raster_point = |p: &DVec2| self.raster(&drawing.panels[patch.panel], *p);
+            patch.outline_mm.iter().map(raster_point).collect::<Vec<Value>>()
         };
-        let mut seen = Map::new();
+        let mut visible = Map::new();
         if !drawing.features.is_empty() {
-            seen.insert("features_px".into(), drawing.features.iter().map(points).collect());
+            visible.insert("features_px".into(), drawing.features.iter().map(points).collect());
         }
-        if drawing.features.iter().any(|f| f.kind == Kind::Dot) {
-            seen.insert("image_centroids_px".into(), drawing.features.iter().map(|f| self.centroid(f)).collect());
+        if drawing.features.iter().any(|f| f.kind == FeatureKind::Dot) {
+            visible.insert("image_centroids_px".into(), drawing.features.iter().map(|f| self.centroid(f)).collect());
         }
         if !drawing.patches.is_empty() {
-            seen.insert("patches_px".into(), drawing.patches.iter().map(outline).collect());
+            visible.insert("patches_px".into(), drawing.patches.iter().map(outline).collect());
         }
-        seen
+        visible
     }
 
     fn project(&self, panel: &Panel, point_mm: DVec2) -> Option<DVec2> {
@@ -236,7 +236,7 @@ impl View<'_> {
     fn centroid(&self, feature: &Feature) -> Value {
         let panel = &self.request.drawing.panels[feature.panel];
         let Some(radius) = feature.radius_mm else { return Value::Null };
-        let outline = disc(feature.points_mm[0], radius, OUTLINE, 0.0);
+        let outline = disc(feature.points_mm[0], radius, OUTLINE_POINTS, 0.0);
         let image: Option<Vec<DVec2>> = outline.iter().map(|p| self.project(panel, *p)).collect();
         image.map_or(Value::Null, |image| json!(centroid(&image).to_array()))
     }

@@ -4,7 +4,7 @@ use etendue_charts::design::{
     Backlit, Checkerboard, ColorChecker, DeadLeaves, DepthWedge, Dots, Flare, GridSize, SlantedEdges,
 };
 use etendue_charts::{
-    CameraStation, Chart, ChartFile, Contents, Light, Meter, RasterRay, RayCamera, Request, camera_stations, files,
+    CameraStation, Chart, ChartFile, Contents, Light, CameraResponse, RasterRay, RayCamera, ChartSpecification, camera_stations, files,
 };
 use etendue_scene::{Description, Overrides};
 use etendue_spectra::Spectrum;
@@ -25,24 +25,24 @@ fn pinhole(at: DVec2) -> Option<RasterRay> {
     Some(RasterRay { origin_m: DVec3::ZERO, direction })
 }
 
-fn made(chart: &Chart, stations: &[CameraStation]) -> Vec<ChartFile> {
+fn chart_files(chart: &Chart, stations: &[CameraStation]) -> Vec<ChartFile> {
     let ray_camera = RayCamera { size_px: SIZE, ray: &pinhole };
-    let seen = ray_camera.footprint(2.0).expect("it looks ahead");
-    let drawing = chart.draw(&seen, 3).expect("a legal chart");
+    let footprint = ray_camera.footprint(2.0).expect("it looks ahead");
+    let drawing = chart.draw(&footprint, 3).expect("a legal chart");
     let electrons = |radiance: &Spectrum| vec![("mono".to_owned(), 1e6 * radiance.integral(300.0, 1100.0))];
-    let meter = Meter { exposure_s: 0.01, longest_s: None, saturation_e: 2e4, electrons: &electrons };
+    let response = CameraResponse { exposure_s: 0.01, longest_s: None, saturation_e: 2e4, electrons: &electrons };
     let light = Light::named("D65", 500.0).expect("an illuminant");
-    files(&Request {
+    files(&ChartSpecification {
         chart,
         drawing: &drawing,
-        seen,
+        footprint,
         ray_camera: &ray_camera,
-        meter: Some(&meter),
+        response: Some(&response),
         light: &light,
         stations,
         camera: "base.toml",
         remove: &[],
-        specimen: Some(1),
+        unit_seed: Some(1),
         seed: 3,
         changes: &[],
     })
@@ -72,14 +72,14 @@ fn charts() -> Vec<Chart> {
 fn descriptions_parse() {
     for chart in charts() {
         let exposures: &[f64] = if matches!(chart, Chart::Backlit(_)) { &[0.001, 0.002, 0.004] } else { &[] };
-        let files = made(&chart, &camera_stations(2.0, 1, exposures, true));
+        let files = chart_files(&chart, &camera_stations(2.0, 1, exposures, true));
         let read = |path: &Path| {
             let name = path.file_name().and_then(|name| name.to_str()).ok_or("a name")?;
             let base = (name == "base.toml").then_some(CAMERA);
             base.or_else(|| text(&files, name)).map(str::to_owned).ok_or_else(|| "there is no such file".into())
         };
         let description = Description::load(Path::new("job.toml"), &read, &Overrides::default());
-        let description = description.unwrap_or_else(|faults| panic!("{}: {faults}", chart.name()));
+        let description = description.unwrap_or_else(|errors| panic!("{}: {errors}", chart.name()));
         for asset in description.assets() {
             let name = asset.path.file_name().and_then(|name| name.to_str()).expect("a name").to_owned();
             assert!(files.iter().any(|file| file.name == name), "{}: {name} is not written", chart.name());
@@ -90,7 +90,7 @@ fn descriptions_parse() {
 #[test]
 fn positions_are_those_of_a_pinhole() {
     let chart = Chart::Checkerboard(Checkerboard { size: GridSize::default() });
-    let files = made(&chart, &camera_stations(2.0, 4, &[], false));
+    let files = chart_files(&chart, &camera_stations(2.0, 4, &[], false));
     let truth: Value = serde_json::from_str(text(&files, "truth.json").expect("a truth")).expect("JSON");
     let number = |value: &Value| value.as_f64().expect("a number");
     let features = truth["features"].as_array().expect("features");
@@ -100,13 +100,13 @@ fn positions_are_those_of_a_pinhole() {
         let rows = &camera["camera_to_world"];
         let row = |i: usize| DVec3::new(number(&rows[i][0]), number(&rows[i][1]), number(&rows[i][2]));
         let origin = DVec3::new(number(&rows[0][3]), number(&rows[1][3]), number(&rows[2][3]));
-        for (feature, seen) in features.iter().zip(camera["features_px"].as_array().expect("positions")) {
+        for (feature, positions_px) in features.iter().zip(camera["features_px"].as_array().expect("positions")) {
             let world = &feature["world_m"][0];
             let from = DVec3::new(number(&world[0]), number(&world[1]), number(&world[2])) - origin;
             let point = row(0) * from.x + row(1) * from.y + row(2) * from.z;
             let expected = SIZE / 2.0 + FOCAL_PX * point.truncate() / point.z;
-            let found = DVec2::new(number(&seen[0][0]), number(&seen[0][1]));
-            assert!((found - expected).length() < 1e-8, "{found} {expected}");
+            let actual = DVec2::new(number(&positions_px[0][0]), number(&positions_px[0][1]));
+            assert!((actual - expected).length() < 1e-8, "{actual} {expected}");
         }
     }
 }
@@ -114,7 +114,7 @@ fn positions_are_those_of_a_pinhole() {
 #[test]
 fn the_first_corner_is_at_the_top_left() {
     let chart = Chart::Checkerboard(Checkerboard { size: GridSize::default() });
-    let files = made(&chart, &camera_stations(2.0, 1, &[], false));
+    let files = chart_files(&chart, &camera_stations(2.0, 1, &[], false));
     let truth: Value = serde_json::from_str(text(&files, "truth.json").expect("a truth")).expect("JSON");
     let first = &truth["features"][0];
     assert_eq!(first["index"], serde_json::json!([0, 0]));

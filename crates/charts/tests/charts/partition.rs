@@ -10,7 +10,7 @@ use etendue_charts::{Chart, Drawing, Footprint};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::DVec2;
 
-fn seen() -> Footprint {
+fn test_footprint() -> Footprint {
     Footprint {
         distance_m: 2.0,
         outer_mm: DVec2::new(2300.0, 1840.0),
@@ -48,7 +48,7 @@ fn charts() -> Vec<Chart> {
 }
 
 fn drawings() -> Vec<(&'static str, Drawing)> {
-    charts().iter().map(|chart| (chart.name(), chart.draw(&seen(), 1).expect("a legal chart"))).collect()
+    charts().iter().map(|chart| (chart.name(), chart.draw(&test_footprint(), 1).expect("a legal chart"))).collect()
 }
 
 fn sheets(drawing: &Drawing) -> impl Iterator<Item = &Sheet> {
@@ -60,10 +60,10 @@ fn areas_add_up() {
     for (name, drawing) in drawings() {
         for sheet in sheets(&drawing) {
             let areas: Vec<f64> = sheet.pieces.iter().map(|piece| area(&piece.outline)).collect();
-            let whole = sheet.size_mm.element_product();
+            let sheet_area = sheet.size_mm.element_product();
             assert!(areas.iter().all(|a| *a > 0.0), "{name}: a piece is turned over or empty");
             // Sums of a few thousand areas round to 1e-12.
-            assert!((areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-9, "{name}");
+            assert!((areas.iter().sum::<f64>() / sheet_area - 1.0).abs() < 1e-9, "{name}");
         }
     }
 }

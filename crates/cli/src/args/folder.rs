@@ -1,7 +1,7 @@
 //! The folder of results.
 
 use clap::Args;
-use etendue::Existing;
+use etendue::ExistingFiles;
 use std::path::{Path, PathBuf};
 
 /// Folder of the results.
@@ -22,7 +22,7 @@ impl Output {
     }
 
     /// Returns the treatment of existing results.
-    pub fn existing(&self) -> Existing {
-        if self.overwrite { Existing::Replace } else { Existing::Refuse }
+    pub fn existing(&self) -> ExistingFiles {
+        if self.overwrite { ExistingFiles::Replace } else { ExistingFiles::Refuse }
     }
 }

@@ -61,7 +61,7 @@ impl JobArgs {
     /// Opens the job of a request, for a run.
     pub fn open_request(console: &dyn Console, request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         let job = pool.install(|| request.open())?;
-        job.notices().iter().for_each(|notice| console.observer().message(Message::Note(notice)));
+        job.overridden_settings().iter().for_each(|key| console.observer().message(Message::Note(key)));
         Ok(job)
     }
 }

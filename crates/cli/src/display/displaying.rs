@@ -4,12 +4,12 @@ use super::Display;
 use etendue::{ImageTile, Message, Observer, Progress};
 
 /// Passes everything to another observer, and light also to a viewer if there is one.
-pub struct Displaying<'a> {
+pub struct DisplayObserver<'a> {
     observer: &'a dyn Observer,
     display: Option<Display>,
 }
 
-impl<'a> Displaying<'a> {
+impl<'a> DisplayObserver<'a> {
     /// Adds a viewer to `observer`.
     pub fn new(observer: &'a dyn Observer, display: Option<Display>) -> Self {
         Self { observer, display }
@@ -21,7 +21,7 @@ impl<'a> Displaying<'a> {
     }
 }
 
-impl Observer for Displaying<'_> {
+impl Observer for DisplayObserver<'_> {
     fn message(&self, message: Message<'_>) {
         self.observer.message(message);
     }

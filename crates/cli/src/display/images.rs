@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 /// Unsent tiles of the two newest images. Older images are complete, or the viewer is too slow to show them: their tiles are dropped, so that a film
 /// of many frames takes the memory of at most two.
 #[derive(Default)]
-pub struct Images {
-    waiting: VecDeque<Image>,
+pub struct ImageQueue {
+    waiting: VecDeque<WaitingImage>,
     /// Names of images that were created in the viewer.
     created: BTreeSet<String>,
 }
@@ -16,32 +16,32 @@ pub struct Images {
 /// Maximum number of images with unsent tiles.
 const MAX_WAITING: usize = 2;
 
-struct Image {
+struct WaitingImage {
     name: String,
     size_px: [u32; 2],
     channels: &'static [&'static str],
     /// Values, one channel after the other, by the position of the tile.
-    tiles: BTreeMap<Place, Vec<f32>>,
+    tiles: BTreeMap<TilePlace, Vec<f32>>,
 }
 
 /// Position and size of a tile; tiles are sent in this order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Place {
+struct TilePlace {
     first_row: u32,
     first_column: u32,
     rows: u32,
     columns: u32,
 }
 
-impl Images {
+impl ImageQueue {
     /// Stores a tile.
-    pub fn put(&mut self, tile: &ImageTile<'_>) {
+    pub fn store(&mut self, tile: &ImageTile<'_>) {
         let place = self.waiting.iter().position(|image| image.name == tile.image).unwrap_or_else(|| {
-            self.waiting.push_back(Image::of(tile));
+            self.waiting.push_back(WaitingImage::new(tile));
             self.waiting.drain(..self.waiting.len().saturating_sub(MAX_WAITING));
             self.waiting.len() - 1
         });
-        self.waiting[place].tiles.insert(Place::of(tile), tile.values.to_vec());
+        self.waiting[place].tiles.insert(TilePlace::new(tile), tile.values.to_vec());
     }
 
     /// Returns the packets of the next tile; `None` if all are sent.
@@ -61,14 +61,14 @@ impl Images {
     }
 }
 
-impl Image {
-    fn of(tile: &ImageTile<'_>) -> Self {
+impl WaitingImage {
+    fn new(tile: &ImageTile<'_>) -> Self {
         Self { name: tile.image.to_owned(), size_px: tile.size_px, channels: tile.channels, tiles: BTreeMap::new() }
     }
 }
 
-impl Place {
-    fn of(tile: &ImageTile<'_>) -> Self {
+impl TilePlace {
+    fn new(tile: &ImageTile<'_>) -> Self {
         let ([first_column, first_row], [columns, rows]) = (tile.first_px, tile.tile_px);
         Self { first_row, first_column, rows, columns }
     }
@@ -84,10 +84,10 @@ mod tests {
 
     #[test]
     fn a_tile_that_is_refined_before_it_is_sent_is_sent_once() {
-        let mut images = Images::default();
-        images.put(&tile([2, 1], &[1.0, 2.0, 3.0, 4.0]));
-        images.put(&tile([0, 2], &[5.0; 4]));
-        images.put(&tile([2, 1], &[6.0, 7.0, 8.0, 9.0]));
+        let mut images = ImageQueue::default();
+        images.store(&tile([2, 1], &[1.0, 2.0, 3.0, 4.0]));
+        images.store(&tile([0, 2], &[5.0; 4]));
+        images.store(&tile([2, 1], &[6.0, 7.0, 8.0, 9.0]));
         let update = |first, values: &[f32]| tev::update_image("a", &["R", "G"], first, [2, 1], values);
         let created = [tev::create_image("a", [4, 3], &["R", "G"]), update([2, 1], &[6.0, 7.0, 8.0, 9.0])].concat();
         assert_eq!(images.next(), Some(created));
@@ -98,11 +98,11 @@ mod tests {
     /// A film of 20 frames of 4 × 3 px in two channels, with a viewer that reads nothing: at most the values of two frames wait.
     #[test]
     fn a_film_takes_the_memory_of_two_frames() {
-        let mut images = Images::default();
+        let mut images = ImageQueue::default();
         let names: Vec<String> = (0..20).map(|frame| format!("front, frame {frame}")).collect();
         for name in &names {
             for first_px in [[0, 0], [2, 0], [0, 2]] {
-                images.put(&ImageTile { image: name, ..tile(first_px, &[1.0, 2.0, 3.0, 4.0]) });
+                images.store(&ImageTile { image: name, ..tile(first_px, &[1.0, 2.0, 3.0, 4.0]) });
             }
         }
         let waiting: usize = images.waiting.iter().flat_map(|image| image.tiles.values()).map(Vec::len).sum();
@@ -114,10 +114,10 @@ mod tests {
     /// Passes of several films alternate; an image is created in the viewer once.
     #[test]
     fn an_image_with_further_tiles_is_created_once() {
-        let mut images = Images::default();
+        let mut images = ImageQueue::default();
         let update = |image, values: &[f32]| tev::update_image(image, &["R", "G"], [2, 1], [2, 1], values);
         for (image, is_new) in [("a", true), ("b", true), ("a", false)] {
-            images.put(&ImageTile { image, ..tile([2, 1], &[1.0; 4]) });
+            images.store(&ImageTile { image, ..tile([2, 1], &[1.0; 4]) });
             let created = if is_new { tev::create_image(image, [4, 3], &["R", "G"]) } else { Vec::new() };
             assert_eq!(images.next(), Some([created, update(image, &[1.0; 4])].concat()));
             assert_eq!(images.next(), None);

@@ -9,9 +9,9 @@ mod images;
 mod tev;
 
 use crate::output::print_message;
-pub use displaying::Displaying;
+pub use displaying::DisplayObserver;
 use etendue::{Error, ImageTile};
-use images::Images;
+use images::ImageQueue;
 use std::io::Write as _;
 use std::net::{TcpStream, ToSocketAddrs as _};
 use std::sync::mpsc::{self, Receiver};
@@ -19,33 +19,33 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Timeout of a viewer's answer to a call, and of its reception of a packet.
-const PATIENCE: Duration = Duration::from_secs(5);
+const TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A viewer.
 pub struct Display {
     address: String,
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     /// Closed when everything is sent, or the viewer is lost.
     done: Mutex<Receiver<()>>,
 }
 
 #[derive(Default)]
-struct Shared {
-    state: Mutex<State>,
+struct SharedState {
+    state: Mutex<DisplayState>,
     changed: Condvar,
 }
 
 #[derive(Default)]
-struct State {
-    images: Images,
+struct DisplayState {
+    images: ImageQueue,
     /// No further tiles will come.
     is_ended: bool,
     /// The viewer is lost.
     is_lost: bool,
 }
 
-impl Shared {
-    fn state(&self) -> MutexGuard<'_, State> {
+impl SharedState {
+    fn state(&self) -> MutexGuard<'_, DisplayState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -70,7 +70,7 @@ impl Display {
     /// # Errors
     /// No viewer answers.
     pub fn connect(address: &str) -> Result<Self, Error> {
-        let refused = |why: String| {
+        let connection_error = |why: String| {
             Error::argument(
                 "display",
                 format!(
@@ -78,21 +78,21 @@ impl Display {
                 ),
             )
         };
-        let mut addresses = address.to_socket_addrs().map_err(|cause| refused(cause.to_string()))?.peekable();
+        let mut addresses = address.to_socket_addrs().map_err(|cause| connection_error(cause.to_string()))?.peekable();
         let mut why = "no such host".to_owned();
         let stream = addresses.find_map(|address| {
-            TcpStream::connect_timeout(&address, PATIENCE)
+            TcpStream::connect_timeout(&address, TIMEOUT)
                 .map_err(|cause| why = format!("no viewer answers ({cause})"))
                 .ok()
         });
-        let stream = stream.ok_or_else(|| refused(why))?;
-        let prepared = stream.set_write_timeout(Some(PATIENCE)).and_then(|()| stream.set_nodelay(true));
-        prepared.map_err(|cause| refused(cause.to_string()))?;
-        let (shared, (tell_done, done)) = (Arc::new(Shared::default()), mpsc::channel());
-        let (sent, told) = (Arc::clone(&shared), address.to_owned());
+        let stream = stream.ok_or_else(|| connection_error(why))?;
+        let prepared = stream.set_write_timeout(Some(TIMEOUT)).and_then(|()| stream.set_nodelay(true));
+        prepared.map_err(|cause| connection_error(cause.to_string()))?;
+        let (shared, (done_sender, done)) = (Arc::new(SharedState::default()), mpsc::channel());
+        let (sent, display_address) = (Arc::clone(&shared), address.to_owned());
         std::thread::spawn(move || {
-            send(stream, &sent, &told);
-            drop(tell_done);
+            send(stream, &sent, &display_address);
+            drop(done_sender);
         });
         Ok(Self { address: address.to_owned(), shared, done: Mutex::new(done) })
     }
@@ -101,7 +101,7 @@ impl Display {
     pub fn tile(&self, tile: &ImageTile<'_>) {
         let mut state = self.shared.state();
         if !state.is_lost {
-            state.images.put(tile);
+            state.images.store(tile);
             self.shared.changed.notify_one();
         }
     }
@@ -111,18 +111,18 @@ impl Display {
         self.shared.state().is_ended = true;
         self.shared.changed.notify_one();
         let done = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if done.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+        if done.recv_timeout(TIMEOUT) == Err(mpsc::RecvTimeoutError::Timeout) {
             warn(&self.address, "it is slow and did not receive the last tiles");
         }
     }
 }
 
 /// Sends tiles until there are no more, or the viewer is lost.
-fn send(mut stream: TcpStream, shared: &Shared, address: &str) {
+fn send(mut stream: TcpStream, shared: &SharedState, address: &str) {
     while let Some(packets) = shared.next() {
         if let Err(cause) = stream.write_all(&packets) {
             let mut state = shared.state();
-            (state.is_lost, state.images) = (true, Images::default());
+            (state.is_lost, state.images) = (true, ImageQueue::default());
             drop(state);
             return warn(address, &format!("it no longer accepts tiles ({cause}); rendering continues"));
         }

@@ -11,9 +11,9 @@
 const CREATE_IMAGE: u8 = 4;
 const UPDATE_IMAGE_V3: u8 = 6;
 
-struct Packet(Vec<u8>);
+struct TevPacket(Vec<u8>);
 
-impl Packet {
+impl TevPacket {
     fn new(kind: u8) -> Self {
         Self(vec![0, 0, 0, 0, kind])
     }
@@ -33,7 +33,7 @@ impl Packet {
         texts.iter().fold(self, |packet, text| packet.text(text))
     }
 
-    fn whole(mut self, numbers: &[u32]) -> Self {
+    fn integers(mut self, numbers: &[u32]) -> Self {
         numbers.iter().for_each(|number| self.0.extend(number.to_le_bytes()));
         self
     }
@@ -58,18 +58,18 @@ impl Packet {
 /// Creates an image with this number of columns and rows.
 pub fn create_image(name: &str, [width, height]: [u32; 2], channels: &[&str]) -> Vec<u8> {
     let count = channels.len() as u32;
-    Packet::new(CREATE_IMAGE).flag(true).text(name).whole(&[width, height, count]).texts(channels).finish()
+    TevPacket::new(CREATE_IMAGE).flag(true).text(name).integers(&[width, height, count]).texts(channels).finish()
 }
 
 /// Updates a rectangle, given by its first column and row and its size; the channels' values follow one another.
 pub fn update_image(name: &str, channels: &[&str], first: [u32; 2], size: [u32; 2], values: &[f32]) -> Vec<u8> {
     let (count, length) = (channels.len() as u32, u64::from(size[0]) * u64::from(size[1]));
-    Packet::new(UPDATE_IMAGE_V3)
+    TevPacket::new(UPDATE_IMAGE_V3)
         .flag(false)
         .text(name)
-        .whole(&[count])
+        .integers(&[count])
         .texts(channels)
-        .whole(&[first[0], first[1], size[0], size[1]])
+        .integers(&[first[0], first[1], size[0], size[1]])
         .long((0..u64::from(count)).map(|channel| channel * length))
         .long((0..count).map(|_| 1))
         .floats(values)
@@ -85,7 +85,7 @@ mod tests {
         let create = create_image("a", [3, 2], &["R", "G"]);
         assert_eq!(create, b"\x18\0\0\0\x04\x01a\0\x03\0\0\0\x02\0\0\0\x02\0\0\0R\0G\0");
         let update = update_image("a", &["Y"], [1, 0], [2, 1], &[1.0, -2.0]);
-        let told = b"\x36\0\0\0\x06\0a\0\x01\0\0\0Y\0\x01\0\0\0\0\0\0\0\x02\0\0\0\x01\0\0\0\0\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\xc0";
-        assert_eq!(update, told);
+        let expected = b"\x36\0\0\0\x06\0a\0\x01\0\0\0Y\0\x01\0\0\0\0\0\0\0\x02\0\0\0\x01\0\0\0\0\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\xc0";
+        assert_eq!(update, expected);
     }
 }

@@ -4,7 +4,7 @@ use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
 use etendue::characterise::{CharacteriseRequest, characterise, claim};
-use etendue::{Error, Existing};
+use etendue::{Error, ExistingFiles};
 use etendue_arguments::toml;
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub struct Characterise {
 impl Characterise {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let pool = machine::pool(None)?;
-        let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
+        let existing = if self.overwrite { ExistingFiles::Replace } else { ExistingFiles::Refuse };
         claim(&self.output, existing)?;
         let camera = pool.install(|| characterise(&self.request, console.observer()))?;
         print_paths(console, &camera.save_spelled(&self.output, existing, &|text| console.spelled(text))?);

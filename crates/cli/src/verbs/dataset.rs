@@ -5,7 +5,7 @@ use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing};
+use etendue::{Error, ExistingFiles};
 use etendue_arguments::whole;
 use etendue_dataset::{DatasetRequest, dataset};
 
@@ -33,7 +33,7 @@ impl Dataset {
         let request =
             DatasetRequest { job: self.job.request().into_output(&self.output.output), simd, ..self.request.clone() };
         let (folder, existing) = (self.output.path(), self.output.existing());
-        let existing = if self.resume { Existing::Resume } else { existing };
+        let existing = if self.resume { ExistingFiles::Resume } else { existing };
         let written = pool.install(|| dataset(&request, folder, existing, console.observer()))?;
         print_paths(console, &written);
         Ok(())

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use clap::Args;
-use etendue::{Error, ErrorCode, Existing, Shown, inspect_showing, write_file};
+use etendue::{Error, ErrorCode, ExistingFiles, PreviewSelection, inspect_showing, write_file};
 use etendue_arguments::png;
 use std::path::{Path, PathBuf};
 
@@ -25,10 +25,10 @@ pub struct Inspect {
 
 impl Inspect {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let shown = Shown { layer: self.layer.clone(), boxes: self.boxes.clone() };
+        let shown = PreviewSelection { layer: self.layer.clone(), boxes: self.boxes.clone() };
         let report = inspect_showing(&self.file, &shown).map_err(Error::input)?;
         if let Some(path) = &self.png {
-            if same(path, &self.file) {
+            if is_same_file(path, &self.file) {
                 let message = format!("`png` {}: this is the file itself; choose another name", path.display());
                 return Err(Error::argument("png", message));
             }
@@ -39,8 +39,8 @@ impl Inspect {
                 ));
             };
             let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;
-            write_file(path, &bytes, Existing::Replace)?;
-            console.tell(&format!("wrote {}\n", path.display()));
+            write_file(path, &bytes, ExistingFiles::Replace)?;
+            console.print_message(&format!("wrote {}\n", path.display()));
         }
         console.print(&report.to_string());
         Ok(())
@@ -48,6 +48,6 @@ impl Inspect {
 }
 
 /// True if two names refer to one existing file.
-fn same(a: &Path, b: &Path) -> bool {
+fn is_same_file(a: &Path, b: &Path) -> bool {
     a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }

@@ -3,10 +3,10 @@
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
-use crate::display::{Display, Displaying};
+use crate::display::{Display, DisplayObserver};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing, JobRequest, RenderOptions, ShardRequest, ShardSpec};
+use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, ShardRequest, ShardSpec};
 use etendue_arguments::whole;
 
 /// `etendue render`
@@ -45,8 +45,8 @@ pub struct Render {
 }
 
 impl Render {
-    fn existing(&self) -> Existing {
-        if self.resume { Existing::Resume } else { self.output.existing() }
+    fn existing(&self) -> ExistingFiles {
+        if self.resume { ExistingFiles::Resume } else { self.output.existing() }
     }
 
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
@@ -57,12 +57,12 @@ impl Render {
         let job = JobArgs::open_request(console, request, &pool)?;
         let (folder, existing, frames) = (self.output.path(), self.existing(), self.options.frames.clone());
         let display = self.display.as_deref().map(Display::connect).transpose()?;
-        let observer = Displaying::new(console.observer(), display);
+        let observer = DisplayObserver::new(console.observer(), display);
         let written = pool.install(|| match self.shard {
             None => job.save(&RenderOptions { frames, simd }, folder, existing, &observer),
             Some(spec) => {
-                let asked = ShardRequest { spec, frames, films: self.film.clone() };
-                job.save_shard(&asked, simd, folder, existing, &observer)
+                let shard = ShardRequest { spec, frames, films: self.film.clone() };
+                job.save_shard(&shard, simd, folder, existing, &observer)
             }
         });
         observer.finish();

@@ -5,10 +5,10 @@ use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, ErrorCode, Existing, Observer, OutputFolder};
+use etendue::{Error, ErrorCode, ExistingFiles, Observer, OutputFolder};
 use etendue_arguments::whole;
 use etendue_study::{
-    Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
+    Clock, DroppedEffect, StudyRequest, VariationResult, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
     variations,
 };
 use std::path::Path;
@@ -22,7 +22,7 @@ pub struct Tradeoff {
     #[command(flatten)]
     pub output: Output,
     #[command(flatten)]
-    pub request: Request,
+    pub request: StudyRequest,
     /// Worker threads [default: one per processor]. Times refer to this number
     #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
@@ -32,7 +32,7 @@ pub struct Tradeoff {
     /// Instead compare the frame with this change of a key (as for --set; several keys separated by ';'), and report the change and the saving; once
     /// for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2"
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "ablate", value_parser = changes)]
-    pub vary: Vec<Changes>,
+    pub vary: Vec<KeyChanges>,
     /// With --ablate or --vary: also capture a chart of slanted edges with the unchanged camera and with each change, and report the spatial
     /// frequencies (cycles per pixel) at half contrast
     #[arg(long)]
@@ -50,14 +50,14 @@ const VARIATION_FILES: [&str; 2] = ["variations.json", "variations.txt"];
 
 /// Changes of keys that apply together.
 #[derive(Clone, Debug)]
-pub struct Changes(Vec<String>);
+pub struct KeyChanges(Vec<String>);
 
 /// Parses changes separated by ';'.
-fn changes(text: &str) -> Result<Changes, String> {
+fn changes(text: &str) -> Result<KeyChanges, String> {
     let changes: Vec<_> = text.split(';').map(|change| change.trim().to_owned()).collect();
     match changes.iter().find(|change| !change.contains('=')) {
         Some(_) => Err(format!("expected KEY=VALUE, or several with ';' between them, not '{text}'")),
-        None => Ok(Changes(changes)),
+        None => Ok(KeyChanges(changes)),
     }
 }
 
@@ -86,7 +86,7 @@ impl Clock for Stopwatch {
 }
 
 /// Output of a study: text, and names of files below its folder with their bytes.
-struct Findings {
+struct StudyOutput {
     text: String,
     json: String,
     files: Vec<(String, Vec<u8>)>,
@@ -111,12 +111,12 @@ impl Tradeoff {
         let job = self.job.request().into_output(folder);
         let edges = self.mtf50.then(|| folder.join("edges"));
         let camera = self.job.request.camera.clone();
-        let request = Request { job, camera, simd, edges, ..self.request.clone() };
+        let request = StudyRequest { job, camera, simd, edges, ..self.request.clone() };
         let observer = console.observer();
         let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
-            (true, _) => ablated(&request, observer),
-            (false, []) => studied(&request, folder, observer),
-            (false, changes) => varied(&request, changes, observer),
+            (true, _) => run_ablation(&request, observer),
+            (false, []) => run_study(&request, folder, observer),
+            (false, changes) => run_variations(&request, changes, observer),
         })?;
         for (name, bytes) in &findings.files {
             output.write(name, &spelled(console, name, bytes)).map_err(Error::run)?;
@@ -139,10 +139,10 @@ impl Tradeoff {
             (false, true) => &STUDY_FILES,
             (false, false) => &VARIATION_FILES,
         };
-        let pictures = (1..=self.vary.len()).map(varied_picture);
-        let names = names.iter().map(|name| (*name).to_owned()).chain(pictures);
+        let images = (1..=self.vary.len()).map(variation_picture);
+        let names = names.iter().map(|name| (*name).to_owned()).chain(images);
         for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
-            if existing == Existing::Refuse {
+            if existing == ExistingFiles::Refuse {
                 let problem = "already exists; give another folder, or `overwrite`";
                 return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
@@ -156,58 +156,58 @@ impl Tradeoff {
 }
 
 /// Study of time against error, with three jobs.
-fn studied(request: &Request, folder: &Path, observer: &dyn Observer) -> Result<Findings, Error> {
-    let found = study(request, &folder.join("pilot"), &Stopwatch::begin(), observer)?;
-    let compared = pictures(&found, request, observer)?;
-    let (text, json) = (table(&found), to_json(&found)?);
+fn run_study(request: &StudyRequest, folder: &Path, observer: &dyn Observer) -> Result<StudyOutput, Error> {
+    let output = study(request, &folder.join("pilot"), &Stopwatch::begin(), observer)?;
+    let compared = pictures(&output, request, observer)?;
+    let (text, json) = (table(&output), to_json(&output)?);
     let mut files = vec![
         ("tradeoff.json".to_owned(), json.clone().into_bytes()),
         ("tradeoff.txt".to_owned(), text.clone().into_bytes()),
-        ("tradeoff.svg".to_owned(), plot(&found).into_bytes()),
+        ("tradeoff.svg".to_owned(), plot(&output).into_bytes()),
     ];
-    for recommendation in &found.recommendations {
-        let job = job_file(recommendation, &request.job, &found.camera, folder)?;
+    for recommendation in &output.recommendations {
+        let job = job_file(recommendation, &request.job, &output.camera, folder)?;
         files.push((format!("{}.toml", recommendation.target.name), job.into_bytes()));
     }
     files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.jpeg)));
-    Ok(Findings { text, json, files })
+    Ok(StudyOutput { text, json, files })
 }
 
 /// Study of one effect after the other.
-fn ablated(request: &Request, observer: &dyn Observer) -> Result<Findings, Error> {
-    let found = ablation(request, &Stopwatch::begin(), observer)?;
-    let (text, json) = (ablation_table(&found), to_json(&found)?);
+fn run_ablation(request: &StudyRequest, observer: &dyn Observer) -> Result<StudyOutput, Error> {
+    let output = ablation(request, &Stopwatch::begin(), observer)?;
+    let (text, json) = (ablation_table(&output), to_json(&output)?);
     let mut files = vec![
         ("ablation.json".to_owned(), json.clone().into_bytes()),
         ("ablation.txt".to_owned(), text.clone().into_bytes()),
     ];
-    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.jpg", dropped.id), dropped.change.jpeg?));
-    files.extend(found.dropped.into_iter().filter_map(picture));
-    Ok(Findings { text, json, files })
+    let image = |dropped: DroppedEffect| Some((format!("pictures/without-{}.jpg", dropped.id), dropped.change.jpeg?));
+    files.extend(output.dropped.into_iter().filter_map(image));
+    Ok(StudyOutput { text, json, files })
 }
 
 /// Name of the image of the nth change, from 1.
-fn varied_picture(n: usize) -> String {
+fn variation_picture(n: usize) -> String {
     format!("pictures/with-{n}.jpg")
 }
 
 /// Study of one change after the other.
-fn varied(request: &Request, changes: &[Changes], observer: &dyn Observer) -> Result<Findings, Error> {
-    let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
-    let found = variations(request, &changes, &Stopwatch::begin(), observer)?;
-    let (text, json) = (variation_table(&found), to_json(&found)?);
+fn run_variations(request: &StudyRequest, changes: &[KeyChanges], observer: &dyn Observer) -> Result<StudyOutput, Error> {
+    let changes: Vec<_> = changes.iter().map(|KeyChanges(set)| set.clone()).collect();
+    let output = variations(request, &changes, &Stopwatch::begin(), observer)?;
+    let (text, json) = (variation_table(&output), to_json(&output)?);
     let mut files = vec![
         ("variations.json".to_owned(), json.clone().into_bytes()),
         ("variations.txt".to_owned(), text.clone().into_bytes()),
     ];
-    let pictures = found.varied.into_iter().enumerate();
-    let picture = |(i, varied): (usize, Varied)| Some((varied_picture(i + 1), varied.change.jpeg?));
-    files.extend(pictures.filter_map(picture));
-    Ok(Findings { text, json, files })
+    let images = output.varied.into_iter().enumerate();
+    let image = |(i, varied): (usize, VariationResult)| Some((variation_picture(i + 1), varied.change.jpeg?));
+    files.extend(images.filter_map(image));
+    Ok(StudyOutput { text, json, files })
 }
 
-fn to_json(found: &impl serde::Serialize) -> Result<String, Error> {
-    let text = serde_json::to_string_pretty(found).map_err(|error| Error::Run(error.to_string()))?;
+fn to_json(value: &impl serde::Serialize) -> Result<String, Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Run(error.to_string()))?;
     Ok(text + "\n")
 }
 

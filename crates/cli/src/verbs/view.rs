@@ -3,7 +3,7 @@
 use crate::browser;
 use crate::console::{Console, print_paths};
 use clap::Args;
-use etendue::{Error, Existing};
+use etendue::{Error, ExistingFiles};
 use etendue_view::{ViewRequest, view};
 use std::path::PathBuf;
 
@@ -26,10 +26,10 @@ pub struct View {
 
 impl View {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
+        let existing = if self.overwrite { ExistingFiles::Replace } else { ExistingFiles::Refuse };
         let page = view(&self.request, self.output.as_deref(), existing, console.observer())?;
         if !self.no_open && console.is_terminal() && !browser::open(&page) {
-            console.tell("no browser could be started; open the page manually\n");
+            console.print_message("no browser could be started; open the page manually\n");
         }
         print_paths(console, &[page]);
         Ok(())

@@ -1,6 +1,6 @@
 //! Invalid mirrors and glass in front of the lens: refused with file, line and key.
 
-use crate::support::{Ran, etendue, text};
+use crate::support::{CommandOutput, etendue, text};
 use std::fs;
 
 const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 6\nf_number = 4\n[sensor]\nwidth_px = 8\n\
@@ -9,7 +9,7 @@ const JOB: &str = "format = 1\nscene = {}\n[[cameras]]\nname = \"c\"\nfile = \"c
                    look_at_m = [9, 0, 1]\n";
 
 /// Plans a job whose camera has this in front of its lens; `[front…]` is line 10 of its file.
-fn plan(front: &str, job: &str) -> Ran {
+fn plan(front: &str, job: &str) -> CommandOutput {
     let place = tempfile::tempdir().expect("a temporary folder");
     fs::write(place.path().join("camera.toml"), format!("{CAMERA}{front}\n")).expect("written");
     fs::write(place.path().join("job.toml"), format!("{JOB}{job}\n")).expect("written");
@@ -71,18 +71,18 @@ const DROPS: &str = "[external_optics.windscreen]\ndistance_mm = 100\n[external_
 
 #[test]
 fn drops_that_cannot_lie_on_the_glass() {
-    let refused = |more: &str, said: &[&str]| plan(&format!("{DROPS}{more}"), "").refused(said);
+    let assert_refused = |more: &str, phrases: &[&str]| plan(&format!("{DROPS}{more}"), "").refused(phrases);
     let fine = plan(&format!("{DROPS}count = 40"), "").ok().out;
     assert!(fine.contains("water drops on the windscreen") && fine.contains("40 of 0.5 to 2 mm radius"), "{fine}");
     plan(&format!("{DROPS}count_per_dm2 = 100"), "").ok();
-    refused("", &["camera.toml:12", "external_optics.windscreen.drops", "count"]);
-    refused("count = 0", &["camera.toml:16", "drops.count", "none are added"]);
-    refused("count = 4\ncount_per_dm2 = 4", &["camera.toml:1", "count_per_dm2"]);
-    refused("count_per_dm2 = 0.1", &["camera.toml:16", "count_per_dm2", "0.054 drops"]);
-    refused("count = 4\ncontact_angle_deg = 4", &["camera.toml:17", "contact_angle_deg"]);
-    refused("count = 4\ncontact_angle_deg = 151", &["camera.toml:17", "contact_angle_deg"]);
-    refused("count = 4\nsize_exponent = -1", &["camera.toml:17", "size_exponent"]);
-    refused("count = 4\noffset_mm = [900, 0]", &["camera.toml:12", "no pixel", "offset_mm"]);
+    assert_refused("", &["camera.toml:12", "external_optics.windscreen.drops", "count"]);
+    assert_refused("count = 0", &["camera.toml:16", "drops.count", "none are added"]);
+    assert_refused("count = 4\ncount_per_dm2 = 4", &["camera.toml:1", "count_per_dm2"]);
+    assert_refused("count_per_dm2 = 0.1", &["camera.toml:16", "count_per_dm2", "0.054 drops"]);
+    assert_refused("count = 4\ncontact_angle_deg = 4", &["camera.toml:17", "contact_angle_deg"]);
+    assert_refused("count = 4\ncontact_angle_deg = 151", &["camera.toml:17", "contact_angle_deg"]);
+    assert_refused("count = 4\nsize_exponent = -1", &["camera.toml:17", "size_exponent"]);
+    assert_refused("count = 4\noffset_mm = [900, 0]", &["camera.toml:12", "no pixel", "offset_mm"]);
     let swapped = format!("{DROPS}count = 4").replace("max_radius_mm = 2", "max_radius_mm = 0.4");
     plan(&swapped, "").refused(&["camera.toml:14", "min_radius_mm", "above max_radius_mm = 0.4"]);
     // One wavelength per path, except where the index is that of one wavelength.
@@ -96,25 +96,25 @@ fn drops_that_cannot_lie_on_the_glass() {
 
 #[test]
 fn drops_that_cannot_change_as_described() {
-    let refused = |more: &str, said: &[&str]| plan(&format!("{DROPS}count = 4\n{more}"), "").refused(said);
+    let assert_refused = |more: &str, phrases: &[&str]| plan(&format!("{DROPS}count = 4\n{more}"), "").refused(phrases);
     plan(&format!("{DROPS}count = 0\narrivals_per_s = 3"), "").ok();
-    refused("start_s = 1", &["camera.toml:17", "drops.start_s", "no effect"]);
-    refused("drying_s = 0", &["camera.toml:17", "drops.drying_s"]);
-    refused("arrivals_per_s = -1", &["camera.toml:17", "drops.arrivals_per_s"]);
+    assert_refused("start_s = 1", &["camera.toml:17", "drops.start_s", "no effect"]);
+    assert_refused("drying_s = 0", &["camera.toml:17", "drops.drying_s"]);
+    assert_refused("arrivals_per_s = -1", &["camera.toml:17", "drops.arrivals_per_s"]);
     let sliding = "[external_optics.windscreen.drops.sliding]\nspeed_mm_s = 50\n";
     plan(&format!("{DROPS}count = 4\n{sliding}still_radius_mm = 1"), "").ok();
-    refused(
+    assert_refused(
         &format!("{sliding}still_radius_mm = 2"),
         &["camera.toml:19", "still_radius_mm", "not below max_radius_mm = 2"],
     );
-    refused(sliding, &["camera.toml:17", "still_radius_mm"]);
+    assert_refused(sliding, &["camera.toml:17", "still_radius_mm"]);
     let wiper = "[external_optics.windscreen.drops.wiper]\npivot_mm = [0, 300]\nblade_mm = [50, 300]\nangles_deg = [-80, 20]\nsweep_s = 0.5\n\
                  period_s = 1\n";
     plan(&format!("{DROPS}count = 4\n{wiper}"), "").ok();
-    refused(&wiper.replace("= 1\n", "= 0.9\n"), &["camera.toml:22", "wiper.period_s", "there and back, 1 s"]);
-    refused(&wiper.replace("[50, 300]", "[300, 50]"), &["camera.toml:19", "wiper.blade_mm", "smaller distance first"]);
-    refused(&wiper.replace("[-80, 20]", "[20, 20]"), &["camera.toml:20", "wiper.angles_deg", "differ"]);
-    refused(&wiper.replace("0.5", "0.05"), &["camera.toml:21", "wiper.sweep_s"]);
+    assert_refused(&wiper.replace("= 1\n", "= 0.9\n"), &["camera.toml:22", "wiper.period_s", "there and back, 1 s"]);
+    assert_refused(&wiper.replace("[50, 300]", "[300, 50]"), &["camera.toml:19", "wiper.blade_mm", "smaller distance first"]);
+    assert_refused(&wiper.replace("[-80, 20]", "[20, 20]"), &["camera.toml:20", "wiper.angles_deg", "differ"]);
+    assert_refused(&wiper.replace("0.5", "0.05"), &["camera.toml:21", "wiper.sweep_s"]);
 }
 
 /// The command line can set keys of the camera's file.
@@ -130,6 +130,6 @@ fn what_stands_in_front_and_the_effects_can_be_set() {
     let job = text(&place.path().join("job.toml"));
     let set =
         ["--set", "cameras.c.external_optics.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
-    let said = etendue(["plan", job.as_str()].into_iter().chain(set)).ok().out;
-    assert!(said.contains("30.0° from the axis") && said.contains("0.02 of the light"), "{said}");
+    let output = etendue(["plan", job.as_str()].into_iter().chain(set)).ok().out;
+    assert!(output.contains("30.0° from the axis") && output.contains("0.02 of the light"), "{output}");
 }

@@ -1,30 +1,30 @@
 //! Unusable descriptions and assets: each is reported with file, line and key, and nothing is written.
 
-use crate::support::{Ran, etendue, tests, text};
+use crate::support::{CommandOutput, etendue, tests, text};
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// A copy of the small job, to be modified by a test.
-pub(crate) struct Spoilt {
-    place: TempDir,
+pub(crate) struct ModifiedJob {
+    folder: TempDir,
 }
 
 const OBJ: &str = "tower.obj";
 
-impl Spoilt {
+impl ModifiedJob {
     pub(crate) fn new() -> Self {
         let place = tempfile::tempdir().expect("a temporary folder");
         for entry in fs::read_dir(tests().join("jobs/small")).expect("the small job") {
             let path = entry.expect("a readable entry").path();
             fs::copy(&path, place.path().join(path.file_name().expect("a name"))).expect("copied");
         }
-        Self { place }
+        Self { folder: place }
     }
 
     /// Folder of the copy.
     pub(crate) fn folder(&self) -> &std::path::Path {
-        self.place.path()
+        self.folder.path()
     }
 
     /// Path of the job.
@@ -33,7 +33,7 @@ impl Spoilt {
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.place.path().join(name)
+        self.folder.path().join(name)
     }
 
     fn read(&self, name: &str) -> String {
@@ -45,7 +45,7 @@ impl Spoilt {
     }
 
     /// Replaces the first `from` in a file; returns `file:line` of the replacement.
-    pub(crate) fn spoil(&self, name: &str, from: &str, to: &str) -> String {
+    pub(crate) fn replace_first(&self, name: &str, from: &str, to: &str) -> String {
         let text = self.read(name);
         let at = text.find(from).unwrap_or_else(|| panic!("{name} lacks {from}"));
         self.write(name, text.replacen(from, to, 1));
@@ -53,32 +53,32 @@ impl Spoilt {
     }
 
     /// Renders; asserts that nothing is written.
-    pub(crate) fn render(&self, options: &[&str]) -> Ran {
+    pub(crate) fn render(&self, options: &[&str]) -> CommandOutput {
         let output = self.path("out");
         let (job, folder) = (text(&self.path("small.toml")), text(&output));
-        let ran = etendue(["render", &job, "-o", &folder].iter().chain(options));
-        assert!(!output.exists(), "an output folder was left: {ran:?}");
-        ran
+        let run = etendue(["render", &job, "-o", &folder].iter().chain(options));
+        assert!(!output.exists(), "an output folder was left: {run:?}");
+        run
     }
 }
 
 /// Asserts that the job with `from` replaced by `to` is refused at that line, with all of `phrases`.
 #[track_caller]
 fn job_refused(from: &str, to: &str, phrases: &[&str]) {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil("small.toml", from, to);
+    let job = ModifiedJob::new();
+    let place = job.replace_first("small.toml", from, to);
     let phrases: Vec<&str> = [place.as_str()].into_iter().chain(phrases.iter().copied()).collect();
-    spoilt.render(&[]).refused(&phrases);
+    job.render(&[]).refused(&phrases);
 }
 
 /// The same for the mesh, at the place in the job that names it.
 #[track_caller]
 fn mesh_refused(from: &str, to: &str, phrases: &[&str]) {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil(OBJ, from, to);
+    let job = ModifiedJob::new();
+    let place = job.replace_first(OBJ, from, to);
     let phrases: Vec<&str> =
         [place.as_str(), "small.toml:5", "file"].into_iter().chain(phrases.iter().copied()).collect();
-    spoilt.render(&[]).refused(&phrases);
+    job.render(&[]).refused(&phrases);
 }
 
 #[test]
@@ -166,9 +166,9 @@ fn a_distortion_that_folds_the_picture() {
 
 #[test]
 fn a_focus_nearer_than_the_focal_length() {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "focus_distance_m = 5", "focus_distance_m = 0.005");
-    spoilt.render(&[]).refused(&[
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "focus_distance_m = 5", "focus_distance_m = 0.005");
+    job.render(&[]).refused(&[
         "small.toml:",
         "cameras.front.lens",
         "focus distance of 0.005 m",
@@ -180,9 +180,9 @@ fn a_focus_nearer_than_the_focal_length() {
 fn pupils_that_contradict_each_other() {
     let thick = "type = \"thick\"\nconstant_pupil = \"exit\"\nentrance_pupil_mm = 2\nexit_pupil_mm = 5\n\
                  pupil_magnification = 1.5";
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "type = \"thin\"", thick);
-    spoilt.render(&[]).refused(&[
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "type = \"thin\"", thick);
+    job.render(&[]).refused(&[
         "small.toml:",
         "cameras.front.lens",
         "entrance_pupil_mm = 2",
@@ -193,85 +193,85 @@ fn pupils_that_contradict_each_other() {
 #[test]
 fn a_seed_below_zero_and_a_picture_without_processing() {
     job_refused("seed = 11", "seed = -11", &["render.seed", "-11"]);
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "[cameras.isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n", "");
-    spoilt.render(&[]).refused(&["small.toml:126", "output.picture", "[isp]"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "[cameras.isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n", "");
+    job.render(&[]).refused(&["small.toml:126", "output.picture", "[isp]"]);
 }
 
 #[test]
 fn samples_that_do_not_divide_into_replicates() {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "spp = 8", "spp = 9");
-    spoilt.render(&[]).refused(&["small.toml:118", "render.replicates", "9 samples", "2 replicates"]);
-    Spoilt::new().render(&["--set", "render.replicates=2", "--spp", "9"]).refused(&["9 samples", "2 replicates"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "spp = 8", "spp = 9");
+    job.render(&[]).refused(&["small.toml:118", "render.replicates", "9 samples", "2 replicates"]);
+    ModifiedJob::new().render(&["--set", "render.replicates=2", "--spp", "9"]).refused(&["9 samples", "2 replicates"]);
 }
 
 #[test]
 fn a_variance_of_one_replicate() {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "replicates = 2", "replicates = 1");
-    spoilt.render(&[]).refused(&["small.toml:", "variance", "replicates"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "replicates = 2", "replicates = 1");
+    job.render(&[]).refused(&["small.toml:", "variance", "replicates"]);
 }
 
 #[test]
 fn a_picture_that_no_machine_holds() {
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let options = ["--set", "cameras.front.sensor.width_px=65536", "--set", "cameras.front.sensor.height_px=65536"];
-    spoilt.render(&options).refused(&["sensor", "65536 × 65536", "GB"]);
+    job.render(&options).refused(&["sensor", "65536 × 65536", "GB"]);
 }
 
 #[test]
-fn all_errors_are_told_at_once_in_their_order() {
-    let spoilt = Spoilt::new();
-    let first = spoilt.spoil("small.toml", "alpha = 0.05", "alpha = 5");
-    let second = spoilt.spoil("small.toml", "exposure_s = 1e-6", "exposure_s = -1");
-    let third = spoilt.spoil("small.toml", "spp = 8", "ssp = 8");
-    let ran = spoilt.render(&[]).refused(&[&first, "alpha"]);
-    let ran =
-        ran.says(&[&second, "exposure_s"]).says(&[&third, "ssp", "spp"]).says(&["3 errors", "nothing was written"]);
-    let order = [first, second, third].map(|place| ran.err.find(&place).expect("told"));
-    assert!(order.is_sorted(), "{}", ran.err);
+fn all_errors_are_reported_at_once_in_order() {
+    let job = ModifiedJob::new();
+    let first = job.replace_first("small.toml", "alpha = 0.05", "alpha = 5");
+    let second = job.replace_first("small.toml", "exposure_s = 1e-6", "exposure_s = -1");
+    let third = job.replace_first("small.toml", "spp = 8", "ssp = 8");
+    let output = job.render(&[]).refused(&[&first, "alpha"]);
+    let output =
+        output.says(&[&second, "exposure_s"]).says(&[&third, "ssp", "spp"]).says(&["3 errors", "nothing was written"]);
+    let order = [first, second, third].map(|place| output.err.find(&place).expect("told"));
+    assert!(order.is_sorted(), "{}", output.err);
 }
 
 #[test]
-fn errors_of_several_assets_are_told_at_once() {
-    let spoilt = Spoilt::new();
-    spoilt.write("checker.png", b"no picture");
-    spoilt.spoil(OBJ, "v 0 0 2.2", "v 0 nan 2.2");
-    spoilt.render(&[]).refused(&["checker.png"]).says(&["tower.obj:11"]).says(&["errors; nothing was written"]);
+fn errors_of_several_assets_are_reported_at_once() {
+    let job = ModifiedJob::new();
+    job.write("checker.png", b"no picture");
+    job.replace_first(OBJ, "v 0 0 2.2", "v 0 nan 2.2");
+    job.render(&[]).refused(&["checker.png"]).says(&["tower.obj:11"]).says(&["errors; nothing was written"]);
 }
 
 #[test]
 fn keys_of_set_that_do_not_exist() {
-    Spoilt::new().render(&["--set", "render.sp=4"]).refused(&["--set", "render.sp", "\"spp\""]);
-    Spoilt::new().render(&["--set", "cameras.rear.sensor.exposure_s=1"]).refused(&["--set", "rear", "front"]);
-    Spoilt::new().render(&["--set", "render.spp"]).refused(&["--set", "render.spp", "="]);
-    Spoilt::new().render(&["--set", "render.spp=many"]).refused(&["--set", "render.spp", "many"]);
+    ModifiedJob::new().render(&["--set", "render.sp=4"]).refused(&["--set", "render.sp", "\"spp\""]);
+    ModifiedJob::new().render(&["--set", "cameras.rear.sensor.exposure_s=1"]).refused(&["--set", "rear", "front"]);
+    ModifiedJob::new().render(&["--set", "render.spp"]).refused(&["--set", "render.spp", "="]);
+    ModifiedJob::new().render(&["--set", "render.spp=many"]).refused(&["--set", "render.spp", "many"]);
 }
 
 #[test]
 fn a_camera_that_the_job_has_not() {
-    Spoilt::new().render(&["--camera", "rear"]).refused(&["--camera rear", "small.toml", "front"]);
+    ModifiedJob::new().render(&["--camera", "rear"]).refused(&["--camera rear", "small.toml", "front"]);
 }
 
 #[test]
 fn a_missing_mesh() {
-    let spoilt = Spoilt::new();
-    fs::remove_file(spoilt.path(OBJ)).expect("removed");
-    spoilt.render(&[]).refused(&["tower.obj", "small.toml:5", "file"]);
+    let job = ModifiedJob::new();
+    fs::remove_file(job.path(OBJ)).expect("removed");
+    job.render(&[]).refused(&["tower.obj", "small.toml:5", "file"]);
 }
 
 #[test]
 fn a_truncated_mesh() {
-    let spoilt = Spoilt::new();
-    let text = spoilt.read(OBJ);
+    let job = ModifiedJob::new();
+    let text = job.read(OBJ);
     let end = text.find("6/3 5/4").expect("the first face");
-    spoilt.write(OBJ, &text[..end]);
-    spoilt.render(&[]).refused(&["tower.obj:17", "small.toml:5"]);
-    spoilt.write(OBJ, &text[..text.find("v 0 0 2.2").expect("a vertex") + 5]);
-    spoilt.render(&[]).refused(&["tower.obj:11", "small.toml:5"]);
-    spoilt.write(OBJ, "");
-    spoilt.render(&[]).refused(&["tower.obj", "small.toml:5", "empty"]);
+    job.write(OBJ, &text[..end]);
+    job.render(&[]).refused(&["tower.obj:17", "small.toml:5"]);
+    job.write(OBJ, &text[..text.find("v 0 0 2.2").expect("a vertex") + 5]);
+    job.render(&[]).refused(&["tower.obj:11", "small.toml:5"]);
+    job.write(OBJ, "");
+    job.render(&[]).refused(&["tower.obj", "small.toml:5", "empty"]);
 }
 
 #[test]
@@ -291,69 +291,69 @@ fn a_vertex_that_is_no_number() {
 
 #[test]
 fn a_broken_value_in_a_material_library() {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil("tower.mtl", "Kd 0.5 0.08 0.04", "Kd 0.5 red 0.04");
-    spoilt.render(&[]).refused(&[&place, "Kd", "red"]);
+    let job = ModifiedJob::new();
+    let place = job.replace_first("tower.mtl", "Kd 0.5 0.08 0.04", "Kd 0.5 red 0.04");
+    job.render(&[]).refused(&[&place, "Kd", "red"]);
 }
 
 #[test]
 fn an_unreadable_texture() {
-    let spoilt = Spoilt::new();
-    spoilt.write("checker.png", b"\x89PNG\r\n\x1a\nthis is no picture");
-    spoilt.render(&[]).refused(&["checker.png", "small.toml:6", "file"]);
-    fs::remove_file(spoilt.path("checker.png")).expect("removed");
-    spoilt.render(&[]).refused(&["checker.png", "small.toml:6", "file"]);
+    let job = ModifiedJob::new();
+    job.write("checker.png", b"\x89PNG\r\n\x1a\nthis is no picture");
+    job.render(&[]).refused(&["checker.png", "small.toml:6", "file"]);
+    fs::remove_file(job.path("checker.png")).expect("removed");
+    job.render(&[]).refused(&["checker.png", "small.toml:6", "file"]);
 }
 
 #[test]
 fn a_texture_without_pixels() {
-    let spoilt = Spoilt::new();
-    let mut bytes = fs::read(spoilt.path("checker.png")).expect("the texture");
+    let job = ModifiedJob::new();
+    let mut bytes = fs::read(job.path("checker.png")).expect("the texture");
     bytes[16..20].fill(0);
-    spoilt.write("checker.png", &bytes);
-    spoilt.render(&[]).refused(&["checker.png", "small.toml:6"]);
+    job.write("checker.png", &bytes);
+    job.render(&[]).refused(&["checker.png", "small.toml:6"]);
 }
 
 #[test]
 fn an_unreadable_sky() {
-    let spoilt = Spoilt::new();
-    let bytes = fs::read(spoilt.path("sky.hdr")).expect("the sky");
-    spoilt.write("sky.hdr", &bytes[..60]);
-    spoilt.render(&[]).refused(&["sky.hdr", "small.toml:", "scene.environment.file"]);
+    let job = ModifiedJob::new();
+    let bytes = fs::read(job.path("sky.hdr")).expect("the sky");
+    job.write("sky.hdr", &bytes[..60]);
+    job.render(&[]).refused(&["sky.hdr", "small.toml:", "scene.environment.file"]);
 }
 
 #[test]
 fn a_spectrum_that_is_no_table() {
-    let spoilt = Spoilt::new();
-    spoilt.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,lots\n");
-    let place = spoilt.spoil("small.toml", "[0.05, 0.2, 0.6]", "{ spectrum = \"paint.csv\" }");
-    spoilt.render(&[]).refused(&["paint.csv", "paint.csv:3", "lots", &place]);
-    spoilt.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,1.5\n");
-    spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "1.5", "from 0 to 1"]);
+    let job = ModifiedJob::new();
+    job.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,lots\n");
+    let place = job.replace_first("small.toml", "[0.05, 0.2, 0.6]", "{ spectrum = \"paint.csv\" }");
+    job.render(&[]).refused(&["paint.csv", "paint.csv:3", "lots", &place]);
+    job.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,1.5\n");
+    job.render(&[]).refused(&["small.toml:", "scene.materials.paint", "1.5", "from 0 to 1"]);
 }
 
 #[test]
 fn an_output_folder_that_cannot_be() {
-    let spoilt = Spoilt::new();
-    let job = text(&spoilt.path("small.toml"));
-    spoilt.write("taken", b"a file");
-    for folder in [spoilt.path("taken"), spoilt.path("taken/out"), spoilt.path("taken/deep/out")] {
+    let modified = ModifiedJob::new();
+    let job = text(&modified.path("small.toml"));
+    modified.write("taken", b"a file");
+    for folder in [modified.path("taken"), modified.path("taken/out"), modified.path("taken/deep/out")] {
         etendue(["render", &job, "-o", &text(&folder)]).refused(&["taken", "folder"]);
     }
-    assert_eq!(spoilt.read("taken"), "a file");
+    assert_eq!(modified.read("taken"), "a file");
 }
 
 #[test]
 fn results_that_are_already_there() {
-    let spoilt = Spoilt::new();
-    let (job, out) = (text(&spoilt.path("small.toml")), text(&spoilt.path("out")));
+    let modified = ModifiedJob::new();
+    let (job, out) = (text(&modified.path("small.toml")), text(&modified.path("out")));
     let lean = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
     etendue(["render", &job, "-o", &out].into_iter().chain(lean)).ok();
-    let before = crate::support::contents(&spoilt.path("out"));
+    let before = crate::support::contents(&modified.path("out"));
     etendue(["render", &job, "-o", &out, "--seed", "5"]).refused(&["out/front", "already there", "--overwrite"]);
-    assert_eq!(before, crate::support::contents(&spoilt.path("out")), "nothing was touched");
+    assert_eq!(before, crate::support::contents(&modified.path("out")), "nothing was touched");
     etendue(["render", &job, "-o", &out, "--seed", "5", "--overwrite"]).ok();
-    assert_ne!(before, crate::support::contents(&spoilt.path("out")));
+    assert_ne!(before, crate::support::contents(&modified.path("out")));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Unusable lamps, skies and materials: each is reported with file, line and key, and nothing is written.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 
 const LAMP: &str = "[[scene.lights]]\ntype = \"measured\"\nname = \"street\"\nfile = \"street.ies\"\nilluminant = \"LED-B3\"\n\
                     position_m = [5, 0, 6]\n\n[[scene.lights]]\ntype = \"sun\"";
@@ -8,34 +8,34 @@ const IES: &str = "IESNA:LM-63-2002\n[TEST] a lamp\nTILT=NONE\n1 1000 1 3 1 1 2 
 
 /// Asserts that the job with a lamp from such a file is refused: at a line of the file, at the job's reference to it, and with `phrases`.
 #[track_caller]
-fn lamp_refused(ies: &str, line: &str, phrases: &[&str]) {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil("small.toml", "[[scene.lights]]\ntype = \"sun\"", LAMP);
+fn assert_lamp_refused(ies: &str, line: &str, phrases: &[&str]) {
+    let job = ModifiedJob::new();
+    let place = job.replace_first("small.toml", "[[scene.lights]]\ntype = \"sun\"", LAMP);
     let (file, first) = place.split_once(':').expect("a line");
     let named = format!("{file}:{}", first.parse::<usize>().expect("a number") + 3);
-    spoilt.write("street.ies", ies);
+    job.write("street.ies", ies);
     let phrases: Vec<&str> = [line, &named, "file"].into_iter().chain(phrases.iter().copied()).collect();
-    spoilt.render(&[]).refused(&phrases);
+    job.render(&[]).refused(&phrases);
 }
 
 #[test]
 fn a_photometric_file_with_a_wrong_count_of_angles() {
-    lamp_refused(&IES.replace("1 1000 1 3 1", "1 1000 1 4 1"), "street.ies:", &["4"]);
-    lamp_refused(&IES.replace("100 80 0\n", "100 80\n"), "street.ies:", &["3"]);
+    assert_lamp_refused(&IES.replace("1 1000 1 3 1", "1 1000 1 4 1"), "street.ies:", &["4"]);
+    assert_lamp_refused(&IES.replace("100 80 0\n", "100 80\n"), "street.ies:", &["3"]);
 }
 
 #[test]
 fn a_photometric_file_with_unsorted_angles() {
-    lamp_refused(&IES.replace("0 45 90", "0 90 45"), "street.ies:6", &["45"]);
+    assert_lamp_refused(&IES.replace("0 45 90", "0 90 45"), "street.ies:6", &["45"]);
 }
 
 #[test]
 fn a_lamp_of_an_unknown_spectrum() {
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let lamp = LAMP.replace("LED-B3", "LED-B4").replace("\"measured\"", "\"point\"");
     let lamp = lamp.replace("file = \"street.ies\"", "luminous_flux_lm = 100");
-    spoilt.spoil("small.toml", "[[scene.lights]]\ntype = \"sun\"", &lamp);
-    spoilt.render(&[]).refused(&[
+    job.replace_first("small.toml", "[[scene.lights]]\ntype = \"sun\"", &lamp);
+    job.render(&[]).refused(&[
         "small.toml:",
         "scene.lights.street.illuminant",
         "\"LED-B4\"",
@@ -45,10 +45,10 @@ fn a_lamp_of_an_unknown_spectrum() {
 
 #[test]
 fn a_turbidity_out_of_range() {
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let sky = "type = \"sky\"\nturbidity = 0.5\nsun = false\nsun_elevation_deg = 30\nsun_azimuth_deg = 0\n#";
-    spoilt.spoil("small.toml", "type = \"image\"", sky);
-    spoilt.render(&[]).refused(&[
+    job.replace_first("small.toml", "type = \"image\"", sky);
+    job.render(&[]).refused(&[
         "small.toml:",
         "scene.environment.turbidity",
         "found 0.5",
@@ -58,11 +58,11 @@ fn a_turbidity_out_of_range() {
 
 #[test]
 fn a_flux_of_what_has_no_area() {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "type = \"image\"", "type = \"uniform\"\nluminous_flux_lm = 100\nilluminant = \"D65\"");
-    spoilt.spoil("small.toml", "file = \"sky.hdr\"\n", "");
-    spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
-    spoilt.render(&[]).refused(&["small.toml:", "scene.environment.luminous_flux_lm", "the sky has no area"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "type = \"image\"", "type = \"uniform\"\nluminous_flux_lm = 100\nilluminant = \"D65\"");
+    job.replace_first("small.toml", "file = \"sky.hdr\"\n", "");
+    job.replace_first("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
+    job.render(&[]).refused(&["small.toml:", "scene.environment.luminous_flux_lm", "the sky has no area"]);
 }
 
 #[test]
@@ -71,28 +71,28 @@ fn materials_that_gain_energy() {
         "type = \"blinn_phong\"\nreflectance = 0.7\nspecular = 0.5\nexponent = 40",
         "type = \"lafortune\"\nreflectance = 0.5\nlobes = [{ kind = \"retro\", exponent = 10, albedo = 0.7 }]",
     ] {
-        let spoilt = Spoilt::new();
+        let job = ModifiedJob::new();
         let place =
-            spoilt.spoil("small.toml", "type = \"coated\"\nreflectance = [0.05, 0.2, 0.6]\nalpha = 0.05", gains);
+            job.replace_first("small.toml", "type = \"coated\"\nreflectance = [0.05, 0.2, 0.6]\nalpha = 0.05", gains);
         assert!(place.starts_with("small.toml:"));
-        spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "more"]);
+        job.render(&[]).refused(&["small.toml:", "scene.materials.paint", "more"]);
     }
 }
 
 #[test]
 fn light_that_no_number_holds() {
     let uniform = |level: &str| {
-        let spoilt = Spoilt::new();
-        spoilt.spoil("small.toml", "type = \"image\"", &format!("type = \"uniform\"\n{level}"));
-        spoilt.spoil("small.toml", "file = \"sky.hdr\"\n", "");
-        spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
-        spoilt.render(&[]).refused(&["small.toml:", "radiance", "1e30"]);
+        let job = ModifiedJob::new();
+        job.replace_first("small.toml", "type = \"image\"", &format!("type = \"uniform\"\n{level}"));
+        job.replace_first("small.toml", "file = \"sky.hdr\"\n", "");
+        job.replace_first("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
+        job.render(&[]).refused(&["small.toml:", "radiance", "1e30"]);
     };
     uniform("radiance_w_m2_sr_nm = 1e300");
     uniform("luminance_cd_m2 = 1e300\nilluminant = \"D65\"");
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000", "luminance_cd_m2_per_unit = 1e300");
-    spoilt.render(&[]).refused(&["small.toml:", "exceeds the maximum of 1e30"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "luminance_cd_m2_per_unit = 2000", "luminance_cd_m2_per_unit = 1e300");
+    job.render(&[]).refused(&["small.toml:", "exceeds the maximum of 1e30"]);
 }
 
 /// A lamp so near to a wall that 32 bits do not hold the irradiance under it: detected only during rendering.
@@ -124,9 +124,9 @@ radiant_flux_w = 1e30
 
 #[test]
 fn light_that_turns_out_not_to_be_finite_is_not_delivered() {
-    let spoilt = Spoilt::new();
-    spoilt.write("small.toml", NEAR);
-    let ran = spoilt.render(&[]);
-    assert_eq!(ran.status, 1, "{ran:?}");
-    ran.says(&["camera eye", "not finite", "no results are written"]);
+    let job = ModifiedJob::new();
+    job.write("small.toml", NEAR);
+    let output = job.render(&[]);
+    assert_eq!(output.status, 1, "{output:?}");
+    output.says(&["camera eye", "not finite", "no results are written"]);
 }

@@ -38,7 +38,7 @@ pub(crate) const MEASUREMENTS: [&str; 24] = [
 ];
 
 /// Measurements with a correct answer for a uniform image: no fall-off, no noise, no bands.
-const OF_EVEN_LIGHT: [&str; 4] = ["vignetting", "shading", "noise", "flicker"];
+const UNIFORM_LIGHT_MEASUREMENTS: [&str; 4] = ["vignetting", "shading", "noise", "flicker"];
 
 pub(crate) fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32) -> String {
     let plane =
@@ -50,8 +50,8 @@ pub(crate) fn grey(folder: &Path, name: &str, (width, height): (usize, usize), r
 
 pub(crate) fn coloured(folder: &Path, name: &str, (width, height): (usize, usize), light: f32) -> String {
     let file = folder.join(name);
-    let picture = encode_display(&Plane::<Display>::filled(width, height, [light; 3]), &Encoding::Srgb);
-    std::fs::write(&file, picture.expect("a picture")).expect("a temporary file");
+    let image = encode_display(&Plane::<Display>::filled(width, height, [light; 3]), &Encoding::Srgb);
+    std::fs::write(&file, image.expect("a picture")).expect("a temporary file");
     text(&file)
 }
 
@@ -90,13 +90,13 @@ pub(crate) fn floats(folder: &Path, name: &str, sample: impl Fn(usize) -> f32) -
 }
 
 /// A photon-transfer descriptor, twelve levels of light and dark, all of them this image.
-fn series(picture: &str) -> String {
-    let (file, name) = (Path::new(picture), Path::new(picture).file_name().expect("a name").to_string_lossy());
+fn series(image: &str) -> String {
+    let (file, name) = (Path::new(image), Path::new(image).file_name().expect("a name").to_string_lossy());
     let level = |i: u32| {
         let (ns, photons) = (1e6 * f64::from(i), 300.0 * f64::from(i));
         format!("b {ns:.1} {photons:.1}\ni {name}\ni {name}\nd {ns:.1}\ni {name}\ni {name}\n")
     };
-    let (width, height) = if picture.contains("pixel") { (1, 1) } else { SIZE };
+    let (width, height) = if image.contains("pixel") { (1, 1) } else { SIZE };
     let text = (1..=12).map(level).fold(format!("v 4.0\nn 16 {width} {height}\n"), |all, level| all + &level);
     let descriptor = file.with_extension("txt");
     std::fs::write(&descriptor, text).expect("a temporary file");
@@ -104,20 +104,20 @@ fn series(picture: &str) -> String {
 }
 
 /// The arguments of a measurement of an image, results as JSON.
-pub(crate) fn of_picture(line: &str, picture: &str) -> Vec<String> {
+pub(crate) fn commands_for_image(line: &str, image: &str) -> Vec<String> {
     // Grey images have one channel, which is not named.
-    let line = if picture.contains("coloured") { line.to_owned() } else { line.replace(" --channel Y", "") };
-    let series = series(picture);
-    let words = line.split(' ').map(|word| word.replace("PICTURE", picture).replace("SERIES", &series));
+    let line = if image.contains("coloured") { line.to_owned() } else { line.replace(" --channel Y", "") };
+    let series = series(image);
+    let words = line.split(' ').map(|word| word.replace("PICTURE", image).replace("SERIES", &series));
     words.chain((!line.starts_with("calibrate")).then(|| "--json".to_owned())).collect()
 }
 
 /// Runs every measurement on an image. Those that may answer are named; all others must refuse it.
 #[track_caller]
-fn measured(picture: &str, may_answer: &[&str]) {
+fn measure_all(image: &str, may_answer: &[&str]) {
     for line in MEASUREMENTS {
-        let run = etendue(of_picture(line, picture));
-        let words = format!("{line} of {picture}: {run:?}");
+        let run = etendue(commands_for_image(line, image));
+        let words = format!("{line} of {image}: {run:?}");
         if run.status == 0 {
             // Any image is equal to itself.
             let may = line.starts_with("compare") || may_answer.iter().any(|name| line.contains(name));
@@ -139,30 +139,30 @@ fn measured(picture: &str, may_answer: &[&str]) {
 #[test]
 fn a_picture_of_one_pixel() {
     let folder = tempfile::tempdir().expect("a folder");
-    measured(&grey(folder.path(), "pixel.png", (1, 1), 20_000), &[]);
-    measured(&coloured(folder.path(), "coloured-pixel.png", (1, 1), 0.4), &[]);
+    measure_all(&grey(folder.path(), "pixel.png", (1, 1), 20_000), &[]);
+    measure_all(&coloured(folder.path(), "coloured-pixel.png", (1, 1), 0.4), &[]);
 }
 
 #[test]
 fn even_pictures() {
     let folder = tempfile::tempdir().expect("a folder");
-    measured(&grey(folder.path(), "even.png", SIZE, 20_000), &OF_EVEN_LIGHT);
-    measured(&coloured(folder.path(), "coloured-even.png", SIZE, 0.4), &OF_EVEN_LIGHT);
-    measured(&floats(folder.path(), "huge.tif", |_| 3e38), &OF_EVEN_LIGHT);
+    measure_all(&grey(folder.path(), "even.png", SIZE, 20_000), &UNIFORM_LIGHT_MEASUREMENTS);
+    measure_all(&coloured(folder.path(), "coloured-even.png", SIZE, 0.4), &UNIFORM_LIGHT_MEASUREMENTS);
+    measure_all(&floats(folder.path(), "huge.tif", |_| 3e38), &UNIFORM_LIGHT_MEASUREMENTS);
 }
 
 #[test]
 fn dark_and_clipped_pictures() {
     let folder = tempfile::tempdir().expect("a folder");
-    measured(&grey(folder.path(), "dark.png", SIZE, 0), &[]);
-    measured(&grey(folder.path(), "clipped.png", SIZE, 65_535), &[]);
-    measured(&coloured(folder.path(), "coloured-clipped.png", SIZE, 1.0), &[]);
+    measure_all(&grey(folder.path(), "dark.png", SIZE, 0), &[]);
+    measure_all(&grey(folder.path(), "clipped.png", SIZE, 65_535), &[]);
+    measure_all(&coloured(folder.path(), "coloured-clipped.png", SIZE, 1.0), &[]);
 }
 
 #[test]
 fn readings_that_are_no_numbers() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bad) in [("nan.tif", f32::NAN), ("infinite.tif", f32::INFINITY)] {
-        measured(&floats(folder.path(), name, |i| if i == 6208 { bad } else { 20_000.0 + (i % 7) as f32 }), &[]);
+        measure_all(&floats(folder.path(), name, |i| if i == 6208 { bad } else { 20_000.0 + (i % 7) as f32 }), &[]);
     }
 }

@@ -1,46 +1,46 @@
 //! Errors of `[isp]`: each is reported with file, line and key, and nothing is written.
 
-use crate::bad_input::Spoilt;
-use crate::support::{Ran, etendue};
+use crate::bad_input::ModifiedJob;
+use crate::support::{CommandOutput, etendue};
 
 const WHITE_BALANCE: &str = "white_balance = \"D65\"";
 const MATRIX: &str = "colour_matrix = { fit = \"D65\" }";
 
 /// The small job with `keys` instead of its white balance.
-fn with(keys: &str) -> (Spoilt, String) {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil("small.toml", WHITE_BALANCE, keys);
-    (spoilt, place)
+fn with(keys: &str) -> (ModifiedJob, String) {
+    let job = ModifiedJob::new();
+    let place = job.replace_first("small.toml", WHITE_BALANCE, keys);
+    (job, place)
 }
 
-fn plan(spoilt: &Spoilt) -> Ran {
-    etendue(["plan".to_owned(), spoilt.job()])
+fn plan(job: &ModifiedJob) -> CommandOutput {
+    etendue(["plan".to_owned(), job.job()])
 }
 
 /// Asserts that the job with this key in its processing is refused at the line of the key, with these phrases.
 #[track_caller]
 fn refused(keys: &str, phrases: &[&str]) {
-    let (spoilt, place) = with(keys);
+    let (job, place) = with(keys);
     let key = keys.split(" =").next().unwrap_or(keys);
-    plan(&spoilt).refused(&[&[place.as_str(), "cameras.front.isp", key], phrases].concat());
+    plan(&job).refused(&[&[place.as_str(), "cameras.front.isp", key], phrases].concat());
 }
 
 /// The same with a table next to the job.
 #[track_caller]
 fn table_refused(keys: &str, table: &str, phrases: &[&str]) {
-    let (spoilt, place) = with(keys);
-    spoilt.write("table.csv", table);
-    plan(&spoilt).refused(&[&[place.as_str()], phrases].concat());
+    let (job, place) = with(keys);
+    job.write("table.csv", table);
+    plan(&job).refused(&[&[place.as_str()], phrases].concat());
 }
 
 /// Asserts that a monochrome sensor with this processing is refused.
 #[track_caller]
 fn mono_refused(keys: &str, phrases: &[&str]) {
-    let (spoilt, _) = with(keys);
-    spoilt.spoil("small.toml", &format!("{MATRIX}\n"), "\n");
-    spoilt.spoil("small.toml", "cfa = \"rggb\"", "cfa = \"mono\"");
-    spoilt.spoil("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5");
-    plan(&spoilt).refused(&[&["small.toml:"], phrases].concat());
+    let (job, _) = with(keys);
+    job.replace_first("small.toml", &format!("{MATRIX}\n"), "\n");
+    job.replace_first("small.toml", "cfa = \"rggb\"", "cfa = \"mono\"");
+    job.replace_first("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5");
+    plan(&job).refused(&[&["small.toml:"], phrases].concat());
 }
 
 #[test]
@@ -53,20 +53,20 @@ fn black_levels_that_cannot_be() {
 
 #[test]
 fn a_black_level_above_white_at_the_smallest_gain() {
-    let (spoilt, _) = with("black_level = 3000");
-    plan(&spoilt).ok();
+    let (job, _) = with("black_level = 3000");
+    plan(&job).ok();
     let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 50, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
-    spoilt.spoil("small.toml", "exposure_s = 1e-6", control);
-    plan(&spoilt).refused(&["cameras.front.isp.black_level", "3000", "saturates at"]);
+    job.replace_first("small.toml", "exposure_s = 1e-6", control);
+    plan(&job).refused(&["cameras.front.isp.black_level", "3000", "saturates at"]);
 }
 
 #[test]
 fn a_dng_of_companded_numbers() {
-    let (spoilt, _) = with(WHITE_BALANCE);
+    let (job, _) = with(WHITE_BALANCE);
     let companding = "exposure_s = 1e-6\ncompanding = { bits = 8, knees = [[100, 100], [4095, 255]] }";
-    spoilt.spoil("small.toml", "exposure_s = 1e-6", companding);
-    plan(&spoilt).ok();
-    etendue(["plan", &spoilt.job(), "--set", "output.raw_format=\"dng\""]).refused(&["raw_format", "companded"]);
+    job.replace_first("small.toml", "exposure_s = 1e-6", companding);
+    plan(&job).ok();
+    etendue(["plan", &job.job(), "--set", "output.raw_format=\"dng\""]).refused(&["raw_format", "companded"]);
 }
 
 #[test]
@@ -85,12 +85,12 @@ fn corrections_that_cannot_be() {
 
 #[test]
 fn the_defect_map_is_that_of_the_delivered_picture() {
-    let (spoilt, _) = with("defect_map = \"table.csv\"");
-    spoilt.write("table.csv", "x,y\n22,14\n");
-    spoilt.spoil("small.toml", "bits = 12", "bits = 12\nbinning = { columns = 1, rows = 3, of = \"numbers\" }");
-    plan(&spoilt).refused(&["small.toml:", "defect_map", "46 × 10"]);
-    spoilt.write("table.csv", "x,y\n22,9\n");
-    plan(&spoilt).ok();
+    let (job, _) = with("defect_map = \"table.csv\"");
+    job.write("table.csv", "x,y\n22,14\n");
+    job.replace_first("small.toml", "bits = 12", "bits = 12\nbinning = { columns = 1, rows = 3, of = \"numbers\" }");
+    plan(&job).refused(&["small.toml:", "defect_map", "46 × 10"]);
+    job.write("table.csv", "x,y\n22,9\n");
+    plan(&job).ok();
 }
 
 #[test]
@@ -99,9 +99,9 @@ fn colours_that_cannot_be() {
     refused("white_balance = [1, 2]", &["2 numbers", "3 channels"]);
     refused("white_balance = \"moonlight\"", &["moonlight", "grey_world"]);
     refused("demosaic = \"best\"", &["best", "hamilton_adams"]);
-    let (spoilt, _) = with(WHITE_BALANCE);
-    let place = spoilt.spoil("small.toml", MATRIX, "colour_matrix = [[1, 0], [0, 1], [1, 0]]");
-    plan(&spoilt).refused(&[&place, "colour_matrix", "2 numbers", "3 channels"]);
+    let (job, _) = with(WHITE_BALANCE);
+    let place = job.replace_first("small.toml", MATRIX, "colour_matrix = [[1, 0], [0, 1], [1, 0]]");
+    plan(&job).refused(&[&place, "colour_matrix", "2 numbers", "3 channels"]);
 }
 
 #[test]
@@ -113,12 +113,12 @@ fn colours_of_a_monochrome_sensor() {
 #[test]
 fn other_filter_arrays_than_bayer() {
     let rccb = |keys: &str, matrix: &str| {
-        let (spoilt, place) = with(keys);
-        spoilt.spoil("small.toml", MATRIX, matrix);
-        spoilt.spoil("small.toml", "cfa = \"rggb\"", "cfa = \"rccb\"");
+        let (job, place) = with(keys);
+        job.replace_first("small.toml", MATRIX, matrix);
+        job.replace_first("small.toml", "cfa = \"rggb\"", "cfa = \"rccb\"");
         let quantum_efficiency = "{ channels = { red = 0.3, clear = 0.6, blue = 0.25 } }";
-        spoilt.spoil("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", quantum_efficiency);
-        (plan(&spoilt), place)
+        job.replace_first("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", quantum_efficiency);
+        (plan(&job), place)
     };
     let (refused, place) = rccb("demosaic = \"malvar\"", "colour_matrix = [[1, 0, 0], [-1, 2, -1], [0, 0, 1]]");
     refused.refused(&[&place, "demosaic", "Bayer", "bilinear"]);
@@ -198,7 +198,7 @@ fn filters_of_the_paper_that_cannot_be() {
 #[test]
 fn a_picture_wider_than_a_jpeg() {
     let wide = "--set=cameras.front.sensor.width_px=65536";
-    let small = Spoilt::new();
+    let small = ModifiedJob::new();
     let plan = etendue(["plan", &small.job(), wide, "--set=cameras.front.isp.picture_format=jpeg"]);
     plan.refused(&["cameras.front.isp.picture_format", "65535", "png"]);
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{etendue, small, tests, text};
 use etendue_io::Provenance;
-use etendue_io::exr::{ExrChannel, Layer, Samples, encode_layers, read_exr};
+use etendue_io::exr::{ExrChannel, ExrLayer, ExrSamples, encode_layers, read_exr};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -88,9 +88,9 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
 }
 
 /// An EXR file of four samples of `light`, with the variance of each.
-fn four(place: &Path, name: &str, light: [f32; 4], variance: [f32; 4]) -> String {
+fn four_sample_image(place: &Path, name: &str, light: [f32; 4], variance: [f32; 4]) -> String {
     let eight = Provenance { further: [("replicates".to_owned(), "8".to_owned())].into(), ..Provenance::default() };
-    let layers = [("light".to_owned(), Layer::Float(&light)), ("variance.light".to_owned(), Layer::Float(&variance))];
+    let layers = [("light".to_owned(), ExrLayer::Float(&light)), ("variance.light".to_owned(), ExrLayer::Float(&variance))];
     let file = place.join(name);
     fs::write(&file, encode_layers(2, 2, &layers, &eight).expect("a picture")).expect("written");
     text(&file)
@@ -101,7 +101,7 @@ fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
     let place = place();
     let light = |second: f32| [1.0, second, 3.0, 4.0];
     let variance = |second: f32| [0.01, second, 0.01, 0.01];
-    let good = four(place.path(), "good.exr", light(2.0), variance(0.01));
+    let good = four_sample_image(place.path(), "good.exr", light(2.0), variance(0.01));
     etendue(["compare", &good, &good]).ok();
     for (name, second, its_variance) in [
         ("nan.exr", f32::NAN, 0.01),
@@ -109,8 +109,8 @@ fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
         ("nan-variance.exr", 2.0, f32::NAN),
         ("negative-variance.exr", 2.0, -0.01),
     ] {
-        let spoilt = four(place.path(), name, light(second), variance(its_variance));
-        for (a, b) in [(&good, &spoilt), (&spoilt, &good), (&spoilt, &spoilt)] {
+        let job = four_sample_image(place.path(), name, light(second), variance(its_variance));
+        for (a, b) in [(&good, &job), (&job, &good), (&job, &job)] {
             let run = etendue(["compare", a, b]);
             assert_eq!(run.status, 1, "{}", run.err);
             assert!(run.out.contains("differs, 1 not finite"), "{}", run.out);
@@ -136,7 +136,7 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     let other = into(place.path(), "other", &["--shard", "1/2", "--seed", "3"]);
     let tiles = into(place.path(), "tiles", &["--shard", "1/2", "--set", "render.tile_px=8"]);
     let narrowed = into(place.path(), "narrowed", &["--shard", "1/2", "--camera", "front"]);
-    let whole = into(place.path(), "whole", &[]);
+    let merged = into(place.path(), "whole", &[]);
     let output = place.path().join("out");
     let merge = |folders: &[&str]| etendue(["merge", "-o", &text(&output)].iter().chain(folders));
     merge(&[&a]).refused(&["1 of 2 shards"]);
@@ -146,7 +146,7 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     merge(&[&a, &other]).refused(&["other", "another run"]);
     merge(&[&a, &tiles]).refused(&["tiles", "another run"]);
     merge(&[&a, &narrowed]).refused(&["narrowed", "another run"]);
-    merge(&[&a, &whole]).refused(&["whole", "shard.json", "render --shard"]);
+    merge(&[&a, &merged]).refused(&["whole", "shard.json", "render --shard"]);
     fs::write(place.path().join("b/front.film.exr"), b"no film").expect("written");
     merge(&[&a, &b]).refused(&["front.film.exr"]);
     fs::write(place.path().join("b/shard.json"), b"{}").expect("written");
@@ -164,8 +164,8 @@ fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
     let output = place.path().join("out");
     let merge = || etendue(["merge", &a, &b, "-o", &text(&output)]);
     let good = fs::read(film(&b)).expect("a film");
-    let foreign = into(place.path(), "foreign", &["--spp", "8", "--shard", "1/2", "--seed", "99"]);
-    fs::copy(film(&foreign), film(&b)).expect("copied");
+    let other_run = into(place.path(), "foreign", &["--spp", "8", "--shard", "1/2", "--seed", "99"]);
+    fs::copy(film(&other_run), film(&b)).expect("copied");
     merge().refused(&["front.film.exr", "another plan", "render the shard again"]);
     fs::copy(film(&a), film(&b)).expect("copied");
     merge().refused(&["front.film.exr", "the shard 0/2, where 1/2 is expected"]);
@@ -187,15 +187,15 @@ fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
     merge().ok();
 }
 
-fn layer(channel: &ExrChannel) -> Layer<'_> {
+fn layer(channel: &ExrChannel) -> ExrLayer<'_> {
     match &channel.samples {
-        Samples::Half(values) | Samples::Float(values) => Layer::Float(values),
-        Samples::Uint(values) => Layer::Uint(values),
+        ExrSamples::Half(values) | ExrSamples::Float(values) => ExrLayer::Float(values),
+        ExrSamples::Uint(values) => ExrLayer::Uint(values),
     }
 }
 
 /// A film with other numbers and the same header.
-fn with_changed_numbers(film: &str, change: impl Fn(&str, &mut Samples)) {
+fn with_changed_numbers(film: &str, change: impl Fn(&str, &mut ExrSamples)) {
     let mut file = read_exr(Path::new(film)).expect("a film");
     file.channels.iter_mut().for_each(|channel| change(&channel.name, &mut channel.samples));
     let layers: Vec<_> = file.channels.iter().map(|channel| (channel.name.clone(), layer(channel))).collect();
@@ -212,28 +212,28 @@ fn films_that_are_not_complete_or_not_finite_are_not_merged() {
     let output = place.path().join("out");
     let merge = || etendue(["merge", &a, &b, "-o", &text(&output)]);
     let float = |name: &'static str, value: f32| {
-        move |channel: &str, samples: &mut Samples| match samples {
-            Samples::Float(values) if channel == name => values[3] = value,
+        move |channel: &str, samples: &mut ExrSamples| match samples {
+            ExrSamples::Float(values) if channel == name => values[3] = value,
             _ => {}
         }
     };
     let count = |name: &'static str, of: fn(u32) -> u32| {
-        move |channel: &str, samples: &mut Samples| match samples {
-            Samples::Uint(values) if channel == name => values.iter_mut().for_each(|n| *n = of(*n)),
+        move |channel: &str, samples: &mut ExrSamples| match samples {
+            ExrSamples::Uint(values) if channel == name => values.iter_mut().for_each(|n| *n = of(*n)),
             _ => {}
         }
     };
-    let refused = |change: &dyn Fn(&str, &mut Samples), why: &str| {
+    let assert_refused = |change: &dyn Fn(&str, &mut ExrSamples), why: &str| {
         with_changed_numbers(&film, change);
         merge().refused(&["front.film.exr", why, "render the shard again"]);
         fs::write(&film, &good).expect("written");
     };
-    refused(&float("weight", f32::NAN), "not finite");
-    refused(&float("band.0000.mean", f32::INFINITY), "not finite");
-    refused(&float("band.0000.variance", -1.0), "variances below 0");
-    refused(&count("samples", |_| 0), "it is incomplete");
-    refused(&count("samples", |_| 4), "it belongs to another shard");
-    refused(&count("not_finite", |_| 1), "not finite");
+    assert_refused(&float("weight", f32::NAN), "not finite");
+    assert_refused(&float("band.0000.mean", f32::INFINITY), "not finite");
+    assert_refused(&float("band.0000.variance", -1.0), "variances below 0");
+    assert_refused(&count("samples", |_| 0), "it is incomplete");
+    assert_refused(&count("samples", |_| 4), "it belongs to another shard");
+    assert_refused(&count("not_finite", |_| 1), "not finite");
     with_changed_numbers(&film, |_, _| {});
     assert!(!output.exists());
     merge().ok();
@@ -278,8 +278,8 @@ fn pictures_are_not_lost_to_their_plots_nor_cameras_to_measurements() {
 fn a_full_disk_is_no_success() {
     let full = std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
     let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_etendue"));
-    let ran = program.args(["schema", "job"]).stdout(full).output().expect("it runs");
-    assert_eq!(ran.status.code(), Some(1));
-    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
-    assert!(said.contains("cannot be written"), "{said}");
+    let output = program.args(["schema", "job"]).stdout(full).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(1));
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(stderr.contains("cannot be written"), "{stderr}");
 }

@@ -1,6 +1,6 @@
 //! Invalid sensors: each is reported with file, line and key, and nothing is written.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::etendue;
 
 const EFFICIENCY: &str = "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }";
@@ -9,17 +9,17 @@ const BITS: &str = "bits = 12";
 /// Asserts that the job with `from` replaced by `to` is refused `below` lines further, with all of `phrases`.
 #[track_caller]
 fn refused_below(below: usize, from: &str, to: &str, phrases: &[&str]) {
-    let spoilt = Spoilt::new();
-    let place = spoilt.spoil("small.toml", from, to);
-    refused(&spoilt, &place, below, phrases);
+    let job = ModifiedJob::new();
+    let place = job.replace_first("small.toml", from, to);
+    refused(&job, &place, below, phrases);
 }
 
 #[track_caller]
-fn refused(spoilt: &Spoilt, place: &str, below: usize, phrases: &[&str]) {
+fn refused(job: &ModifiedJob, place: &str, below: usize, phrases: &[&str]) {
     let (file, line) = place.split_once(':').expect("a line");
     let line = format!("{file}:{}:", line.parse::<usize>().expect("a number") + below);
     let phrases: Vec<&str> = [line.as_str()].into_iter().chain(phrases.iter().copied()).collect();
-    spoilt.render(&[]).refused(&phrases);
+    job.render(&[]).refused(&phrases);
 }
 
 #[test]
@@ -35,21 +35,21 @@ fn an_efficiency_below_nothing_or_above_all() {
 #[test]
 fn a_table_of_efficiencies_above_all() {
     for (table, phrase) in [("400,0.5\n550,1.4\n700,0.2\n", "1.4"), ("400,0.5\n550,-0.4\n700,0.2\n", "-0.4")] {
-        let spoilt = Spoilt::new();
-        spoilt.write("efficiency.csv", table);
-        let place = spoilt.spoil("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
-        refused(&spoilt, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "from 0 to 1"]);
+        let job = ModifiedJob::new();
+        job.write("efficiency.csv", table);
+        let place = job.replace_first("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
+        refused(&job, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "from 0 to 1"]);
     }
 }
 
 #[test]
 fn a_converter_without_gain() {
     // Without a gain it is unknown whether the ADC or the well saturates first: no value is assumed.
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "full_well_e = 12_000", "full_well_e = 1_000");
-    let table = spoilt.spoil("small.toml", "[cameras.sensor]", "[cameras.sensor]");
-    spoilt.spoil("small.toml", "gain_dn_per_e = 0.33\n", "");
-    refused(&spoilt, &table, 0, &["cameras.front.sensor", "\"gain_dn_per_e\" is missing"]);
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "full_well_e = 12_000", "full_well_e = 1_000");
+    let table = job.replace_first("small.toml", "[cameras.sensor]", "[cameras.sensor]");
+    job.replace_first("small.toml", "gain_dn_per_e = 0.33\n", "");
+    refused(&job, &table, 0, &["cameras.front.sensor", "\"gain_dn_per_e\" is missing"]);
 }
 
 #[test]
@@ -104,10 +104,10 @@ fn skipped_rows_that_cannot_be() {
 }
 
 #[test]
-fn a_fault_of_the_job_is_told_once_for_all_cameras() {
-    let ran = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7", "--set", "render.replicates=4"]);
-    let ran = ran.refused(&["7 samples cannot be divided equally among 4 replicates"]);
-    assert_eq!(ran.err.matches("cannot be divided equally").count(), 1, "{ran:?}");
+fn an_error_of_the_job_is_reported_once_for_all_cameras() {
+    let output = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7", "--set", "render.replicates=4"]);
+    let output = output.refused(&["7 samples cannot be divided equally among 4 replicates"]);
+    assert_eq!(output.err.matches("cannot be divided equally").count(), 1, "{output:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lenses as published by their makers: tables over the field and ray-transfer functions determine a camera, and invalid ones are reported.
 
 use crate::support::{etendue, root, text};
-use etendue_io::exr::{Samples, read_exr};
+use etendue_io::exr::{ExrSamples, read_exr};
 use serde_json::Value;
 use std::path::Path;
 
@@ -21,11 +21,11 @@ pub(crate) fn irradiance(folder: &Path, job: &str) -> Vec<f64> {
     etendue(["render", &text(&folder.join("job.toml")), "-o", &text(&out), "--overwrite"]).ok();
     let file = read_exr(&out.join("eye/irradiance.exr")).expect("readable");
     let band = file.channels.iter().find(|channel| channel.name.starts_with("S0.")).expect("the one band");
-    let Samples::Float(samples) = &band.samples else { panic!("not of 32-bit floats") };
+    let ExrSamples::Float(samples) = &band.samples else { panic!("not of 32-bit floats") };
     samples.iter().map(|v| f64::from(*v)).collect()
 }
 
-pub(crate) fn plan(folder: &Path, job: &str) -> crate::support::Ran {
+pub(crate) fn plan(folder: &Path, job: &str) -> crate::support::CommandOutput {
     std::fs::write(folder.join("job.toml"), job).expect("written");
     etendue(["plan", &text(&folder.join("job.toml"))])
 }
@@ -62,37 +62,37 @@ fn a_camera_falls_off_as_zemax_s_export_says() {
         let listing = export(&rows(sign, on_axis));
         let bytes = if wide { utf16(&listing) } else { listing.into_bytes() };
         std::fs::write(folder.path().join("ri.txt"), bytes).expect("written");
-        let found = irradiance(folder.path(), &job("", SENSOR, CALIBRATED, 64));
-        for (i, value) in found.iter().enumerate() {
+        let actual = irradiance(folder.path(), &job("", SENSOR, CALIBRATED, 64));
+        for (i, value) in actual.iter().enumerate() {
             let angle = ((i as f64 - 60.0) * 0.06 / 6.0).abs().to_degrees();
             let after = FIELDS.iter().position(|(field, _)| *field >= angle).expect("within the table").max(1);
             let [(a, from), (b, to)] = [FIELDS[after - 1], FIELDS[after]];
             let expected = from + (to - from) * (angle - a) / (b - a);
             // A pixel is 0.6° wide: at a kink of the table its mean deviates by up to 0.1 %.
-            assert!((value / found[60] - expected).abs() < 0.002, "{angle}°: {} for {expected}", value / found[60]);
+            assert!((value / actual[60] - expected).abs() < 0.002, "{angle}°: {} for {expected}", value / actual[60]);
         }
     }
-    let said = plan(folder.path(), &job("", SENSOR, CALIBRATED, 64)).ok().out;
-    assert!(said.contains("ri.txt") && said.contains("computed for 587.562 nm, taken for all wavelengths"), "{said}");
+    let output = plan(folder.path(), &job("", SENSOR, CALIBRATED, 64)).ok().out;
+    assert!(output.contains("ri.txt") && output.contains("computed for 587.562 nm, taken for all wavelengths"), "{output}");
 }
 
 #[test]
-fn exports_that_cannot_be_used_are_told_with_their_line() {
+fn unusable_exports_are_reported_with_their_line() {
     let folder = tempfile::tempdir().expect("a folder");
-    let whole = export(&rows(1.0, 1.0));
+    let listing_text = export(&rows(1.0, 1.0));
     for (listing, phrases) in [
-        (whole.replace("5.2", "-5.2"), &["ri.txt:14", "0 or more"][..]),
-        (whole.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "expected increasing distances from the axis"]),
-        (whole.replace("0.000000E0 ", "1.000000E0 "), &["ri.txt:11", "expected 0, the axis"]),
-        (whole.replace("degrees", "furlongs"), &["ri.txt", "does not state the unit of the fields"]),
-        (whole.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "object heights"]),
+        (listing_text.replace("5.2", "-5.2"), &["ri.txt:14", "0 or more"][..]),
+        (listing_text.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "expected increasing distances from the axis"]),
+        (listing_text.replace("0.000000E0 ", "1.000000E0 "), &["ri.txt:11", "expected 0, the axis"]),
+        (listing_text.replace("degrees", "furlongs"), &["ri.txt", "does not state the unit of the fields"]),
+        (listing_text.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "object heights"]),
         (
-            whole.replace("Relative Illumination", "Spots").replace("Rel. Ill.", "Size"),
+            listing_text.replace("Relative Illumination", "Spots").replace("Rel. Ill.", "Size"),
             &["ri.txt", "not an export of relative illumination"],
         ),
-        (whole.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers; expected 3"]),
-        (format!("{whole}\r\nsecond\r\n{}", rows(1.0, 1.0)), &["ri.txt:18", "second table"]),
-        (whole[..200].to_owned(), &["ri.txt", "no row of numbers"]),
+        (listing_text.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers; expected 3"]),
+        (format!("{listing_text}\r\nsecond\r\n{}", rows(1.0, 1.0)), &["ri.txt:18", "second table"]),
+        (listing_text[..200].to_owned(), &["ri.txt", "no row of numbers"]),
         (export(&rows(0.5, 1.0)), &["job.toml", "known to 20°", "extend it"]),
     ] {
         std::fs::write(folder.path().join("ri.txt"), &listing).expect("written");
@@ -126,13 +126,13 @@ fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
     let lens = transferred(&file, figures["film_mm"].as_f64().expect("mm"));
     // Pixels of 0.2 mm along a column, from the axis outwards.
     let sensor = "width_px = 1, height_px = 143, pixel_pitch_um = 200, principal_point_px = [0.5, 0.5]";
-    let found = irradiance(folder.path(), &job("", sensor, &lens, 4096));
+    let actual = irradiance(folder.path(), &job("", sensor, &lens, 4096));
     for (height, expected) in
         numbers(&figures["heights_mm"]).into_iter().zip(numbers(&figures["relative_illumination"]))
     {
         let at = (height / 0.2).round() as usize;
-        let near = &found[at.saturating_sub(2)..at + 3];
-        let axis = &found[..3];
+        let near = &actual[at.saturating_sub(2)..at + 3];
+        let axis = &actual[..3];
         let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         // Eight hundredths of the samples are blocked: 0.2 % of noise; the fall-off is averaged over half a millimetre.
         assert!(
@@ -141,14 +141,14 @@ fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
             mean(near) / mean(axis)
         );
     }
-    let said = plan(folder.path(), &job("", sensor, &lens, 2)).ok().out;
+    let output = plan(folder.path(), &job("", sensor, &lens, 2)).ok().out;
     for phrase in [
         "ray-transfer lens, 99.",
         "fitted to 550 nm, used for all wavelengths",
         "within 22.8 mm of the axis",
         "errors of the fit",
     ] {
-        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+        assert!(output.contains(phrase), "no {phrase} in\n{output}");
     }
 }
 
@@ -172,19 +172,19 @@ fn edges_look_as_published_ray_transfer_functions_make_them() {
             "width_px = 1, height_px = {}, pixel_pitch_um = 5, principal_point_px = [0.5, {middle:.6}]",
             expected.len()
         );
-        let [lit, whole] =
+        let [lit, unobstructed] =
             [&black[..], ""].map(|objects| irradiance(folder.path(), &job(objects, &sensor, &lens, 16384)));
         for (i, expected) in expected.iter().enumerate() {
-            let found = lit[i] / whole[i];
-            assert!((found - expected).abs() < 0.01, "{} mm, pixel {i}: {found} for {expected}", edge["height_mm"]);
+            let actual = lit[i] / unobstructed[i];
+            assert!((actual - expected).abs() < 0.01, "{} mm, pixel {i}: {actual} for {expected}", edge["height_mm"]);
         }
     }
 }
 
 #[test]
-fn ray_transfer_files_that_cannot_be_used_are_told() {
+fn unusable_ray_transfer_files_are_reported() {
     let (folder, (file, _)) = (tempfile::tempdir().expect("a folder"), published());
-    let whole = std::fs::read_to_string(file).expect("the published file");
+    let file_text = std::fs::read_to_string(file).expect("the published file");
     let sensor = "width_px = 9, height_px = 9, pixel_pitch_um = 900";
     for (was, is, phrases) in [
         ("\"minimalellipse\"", "\"neural\"", &["lens.json:12", "expected \"minimalellipse\" or \"circles\""][..]),
@@ -201,11 +201,11 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
         ("[5.315483154282251e-08", "[1e999", &["finite number"]),
         ("-0.01004348535911221", "0.01004348535911221", &["do not describe a lens that forms a real image"]),
     ] {
-        assert!(whole.contains(was), "{was}");
-        std::fs::write(folder.path().join("lens.json"), whole.replace(was, is)).expect("written");
+        assert!(file_text.contains(was), "{was}");
+        std::fs::write(folder.path().join("lens.json"), file_text.replace(was, is)).expect("written");
         plan(folder.path(), &job("", sensor, &transferred("lens.json", 57.315), 1)).refused(phrases);
     }
-    std::fs::write(folder.path().join("lens.json"), &whole).expect("written");
+    std::fs::write(folder.path().join("lens.json"), &file_text).expect("written");
     let near = plan(folder.path(), &job("", sensor, &transferred("lens.json", 0.005), 1));
     near.refused(&["job.toml", "sensor_distance_mm", "within the plane at 0.01 mm"]);
     let focus = transferred("lens.json", 1.0).replace("sensor_distance_mm = 1", "focus_distance_m = 0.001");
@@ -221,23 +221,23 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
 #[test]
 fn functions_of_several_wavelengths_are_read_in_any_order() {
     let (folder, (file, _)) = (tempfile::tempdir().expect("a folder"), published());
-    let mut whole: Value = serde_json::from_str(&std::fs::read_to_string(file).expect("the file")).expect("JSON");
-    let published = whole["polynomials"].clone();
+    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(file).expect("the file")).expect("JSON");
+    let published = document["polynomials"].clone();
     let published = if published.is_array() { published[0].clone() } else { published };
     let [mut blue, mut red] = [published.clone(), published];
     (blue["wavelength_nm"], red["wavelength_nm"]) = (450.into(), 650.into());
     let sensor = "width_px = 9, height_px = 9, pixel_pitch_um = 900";
-    let mut told = |first: &Value, second: &Value| {
-        whole["polynomials"] = serde_json::json!([first, second]);
-        std::fs::write(folder.path().join("lens.json"), whole.to_string()).expect("written");
+    let mut plan_output = |first: &Value, second: &Value| {
+        document["polynomials"] = serde_json::json!([first, second]);
+        std::fs::write(folder.path().join("lens.json"), document.to_string()).expect("written");
         plan(folder.path(), &job("", sensor, &transferred("lens.json", 57.315), 2))
     };
-    let orders = [told(&red, &blue).ok().out, told(&blue, &red).ok().out];
-    for said in orders {
+    let orders = [plan_output(&red, &blue).ok().out, plan_output(&blue, &red).ok().out];
+    for output in orders {
         let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and constant beyond";
-        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+        assert!(output.contains(phrase), "no {phrase} in\n{output}");
     }
-    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm appears twice"]);
+    plan_output(&red, &red).refused(&["lens.json:", "the wavelength 650 nm appears twice"]);
 }
 
 /// Shipped cameras with such lenses. ISET places this lens's film for infinity at 57.315 mm.
@@ -245,16 +245,16 @@ fn functions_of_several_wavelengths_are_read_in_any_order() {
 fn shipped_cameras_are_measured_as_their_files_say() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = root().join("scenes/cameras/ray-transfer.toml");
-    let said = etendue(["measure", "lens", &text(&camera)]).ok().out;
-    assert!(said.contains("ray-transfer lens, 99.56") && said.contains("f/2.99"), "{said}");
+    let output = etendue(["measure", "lens", &text(&camera)]).ok().out;
+    assert!(output.contains("ray-transfer lens, 99.56") && output.contains("f/2.99"), "{output}");
     let description = std::fs::read_to_string(&camera).expect("the camera file");
     assert!(description.contains("focus_distance_m = 25"), "{description}");
     let (file, _) = published();
     let far = description.replace("focus_distance_m = 25", "focus_distance_m = 1e9");
     let far = far.replace("../lenses/dgauss28deg-zemax-poly6-raytransfer.json", &file);
     std::fs::write(folder.path().join("far.toml"), far).expect("written");
-    let said = etendue(["measure", "lens", &text(&folder.path().join("far.toml"))]).ok().out;
-    assert!(said.contains("the sensor is 57.31"), "{said}");
-    let said = etendue(["measure", "lens", &text(&root().join("scenes/cameras/zemax-fall-off.toml"))]).ok().out;
-    assert!(said.contains("1.0000") && said.contains("relative-illumination.txt"), "{said}");
+    let output = etendue(["measure", "lens", &text(&folder.path().join("far.toml"))]).ok().out;
+    assert!(output.contains("the sensor is 57.31"), "{output}");
+    let output = etendue(["measure", "lens", &text(&root().join("scenes/cameras/zemax-fall-off.toml"))]).ok().out;
+    assert!(output.contains("1.0000") && output.contains("relative-illumination.txt"), "{output}");
 }

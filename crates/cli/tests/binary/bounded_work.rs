@@ -4,7 +4,7 @@ use crate::support::{BALL, etendue, text};
 use std::fs;
 use std::path::Path;
 
-fn plan_of(folder: &Path, scene: &str) -> crate::support::Ran {
+fn plan_of(folder: &Path, scene: &str) -> crate::support::CommandOutput {
     let job = folder.join("job.toml");
     fs::write(&job, format!("{BALL}{scene}[sequence]\nframe_rate_hz = 20\n")).expect("written");
     etendue(["plan", &text(&job)])
@@ -73,16 +73,16 @@ fn a_side_car_beyond_the_limit_is_refused_by_its_size() {
     let folder = place.path().join("out");
     fs::create_dir(&folder).expect("made");
     let checker = crate::support::tests().join("jobs/small/checker.png");
-    let picture = folder.join("picture.0000.png");
-    fs::copy(checker, &picture).expect("copied");
+    let image = folder.join("picture.0000.png");
+    fs::copy(checker, &image).expect("copied");
     let sparse = fs::File::create(folder.join("camera.json")).expect("a file");
     sparse.set_len(3 << 30).expect("sparse");
     let message = ["camera.json", "the file has 3072 MiB", "--limit description-mib=3072"];
     etendue(["view", &text(&folder), "-o", &text(&place.path().join("page")), "--no-open"]).refused(&message);
     etendue(["inspect", &text(&folder.join("camera.json"))]).refused(&["camera.json", "3072 MiB"]);
-    etendue(["measure", "sfr", &text(&picture)]).refused(&message);
+    etendue(["measure", "sfr", &text(&image)]).refused(&message);
     fs::write(folder.join("camera.json"), "{ \"program\": \"etendue\", ").expect("written");
     etendue(["view", &text(&folder), "-o", &text(&place.path().join("page")), "--no-open"])
         .refused(&["camera.json", "not JSON"]);
-    etendue(["measure", "sfr", &text(&picture)]).refused(&["camera.json", "not JSON"]);
+    etendue(["measure", "sfr", &text(&image)]).refused(&["camera.json", "not JSON"]);
 }

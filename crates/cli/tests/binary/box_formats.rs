@@ -23,13 +23,13 @@ const CENTRE_M: [f64; 3] = [10.0, 2.0, 0.65];
 const TURNS_DEG: [f64; 4] = [0.0, 40.0, -90.0, 170.0];
 
 /// A data set and a rendering of the car.
-struct Export {
+struct ExportedBoxes {
     folder: tempfile::TempDir,
     turn_deg: f64,
     case: String,
 }
 
-impl Export {
+impl ExportedBoxes {
     fn new(forward: &str, up: &str, turn_deg: f64) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("car.obj"), obj(forward, up)).expect("written");
@@ -53,8 +53,8 @@ impl Export {
         serde_json::from_slice(&bytes).expect("JSON")
     }
 
-    fn assert(&self, format: &str, found: &[f64], expected: &[f64]) {
-        assert_near(found, expected, &format!("{format}, {}", self.case));
+    fn assert(&self, format: &str, actual: &[f64], expected: &[f64]) {
+        assert_near(actual, expected, &format!("{format}, {}", self.case));
     }
 
     /// Returns sine and cosine of half the rotation angle.
@@ -75,7 +75,7 @@ fn positive(mut quaternion: Vec<f64>, w: usize) -> Vec<f64> {
 fn every_format_has_the_size_and_the_heading_of_its_convention() {
     for (forward, up) in AXES {
         for turn_deg in TURNS_DEG {
-            let export = Export::new(forward, up, turn_deg);
+            let export = ExportedBoxes::new(forward, up, turn_deg);
             check_kitti(&export);
             check_own(&export);
             check_nuscenes(&export);
@@ -86,7 +86,7 @@ fn every_format_has_the_size_and_the_heading_of_its_convention() {
     }
 }
 
-fn check_kitti(export: &Export) {
+fn check_kitti(export: &ExportedBoxes) {
     let label_row = label(&export.path("set"));
     export.assert("KITTI", &label_row[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
     // Modulo 360°: −90° minus the rotation about z, as y points down.
@@ -94,7 +94,7 @@ fn check_kitti(export: &Export) {
     export.assert("KITTI", &[heading.0, heading.1], &[expected.0, expected.1]);
 }
 
-fn check_own(export: &Export) {
+fn check_own(export: &ExportedBoxes) {
     let (sin, cos) = export.half_turn();
     let (boxes, tracks) = (export.json("out/front/boxes.json"), export.json("out/front/tracks.json"));
     for (name, object) in [("boxes", &boxes["objects"][0]), ("tracks", &tracks["tracks"][0]["frames"][0])] {
@@ -105,7 +105,7 @@ fn check_own(export: &Export) {
     }
 }
 
-fn check_nuscenes(export: &Export) {
+fn check_nuscenes(export: &ExportedBoxes) {
     let (sin, cos) = export.half_turn();
     let annotation = &export.json("set/nuscenes/v1.0-train/sample_annotation.json")[0];
     export.assert("nuScenes", &numbers(&annotation["size"]), &[SIZE_M.y, SIZE_M.x, SIZE_M.z]);
@@ -113,7 +113,7 @@ fn check_nuscenes(export: &Export) {
     export.assert("nuScenes", &positive(numbers(&annotation["rotation"]), 0), &[cos, 0.0, 0.0, sin]);
 }
 
-fn check_openlabel(export: &Export) {
+fn check_openlabel(export: &ExportedBoxes) {
     let (sin, cos) = export.half_turn();
     let content = export.json("set/openlabel/train/000000.json");
     let objects = content["openlabel"]["frames"]["0"]["objects"].as_object().expect("objects").clone();
@@ -125,7 +125,7 @@ fn check_openlabel(export: &Export) {
 }
 
 /// `GroundTruth.moving_object` (5), `MovingObject.base` (2), `BaseMoving`: dimension (1), position (2), orientation (3).
-fn check_osi(export: &Export) {
+fn check_osi(export: &ExportedBoxes) {
     let folder = export.path("set/osi/train");
     let file = fs::read_dir(&folder).expect("a folder").next().expect("a trace").expect("a trace").path();
     let trace = fs::read(file).expect("a trace");
@@ -140,7 +140,7 @@ fn check_osi(export: &Export) {
 
 /// The object's x is (−sin, 0, cos) in the camera's axes. The camera looks along the world's x: its x is the world's −y, its y the world's −z, its z
 /// the world's x.
-fn check_bop(export: &Export) {
+fn check_bop(export: &ExportedBoxes) {
     let (sin, cos) = sin_cos(export.turn_deg.to_radians());
     let poses = export.json("set/bop/train/000000/scene_gt.json");
     let pose = &poses["0"][0];
@@ -156,7 +156,7 @@ fn check_bop(export: &Export) {
 }
 
 /// Returns the bytes of the first length-delimited field with the number `wanted` in a protobuf message.
-fn field(mut message: &[u8], wanted: u64) -> &[u8] {
+fn field(mut message: &[u8], number: u64) -> &[u8] {
     while !message.is_empty() {
         let key = varint(&mut message);
         let length = match key & 7 {
@@ -168,12 +168,12 @@ fn field(mut message: &[u8], wanted: u64) -> &[u8] {
             _ => varint(&mut message) as usize,
         };
         let (content, rest) = message.split_at(length);
-        if key == wanted << 3 | 2 {
+        if key == number << 3 | 2 {
             return content;
         }
         message = rest;
     }
-    panic!("no field {wanted}")
+    panic!("no field {number}")
 }
 
 fn varint(bytes: &mut &[u8]) -> u64 {

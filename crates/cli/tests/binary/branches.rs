@@ -11,33 +11,33 @@ fn job(folder: &Path, render: &str) -> String {
 }
 
 #[test]
-fn the_plan_tells_branches_and_refuses_what_they_exclude() {
+fn the_plan_reports_branches_and_refuses_what_they_exclude() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let plan = etendue(["plan", &job(place.path(), "branches = 4\n")]).ok().out;
     assert!(plan.contains("4 lights are sampled and 4 paths continue at each sample's first surface"), "{plan}");
-    let refused = |render: &str, told: &[&str]| {
-        etendue(["plan", &job(place.path(), render)]).refused(told);
+    let assert_refused = |render: &str, phrases: &[&str]| {
+        etendue(["plan", &job(place.path(), render)]).refused(phrases);
     };
     let exclude = "\"path_reuse_px\" and \"branches\" = 4 exclude each other";
     let both = job(place.path(), "branches = 4\npath_reuse_px = 2\n");
     etendue(["plan", &both]).refused(&["job.toml", exclude, "give one of the two"]);
-    refused("branches = 0\n", &["job.toml", "branches: found 0"]);
-    refused("branches = 65\n", &["job.toml", "branches: found 65"]);
+    assert_refused("branches = 0\n", &["job.toml", "branches: found 0"]);
+    assert_refused("branches = 65\n", &["job.toml", "branches: found 65"]);
     let direct = ["job.toml", "\"branches\" has no effect here, it belongs to integrator = \"path\""];
-    refused("branches = 4\nintegrator = \"direct\"\n", &direct[1..]);
+    assert_refused("branches = 4\nintegrator = \"direct\"\n", &direct[1..]);
     // The command line overrides a file.
     let branched = job(place.path(), "branches = 4\n");
-    let ran = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
-    assert!(ran.err.contains("supersedes") && ran.err.contains("branches"), "{}", ran.err);
+    let output = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
+    assert!(output.err.contains("supersedes") && output.err.contains("branches"), "{}", output.err);
     assert!(
-        ran.out.contains("tails of the paths of 4 pixels") && !ran.out.contains("lights are sampled"),
+        output.out.contains("tails of the paths of 4 pixels") && !output.out.contains("lights are sampled"),
         "{}",
-        ran.out
+        output.out
     );
     let sharing = job(place.path(), "path_reuse_px = 2\n");
-    let ran = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
-    assert!(ran.err.contains("supersedes") && ran.err.contains("path_reuse_px"), "{}", ran.err);
-    assert!(!ran.out.contains("tails of the paths") && ran.out.contains("4 lights are sampled"), "{}", ran.out);
+    let output = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
+    assert!(output.err.contains("supersedes") && output.err.contains("path_reuse_px"), "{}", output.err);
+    assert!(!output.out.contains("tails of the paths") && output.out.contains("4 lights are sampled"), "{}", output.out);
     etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
     etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
 }

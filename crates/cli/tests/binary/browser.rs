@@ -9,7 +9,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Timeout for a page to draw; a busy machine is slow.
-const PATIENCE: Duration = Duration::from_secs(120);
+const TIMEOUT: Duration = Duration::from_secs(120);
 
 /// A browser with one page.
 pub(crate) struct Browser {
@@ -96,8 +96,8 @@ impl Browser {
     /// The value of an expression in the page.
     #[track_caller]
     pub(crate) fn value(&mut self, expression: &str) -> Value {
-        let asked = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
-        let mut answer = self.call("Runtime.evaluate", asked);
+        let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let mut answer = self.call("Runtime.evaluate", parameters);
         assert!(answer["exceptionDetails"].is_null(), "{expression}: {}", answer["exceptionDetails"]);
         answer["result"]["value"].take()
     }
@@ -112,7 +112,7 @@ impl Browser {
 
     /// Navigates to another address of the same page.
     #[track_caller]
-    pub(crate) fn look(&mut self, address: &str) {
+    pub(crate) fn navigate(&mut self, address: &str) {
         self.value(&format!("document.body.dataset.state = 'asked'; location.hash = {}", json!(address)));
         self.ready();
     }
@@ -125,7 +125,7 @@ impl Browser {
             match self.value("document.body?.dataset.state ?? ''").as_str() {
                 Some("ready") => return,
                 Some("fault") => panic!("{}", self.value("document.querySelector('#fault').textContent")),
-                state => assert!(begun.elapsed() < PATIENCE, "the page is {state:?}"),
+                state => assert!(begun.elapsed() < TIMEOUT, "the page is {state:?}"),
             }
             sleep(Duration::from_millis(20));
         }
@@ -134,8 +134,8 @@ impl Browser {
     /// Text of an element.
     #[track_caller]
     pub(crate) fn text(&mut self, selector: &str) -> String {
-        let told = self.value(&format!("document.querySelector({}).textContent", json!(selector)));
-        told.as_str().expect("a text").to_owned()
+        let content = self.value(&format!("document.querySelector({}).textContent", json!(selector)));
+        content.as_str().expect("a text").to_owned()
     }
 
     /// Numbers of the rows with this name next to the panes: one for each result.
@@ -145,9 +145,9 @@ impl Browser {
             "[...document.querySelectorAll('aside td[data-name]')].filter((td) => td.dataset.name === {})",
             json!(name)
         );
-        let told = self.value(&format!("{cells}.map((td) => td.dataset.value)"));
-        let told = told.as_array().unwrap_or_else(|| panic!("no rows {name}")).clone();
-        told.iter().map(|v| v.as_str().and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)).collect()
+        let values = self.value(&format!("{cells}.map((td) => td.dataset.value)"));
+        let values = values.as_array().unwrap_or_else(|| panic!("no rows {name}")).clone();
+        values.iter().map(|v| v.as_str().and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)).collect()
     }
 
     pub(crate) fn key(&mut self, key: &str) {

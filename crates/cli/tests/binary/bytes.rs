@@ -22,7 +22,7 @@ fn with<'a>(route: &[&'a str], further: &[&'a str]) -> Vec<&'a str> {
     [route, further].concat()
 }
 
-fn same_however_it_is_cut(route: &[&str]) {
+fn assert_same_in_parts(route: &[&str]) {
     let expected = rendered(&small(), &with(route, &["--threads", "1"]));
     assert_eq!(expected.keys().map(String::as_str).collect::<Vec<_>>(), FILES);
     for options in [
@@ -57,22 +57,22 @@ fn merged(options: &[&str], count: u32) -> BTreeMap<String, Vec<u8>> {
 
 #[test]
 fn threads_tiles_shards_and_instruction_sets_do_not_change_a_byte() {
-    same_however_it_is_cut(&[]);
+    assert_same_in_parts(&[]);
 }
 
 #[test]
 fn nor_by_the_route_over_the_pupil() {
-    same_however_it_is_cut(&PUPIL);
+    assert_same_in_parts(&PUPIL);
 }
 
 #[test]
 fn nor_where_paths_share_their_tails() {
-    same_however_it_is_cut(&["--set", "render.path_reuse_px=4"]);
+    assert_same_in_parts(&["--set", "render.path_reuse_px=4"]);
 }
 
 #[test]
 fn nor_where_paths_branch() {
-    same_however_it_is_cut(&["--set", "render.branches=3"]);
+    assert_same_in_parts(&["--set", "render.branches=3"]);
     let branched = rendered(&small(), &["--set", "render.branches=3"]);
     assert_ne!(
         branched["front/radiance.exr"],
@@ -83,7 +83,7 @@ fn nor_where_paths_branch() {
 
 #[test]
 fn nor_where_paths_before_the_picture_guide_its_own() {
-    same_however_it_is_cut(&["--set", "render.guiding=true"]);
+    assert_same_in_parts(&["--set", "render.guiding=true"]);
     let guided = rendered(&small(), &["--set", "render.guiding=true"]);
     assert_ne!(guided["front/radiance.exr"], rendered(&small(), &[])["front/radiance.exr"], "the guide leads paths");
 }
@@ -144,15 +144,15 @@ fn another_camera_of_the_job_changes_nothing_of_the_first() {
 #[test]
 fn exposing_stored_radiance_is_rendering_by_the_pupil() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let (scene, taken) = (place.path().join("scene"), place.path().join("taken"));
+    let (scene, exposed_folder) = (place.path().join("scene"), place.path().join("taken"));
     let job = small();
     etendue(with(&["render", &job, "-o", &text(&scene), "--frames", "0..2"], &PUPIL)).ok();
     let camera = place.path().join("front.toml");
     std::fs::write(&camera, camera_of(&job)).expect("written");
     let radiance = text(&scene.join("front/radiance.exr"));
     let options = ["--camera", &text(&camera), "--frames", "0..2"];
-    etendue(["expose", &radiance, "-o", &text(&taken)].into_iter().chain(options)).ok();
-    let (rendered, exposed) = (contents(&scene), contents(&taken));
+    etendue(["expose", &radiance, "-o", &text(&exposed_folder)].into_iter().chain(options)).ok();
+    let (rendered, exposed) = (contents(&scene), contents(&exposed_folder));
     for name in ["raw.0000.png", "raw.0001.png", "picture.0000.png", "picture.0001.png"] {
         let name = format!("front/{name}");
         assert!(rendered[&name] == exposed[&name], "{name} has other bytes");
@@ -171,12 +171,12 @@ fn camera_of(job: &str) -> String {
 fn a_reader_of_the_results_finds_their_names_on_stdout() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let output = place.path().join("out");
-    let ran = etendue(["render", &small(), "-o", &text(&output)]).ok();
-    let mut told: Vec<&str> = ran.out.lines().collect();
-    told.sort_unstable();
+    let run = etendue(["render", &small(), "-o", &text(&output)]).ok();
+    let mut names: Vec<&str> = run.out.lines().collect();
+    names.sort_unstable();
     let expected: Vec<String> = FILES.iter().map(|name| text(&output.join(name))).collect();
-    assert_eq!(told, expected);
+    assert_eq!(names, expected);
     // No progress bar without a terminal: only the levels of the frames.
-    let levels: Vec<&str> = ran.err.lines().collect();
-    assert!(matches!(levels[..], [front] if front.starts_with("note: camera front: mean level")), "{}", ran.err);
+    let levels: Vec<&str> = run.err.lines().collect();
+    assert!(matches!(levels[..], [front] if front.starts_with("note: camera front: mean level")), "{}", run.err);
 }

@@ -1,6 +1,6 @@
 //! Cameras from laboratory folders: rendered ones with a known camera, OpenCV's photographs, and unusable folders.
 
-use crate::support::{Ran, etendue, root, text};
+use crate::support::{CommandOutput, etendue, root, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -22,12 +22,12 @@ fn laboratory() -> &'static Path {
     FOLDER.get_or_init(|| {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("laboratory");
         let _ = std::fs::remove_dir_all(&folder);
-        photographed("charts/ccd-mono/camera.toml", &SMALL, &folder);
+        render_laboratory("charts/ccd-mono/camera.toml", &SMALL, &folder);
         folder
     })
 }
 
-fn photographed(camera: &str, set: &[&str], folder: &Path) {
+fn render_laboratory(camera: &str, set: &[&str], folder: &Path) {
     let to = text(folder);
     let sizes = ["--levels", "8", "--stack", "8", "--views", "5", "--spp", "16"];
     let set = set.iter().flat_map(|change| ["--set", change]);
@@ -56,11 +56,11 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-fn characterised(folder: &Path, options: &[&str]) -> (Ran, tempfile::TempDir) {
+fn characterised(folder: &Path, options: &[&str]) -> (CommandOutput, tempfile::TempDir) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (folder, to) = (text(folder), text(&place.path().join("found.toml")));
-    let ran = etendue(["characterise", &folder, "-o", &to].into_iter().chain(options.iter().copied()));
-    (ran, place)
+    let output = etendue(["characterise", &folder, "-o", &to].into_iter().chain(options.iter().copied()));
+    (output, place)
 }
 
 fn json(place: &tempfile::TempDir) -> Value {
@@ -70,10 +70,10 @@ fn json(place: &tempfile::TempDir) -> Value {
 
 #[test]
 fn a_rendered_laboratory_gives_its_camera_back() {
-    let (ran, place) = characterised(laboratory(), &[]);
-    ran.ok();
+    let (output, place) = characterised(laboratory(), &[]);
+    output.ok();
     let report = json(&place);
-    let found = &report["parameters"];
+    let parameters = &report["parameters"];
     // Values of the camera file, the principal distance of a lens of 8 mm focused at 10 m; four standard uncertainties, of 21 numbers with this seed.
     let fx = 8.0 * 10.0 / (10.0 - 0.008) / 0.0332;
     for (key, declared) in [
@@ -94,23 +94,23 @@ fn a_rendered_laboratory_gives_its_camera_back() {
         ("sensor.crosstalk.horizontal", 0.0),
         ("sensor.crosstalk.vertical", 0.0),
     ] {
-        let (value, u) = (&found[key]["value"], &found[key]["standard_uncertainty"]);
+        let (value, u) = (&parameters[key]["value"], &parameters[key]["standard_uncertainty"]);
         let (value, u) = (value.as_f64().expect(key), u.as_f64().expect(key));
         assert!((value - declared).abs() <= 4.0 * u, "{key}: {value} ± {u}, declared {declared}");
     }
-    let u = |key: &str| found[key]["standard_uncertainty"].as_f64().expect(key);
-    assert!(u("lens.projection.fx_px") < 0.005 * fx && u("sensor.gain_dn_per_e") < 0.01, "{found:#}");
+    let u = |key: &str| parameters[key]["standard_uncertainty"].as_f64().expect(key);
+    assert!(u("lens.projection.fx_px") < 0.005 * fx && u("sensor.gain_dn_per_e") < 0.01, "{parameters:#}");
     assert_eq!(report["stand_ins"].as_array().map(Vec::len), Some(0), "{report:#}");
-    let said = report["not_known"].to_string();
-    assert!(said.contains("hot pixels") && said.contains("one wavelength"), "{said}");
+    let not_known = report["not_known"].to_string();
+    assert!(not_known.contains("hot pixels") && not_known.contains("one wavelength"), "{not_known}");
     page_is_whole(&place);
     // The file is a valid camera.
     let camera = text(&place.path().join("found.toml"));
     let lens = etendue(["measure", "lens", &camera, "--json"]).ok().out;
     let lens: Value = serde_json::from_str(&lens).expect("JSON");
     assert!(lens.is_object());
-    let again = etendue(["characterise", &text(laboratory()), "-o", &camera]);
-    again.refused(&["found.toml", "already"]);
+    let repeated = etendue(["characterise", &text(laboratory()), "-o", &camera]);
+    repeated.refused(&["found.toml", "already"]);
 }
 
 /// The views of a mosaic are measured raw, and its colours by their filters.
@@ -118,18 +118,18 @@ fn a_rendered_laboratory_gives_its_camera_back() {
 fn a_camera_in_colour_is_given_back_from_raw_mosaics() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let lab = place.path().join("laboratory");
-    photographed(
+    render_laboratory(
         "charts/web/camera.toml",
         &["sensor.width_px=240", "sensor.height_px=192", "sensor.pixel_pitch_um=19.2"],
         &lab,
     );
-    let (ran, place) = characterised(&lab, &[]);
-    ran.ok();
+    let (output, place) = characterised(&lab, &[]);
+    output.ok();
     let report = json(&place);
-    let found = &report["parameters"];
+    let parameters = &report["parameters"];
     // Values of the camera file, the principal distance of a lens of 4 mm focused at 2 m; four standard uncertainties, of 7 numbers with this seed.
     let fx = 4.0 * 2.0 / (2.0 - 0.004) / 0.0192;
-    for (key, declared, most) in [
+    for (key, declared, tolerance) in [
         ("lens.projection.fx_px", fx, 0.5),
         ("lens.projection.cx_px", 120.0, 0.2),
         ("lens.projection.cy_px", 96.0, 0.2),
@@ -138,11 +138,11 @@ fn a_camera_in_colour_is_given_back_from_raw_mosaics() {
         ("sensor.gain_dn_per_e", 0.106, 0.01),
         ("sensor.quantum_efficiency.green", 0.240_69, 0.01),
     ] {
-        let (value, u) = (&found[key]["value"], &found[key]["standard_uncertainty"]);
+        let (value, u) = (&parameters[key]["value"], &parameters[key]["standard_uncertainty"]);
         let (value, u) = (value.as_f64().expect(key), u.as_f64().expect(key));
-        assert!((value - declared).abs() <= 4.0 * u && u < most, "{key}: {value} ± {u}, declared {declared}");
+        assert!((value - declared).abs() <= 4.0 * u && u < tolerance, "{key}: {value} ± {u}, declared {declared}");
     }
-    assert!(found["isp.colour_matrix.green.green"]["value"].as_f64().is_some_and(|v| v > 1.0), "{found:#}");
+    assert!(parameters["isp.colour_matrix.green.green"]["value"].as_f64().is_some_and(|v| v > 1.0), "{parameters:#}");
 }
 
 /// One file with every part, without references to other files.
@@ -166,28 +166,28 @@ fn page_is_whole(place: &tempfile::TempDir) {
 }
 
 #[test]
-fn what_is_missing_is_said_and_left_out_or_a_base_s() {
+fn missing_data_is_reported_and_omitted_or_taken_from_a_base() {
     let some = part(&["dark", "flat"]);
-    let (ran, place) = characterised(some.path(), &[]);
-    ran.ok().says(&["not known: focal length", "no images in chart/"]);
+    let (output, place) = characterised(some.path(), &[]);
+    output.ok().says(&["not known: focal length", "no images in chart/"]);
     let report = json(&place);
     assert!(
         report["parameters"]["sensor.gain_dn_per_e"].is_object()
             && report["parameters"]["lens.projection.fx_px"].is_null()
     );
     assert!(report["stand_ins"].to_string().contains("lens.f_number"), "{report:#}");
-    let whole = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
-    assert!(whole.contains("f_number = 4") && whole.contains("a placeholder: not measured"), "{whole}");
+    let camera_text = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
+    assert!(camera_text.contains("f_number = 4") && camera_text.contains("a placeholder: not measured"), "{camera_text}");
     let amplified = text(&root().join("scenes/cameras/web-night.toml"));
-    let (ran, _) = characterised(some.path(), &["--base", &amplified]);
-    ran.refused(&["web-night.toml", "sensor.analogue_gain", "which already includes it"]);
+    let (output, _) = characterised(some.path(), &["--base", &amplified]);
+    output.refused(&["web-night.toml", "sensor.analogue_gain", "which already includes it"]);
     let base = text(&root().join("scenes/cameras/ccd-mono.toml"));
-    let (ran, place) = characterised(some.path(), &["--base", &base]);
-    ran.ok();
-    let laid_over = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
+    let (output, place) = characterised(some.path(), &["--base", &base]);
+    output.ok();
+    let merged_text = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
     assert!(
-        !laid_over.contains("stand-in") && !laid_over.contains("[lens]") && laid_over.contains("base = "),
-        "{laid_over}"
+        !merged_text.contains("stand-in") && !merged_text.contains("[lens]") && merged_text.contains("base = "),
+        "{merged_text}"
     );
     etendue(["measure", "lens", &text(&place.path().join("found.toml"))]).ok();
 }
@@ -209,33 +209,33 @@ fn folders_that_cannot_be_used_are_refused() {
     let lab = part(&["dark", "flat"]);
     let (flat, dark) = (lab.path().join("flat"), lab.path().join("dark"));
     let frame = first(&flat, "raw.0000.png");
-    let refused = |phrases: &[&str]| {
-        let (ran, place) = characterised(lab.path(), &[]);
-        ran.refused(phrases);
+    let assert_refused = |phrases: &[&str]| {
+        let (output, place) = characterised(lab.path(), &[]);
+        output.refused(phrases);
         assert_eq!(std::fs::read_dir(place.path()).expect("a folder").count(), 0, "nothing is written");
     };
     // A copy under another name.
     let copied = frame.with_file_name("raw.0900.png");
     std::fs::copy(&frame, &copied).expect("copied");
-    refused(&["raw.0900.png", "copy of", "raw.0000.png"]);
+    assert_refused(&["raw.0900.png", "copy of", "raw.0000.png"]);
     std::fs::remove_file(&copied).expect("removed");
     // Another camera.
     let other = root().join("tests/oracles/figures/checkerboard/left05.jpg");
     std::fs::copy(other, dark.join("other.jpg")).expect("copied");
-    refused(&["other.jpg", "camera or setting differs", "640 × 480 pixels", "194 × 146 pixels"]);
+    assert_refused(&["other.jpg", "camera or setting differs", "640 × 480 pixels", "194 × 146 pixels"]);
     std::fs::remove_file(dark.join("other.jpg")).expect("removed");
     // A truncated file.
     let bytes = std::fs::read(&frame).expect("a picture");
     std::fs::write(&frame, &bytes[..bytes.len() / 2]).expect("written");
-    refused(&["raw.0000.png"]);
+    assert_refused(&["raw.0000.png"]);
     std::fs::write(&frame, &bytes).expect("written");
     // A key without effect, and an unknown key.
     let file = lab.path().join("laboratory.toml");
     let stated = std::fs::read_to_string(&file).expect("text");
     std::fs::write(&file, format!("{stated}\n[chart]\npitch_mm = 30\n")).expect("written");
-    refused(&["laboratory.toml", "[chart] has no effect without a folder chart/"]);
+    assert_refused(&["laboratory.toml", "[chart] has no effect without a folder chart/"]);
     std::fs::write(&file, "format = 1\npixel_pich_um = 3\n").expect("written");
-    refused(&["laboratory.toml:2", "pixel_pich_um", "pixel_pitch_um"]);
+    assert_refused(&["laboratory.toml:2", "pixel_pich_um", "pixel_pitch_um"]);
     std::fs::write(&file, &stated).expect("written");
     // Flats at ten times saturation.
     std::fs::remove_dir_all(&flat).expect("removed");
@@ -256,7 +256,7 @@ fn folders_that_cannot_be_used_are_refused() {
         ];
         etendue(["flat", &camera, "-o", &to].into_iter().chain(light)).ok();
     }
-    refused(&["flat/: 4 of 4 frames are saturated", "reduce the exposure"]);
+    assert_refused(&["flat/: 4 of 4 frames are saturated", "reduce the exposure"]);
     let empty = tempfile::tempdir().expect("a temporary folder");
     characterised(empty.path(), &[])
         .0
@@ -267,18 +267,18 @@ fn folders_that_cannot_be_used_are_refused() {
 /// OpenCV's own photographs of its checkerboard: they determine a calibration, and nothing else.
 #[test]
 fn photographs_of_a_checkerboard_give_a_calibration_and_no_more() {
-    let photographs = root().join("tests/oracles/figures/checkerboard");
+    let captures = root().join("tests/oracles/figures/checkerboard");
     let lab = tempfile::tempdir().expect("a temporary folder");
     let chart = lab.path().join("chart");
     std::fs::create_dir(&chart).expect("a folder");
     for i in (1..=14).filter(|i| *i != 10) {
         let name = format!("left{i:02}.jpg");
-        std::fs::copy(photographs.join(&name), chart.join(&name)).expect("copied");
+        std::fs::copy(captures.join(&name), chart.join(&name)).expect("copied");
     }
     std::fs::write(lab.path().join("laboratory.toml"), "format = 1\n[chart]\npitch_mm = 30\ngrid = [9, 6]\n")
         .expect("written");
-    let (ran, place) = characterised(lab.path(), &[]);
-    ran.ok().says(&["not known: gain", "no images in dark/"]);
+    let (output, place) = characterised(lab.path(), &[]);
+    output.ok().says(&["not known: gain", "no images in dark/"]);
     let report = json(&place);
     // OpenCV's calibration of the same photographs by its own corners (docs/measurements.md, k1 k2 p1 p2 k3): 532.8, 342.5 + 0.5, with an uncertainty
     // of 0.5.

@@ -32,9 +32,9 @@ const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 
                       0\ngain_dn_per_e = 0.2\nblack_level_dn = 50\nbits = 12\n[sensor.auto_exposure]\npercentile = 90\ntarget = \
                       0.5\nexposure_limits_s = [1e-4, 0.1]\ngain_limits = [1, 2]\n";
 
-struct Place(tempfile::TempDir);
+struct ChartFolder(tempfile::TempDir);
 
-impl Place {
+impl ChartFolder {
     fn new() -> Self {
         let place = tempfile::tempdir().expect("a temporary folder");
         std::fs::write(place.path().join("small.toml"), CAMERA).expect("written");
@@ -70,7 +70,7 @@ fn point3(value: &Value) -> [f64; 3] {
 
 #[test]
 fn every_chart_is_a_job_that_compiles() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     for name in CHARTS {
         let folder = place.chart(name, &["--png", "5"][..if name == "depth-wedge" { 0 } else { 2 }]);
         etendue(["plan", &text(&folder.join("job.toml"))]).ok();
@@ -84,22 +84,22 @@ fn every_chart_is_a_job_that_compiles() {
 
 #[test]
 fn the_same_seed_makes_the_same_files_and_another_other_leaves() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     let folder = place.chart("dead-leaves", &[]);
     let camera = text(&place.path("small.toml"));
     for (seed, same) in [("0", true), ("1", false)] {
-        let again = place.path(seed);
-        etendue(["chart", "dead-leaves", "--camera", &camera, "--seed", seed, "-o", &text(&again)]).ok();
+        let repeated = place.path(seed);
+        etendue(["chart", "dead-leaves", "--camera", &camera, "--seed", seed, "-o", &text(&repeated)]).ok();
         let read = |folder: &Path, file| std::fs::read(folder.join(file)).expect("a file");
         for file in ["truth.json", "leaves.png"] {
-            assert_eq!(read(&folder, file) == read(&again, file), same, "{file}");
+            assert_eq!(read(&folder, file) == read(&repeated, file), same, "{file}");
         }
     }
 }
 
 #[test]
-fn stand_ins_bring_their_file_and_views_their_poses() {
-    let place = Place::new();
+fn reference_cameras_bring_their_file_and_views_their_poses() {
+    let place = ChartFolder::new();
     let folder = text(&place.path("views"));
     etendue(["chart", "checkerboard", "--camera", "ccd-mono", "--views", "5", "-o", &folder]).ok();
     etendue(["plan", &format!("{folder}/job.toml")]).ok();
@@ -114,7 +114,7 @@ fn stand_ins_bring_their_file_and_views_their_poses() {
 /// Ground-truth positions, rendered by the tracer, agree with the features of the reference data; and the dots' centroids agree with it.
 #[test]
 fn dots_are_rendered_where_the_truth_says() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     let folder = place.chart("dots", &["--columns", "8", "--distance-m", "2"]);
     let out = text(&place.path("out"));
     let job = text(&folder.join("job.toml"));
@@ -125,16 +125,16 @@ fn dots_are_rendered_where_the_truth_says() {
     let planes = ["P.X", "P.Y", "P.Z"].map(|name| positions.channel(name).expect("a position").to_floats());
     let light = read_exr(Path::new(&format!("{out}/camera/electrons.exr"))).expect("an EXR");
     let electrons = light.channels[0].samples.to_floats();
-    let seen = truth["cameras"][0]["features_px"].as_array().expect("features");
+    let features_px = truth["cameras"][0]["features_px"].as_array().expect("features");
     let centroids = truth["cameras"][0]["image_centroids_px"].as_array().expect("centroids");
     let features = truth["features"].as_array().expect("features");
     let pixel_m = truth["seen"]["pixel_mm"].as_f64().expect("a size") / 1e3;
     let half = truth["sizes"]["pitch_mm"].as_f64().expect("a pitch") / 2e3 / pixel_m * 0.85;
     let mut checked = 0;
-    for ((feature, at), centroid) in features.iter().zip(seen).zip(centroids) {
+    for ((feature, at), centroid) in features.iter().zip(features_px).zip(centroids) {
         let (Some([x, y]), Some(centre)) = (point(&at[0]), point(centroid)) else { continue };
-        let whole = x > half + 1.0 && x < 95.0 - half && y > half + 1.0 && y < 71.0 - half;
-        if !whole {
+        let is_inside = x > half + 1.0 && x < 95.0 - half && y > half + 1.0 && y < 71.0 - half;
+        if !is_inside {
             continue;
         }
         let world = point3(&feature["world_m"][0]);
@@ -179,7 +179,7 @@ fn grey_centroid(plane: &[f32], [x, y]: [f64; 2], half: f64) -> [f64; 2] {
 /// The light that reaches the middle of a flat field in the reference data equals the render.
 #[test]
 fn electrons_are_those_of_the_truth() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     for name in ["flat-field", "oecf-steps", "backlit"] {
         let more: &[&str] = if name == "backlit" { &["--levels", "0.25,0.5"] } else { &[] };
         let folder = place.chart(name, more);
@@ -203,7 +203,7 @@ fn electrons_are_those_of_the_truth() {
 
 #[test]
 fn nonsense_is_refused_and_leaves_nothing() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     let camera = text(&place.path("small.toml"));
     let out = text(&place.path("new/out"));
     let cases: &[(&[&str], &[&str])] = &[
@@ -257,15 +257,15 @@ fn nonsense_is_refused_and_leaves_nothing() {
         .refused(&["does not face forward"]);
     etendue(["chart", "flat-field", "--exposures", "3", "--camera", "laboratory", "-o", &out])
         .refused(&["no electronics"]);
-    let kept = place.chart("flat-field", &[]);
-    etendue(["chart", "flat-field", "--camera", &camera, "-o", &text(&kept)])
+    let refused_folder = place.chart("flat-field", &[]);
+    etendue(["chart", "flat-field", "--camera", &camera, "-o", &text(&refused_folder)])
         .refused(&["already there", "--overwrite"]);
 }
 
 /// A change of the camera also changes the chart: with half the focal length twice the width is in view at the same distance.
 #[test]
 fn set_changes_the_written_job_and_its_camera() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     let usual = place.chart("dots", &["--distance-m", "2"]);
     let usual = truth(&usual)["seen"]["field_mm"][0].as_f64().expect("a width");
     let options = [
@@ -302,7 +302,7 @@ fn set_changes_the_written_job_and_its_camera() {
 /// A wrong key gives the same error as `render` of the same job.
 #[test]
 fn a_wrong_key_of_a_chart_gives_the_error_of_its_job() {
-    let place = Place::new();
+    let place = ChartFolder::new();
     let folder = place.chart("dots", &[]);
     let (job, camera) = (text(&folder.join("job.toml")), text(&place.path("small.toml")));
     let [out, render] = ["new", "render"].map(|name| text(&place.path(name)));

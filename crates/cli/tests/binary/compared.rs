@@ -1,6 +1,6 @@
 //! `etendue measure compare`.
 
-use crate::support::{Ran, etendue, root, text};
+use crate::support::{CommandOutput, etendue, root, text};
 use etendue_core::maths::f64::pow;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -23,16 +23,16 @@ fn measurement(folder: &Path, name: &str, [k1, u]: [f64; 2], scale: f64) -> Stri
         "tables": { "curve": (1..=10).map(row).collect::<Vec<_>>() },
         "notes": [],
     });
-    written(folder, name, &report)
+    write_report(folder, name, &report)
 }
 
-fn written(folder: &Path, name: &str, report: &Value) -> String {
+fn write_report(folder: &Path, name: &str, report: &Value) -> String {
     let file = folder.join(name);
     std::fs::write(&file, report.to_string()).expect("a temporary file");
     text(&file)
 }
 
-fn compare(a: &str, b: &str) -> Ran {
+fn compare(a: &str, b: &str) -> CommandOutput {
     etendue(["measure", "compare", a, b, "--json"])
 }
 
@@ -47,10 +47,10 @@ fn measurements_are_compared_by_their_uncertainties() {
     let folder = tempfile::tempdir().expect("a folder");
     let a = measurement(folder.path(), "a.json", [0.101, 5e-4], 1.0);
     let b = measurement(folder.path(), "b.json", [0.1, 5e-4], 1.0);
-    let ran = compare(&a, &b);
-    assert_eq!(ran.status, 1, "{ran:?}");
-    assert!(ran.err.contains("differ: curve"), "{ran:?}");
-    let report: Value = serde_json::from_str(&ran.out).expect("JSON");
+    let output = compare(&a, &b);
+    assert_eq!(output.status, 1, "{output:?}");
+    assert!(output.err.contains("differ: curve"), "{output:?}");
+    let report: Value = serde_json::from_str(&output.out).expect("JSON");
     let k1 = row(&report, "quantities", "quantity", "forward_k1");
     let number = |value: &Value| value.as_f64().expect("a number");
     assert!((number(&k1["e_n"]) - 0.5_f64.sqrt()).abs() < 1e-9, "{k1}");
@@ -77,8 +77,8 @@ fn equal_measurements_agree_and_are_drawn() {
     let out = etendue(["measure", "compare", &a, &a, "--plot", &plot]).ok().out;
     assert!(out.contains("forward_k1") && !out.contains("differs"), "{out}");
     assert!(out.contains(&format!("A − B: {a} − {a}")) && out.contains("(A − B)/|B| %"), "{out}");
-    let drawn = std::fs::read_to_string(&plot).expect("a plot");
-    assert!(drawn.contains("relative difference of A from B"), "both curves and their relative error");
+    let svg = std::fs::read_to_string(&plot).expect("a plot");
+    assert!(svg.contains("relative difference of A from B"), "both curves and their relative error");
 }
 
 /// The forward camera declares k1 = −0.12 in its principal distance: 4.6 mm focused at 10 m, 4.6 · 10/(10 − 0.0046) mm. k1 in half diagonals is
@@ -93,7 +93,7 @@ fn a_camera_file_declares_what_was_measured() {
     let measured = |k1: f64| {
         let figures = json!({ "forward_k1": { "value": k1, "standard_uncertainty": 1e-5, "unit": "" } });
         let report = json!({ "measurement": "distortion", "figures": figures, "tables": {} });
-        written(folder.path(), "measured.json", &report)
+        write_report(folder.path(), "measured.json", &report)
     };
     compare(&measured(k1 + 5e-6), &camera).ok();
     // A deviation of one per cent is detected.
@@ -113,7 +113,7 @@ fn responses_are_declared_in_closed_form() {
         let tables = json!({ "response": [point], "edges": [edge] });
         let settings = json!({ "readings": "raw" });
         let report = json!({ "measurement": "sfr", "settings": settings, "figures": {}, "tables": tables });
-        written(folder.path(), name, &report)
+        write_report(folder.path(), name, &report)
     };
     let measured = |name: &str, angle_deg: f64, response: f64| measured_at("388,291", name, angle_deg, response);
     // sin(π/2)/(π/2), and at 43°: sinc(0.36568) sinc(0.34100) by hand.
@@ -123,8 +123,8 @@ fn responses_are_declared_in_closed_form() {
     // s = λ N/(2 · 8.3 µm) of light from 380 to 780 nm at f/2: 0.046 to 0.094; 1 − 4 s/π + … = 0.941 to 0.880.
     let lost = |at: &str| {
         let file = measured_at(at, "diffraction.json", 0.0, 0.6);
-        let said = etendue(["measure", "compare", &file, &camera, "--set", "effects.psf={}", "--json"]).out;
-        let report: Value = serde_json::from_str(&said).expect("JSON");
+        let output = etendue(["measure", "compare", &file, &camera, "--set", "effects.psf={}", "--json"]).out;
+        let report: Value = serde_json::from_str(&output).expect("JSON");
         let difference =
             row(&report, "curves", "curve", &format!("response {at} horizontal"))["largest_difference"].as_f64();
         1.0 - (0.6 - difference.expect("a difference")) / std::f64::consts::FRAC_2_PI
@@ -153,16 +153,16 @@ fn tone_curves_are_declared() {
             "figures": { "full_scale": { "value": 255.0, "standard_uncertainty": null, "unit": "" } },
             "tables": { "points": (1..=12).map(point).collect::<Vec<_>>() },
         });
-        written(folder.path(), name, &report)
+        write_report(folder.path(), name, &report)
     };
     // Smear of −100 dB and 20 ms per frame adds 2 µs to every exposure; the well is full at 4060.
-    let share = |exposure: f64| ((exposure + 2e-6) / 1e-3).min(1.0);
-    compare(&series("line.json", "raw", &|t| 60.0 + 4000.0 * share(t)), &camera).ok();
-    let bent = series("bent.json", "raw", &|t| 60.0 + 4000.0 * pow(share(t), 0.98));
+    let fraction = |exposure: f64| ((exposure + 2e-6) / 1e-3).min(1.0);
+    compare(&series("line.json", "raw", &|t| 60.0 + 4000.0 * fraction(t)), &camera).ok();
+    let bent = series("bent.json", "raw", &|t| 60.0 + 4000.0 * pow(fraction(t), 0.98));
     assert_eq!(compare(&bent, &camera).status, 1);
     let srgb = |x: f64| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * pow(x, 1.0 / 2.4) - 0.055 };
-    compare(&series("picture.json", "picture", &|t| 255.0 * srgb(share(t))), &camera).ok();
-    let gamma = series("gamma.json", "picture", &|t| 255.0 * pow(share(t), 1.0 / 2.2));
+    compare(&series("picture.json", "picture", &|t| 255.0 * srgb(fraction(t))), &camera).ok();
+    let gamma = series("gamma.json", "picture", &|t| 255.0 * pow(fraction(t), 1.0 / 2.2));
     assert_eq!(compare(&gamma, &camera).status, 1);
 }
 
@@ -172,21 +172,21 @@ fn contradictions_are_refused() {
     let a = measurement(folder.path(), "a.json", [0.1, 5e-4], 1.0);
     let figures = |unit: &str| json!({ "forward_k1": { "value": 1.0, "standard_uncertainty": 0.1, "unit": unit } });
     let report = |kind: &str, unit: &str| json!({ "measurement": kind, "figures": figures(unit), "tables": {} });
-    let other = written(folder.path(), "kind.json", &report("vignetting", ""));
+    let other = write_report(folder.path(), "kind.json", &report("vignetting", ""));
     compare(&a, &other).refused(&["different kinds", "distortion", "vignetting"]);
-    let other = written(folder.path(), "unit.json", &report("distortion", "mm"));
+    let other = write_report(folder.path(), "unit.json", &report("distortion", "mm"));
     compare(&a, &other).refused(&["forward_k1", "the same unit"]);
     let model = |model: &str| {
         let report =
             json!({ "measurement": "focal", "settings": { "model": model }, "figures": figures(""), "tables": {} });
-        written(folder.path(), &format!("{model}.json"), &report)
+        write_report(folder.path(), &format!("{model}.json"), &report)
     };
     compare(&model("opencv"), &model("radial-inverse")).refused(&["model", "opencv", "radial-inverse"]);
     let nothing = json!({ "measurement": "distortion", "figures": {}, "tables": {} });
-    compare(&a, &written(folder.path(), "nothing.json", &nothing)).refused(&["no quantity in common"]);
+    compare(&a, &write_report(folder.path(), "nothing.json", &nothing)).refused(&["no quantity in common"]);
     let camera = text(&root().join("scenes/cameras/automotive.toml"));
     compare(&camera, &camera).refused(&["both sides are camera files"]);
-    compare(&a, &written(folder.path(), "other.json", &json!([1]))).refused(&["other.json", "--json"]);
+    compare(&a, &write_report(folder.path(), "other.json", &json!([1]))).refused(&["other.json", "--json"]);
     etendue(["measure", "compare", &a, &a, "--set", "sensor.bits=8"]).refused(&["--set", "neither side"]);
 }
 
@@ -233,14 +233,14 @@ smear = { type = "interline", smear_db = -70 }
     write("job.toml", &job);
     let path = |name: &str| text(&folder.path().join(name));
     etendue(["render", &path("job.toml"), "-o", &path("out")]).ok();
-    let pictures: Vec<String> = (0..exposures.len()).map(|i| path(&format!("out/c{i}/picture.0000.png"))).collect();
-    let pictures: Vec<&str> = pictures.iter().map(String::as_str).collect();
+    let images: Vec<String> = (0..exposures.len()).map(|i| path(&format!("out/c{i}/picture.0000.png"))).collect();
+    let images: Vec<&str> = images.iter().map(String::as_str).collect();
     for channel in ["R", "G", "B"] {
-        let told = ["--channel", channel, "--exposures", &exposures.join(","), "--json"];
-        let measured = etendue([&["measure", "oecf"][..], &pictures, &told].concat()).ok().out;
+        let options = ["--channel", channel, "--exposures", &exposures.join(","), "--json"];
+        let measured = etendue([&["measure", "oecf"][..], &images, &options].concat()).ok().out;
         write("curve.json", &measured);
-        let found = etendue(["measure", "compare", &path("curve.json"), &path("c0.toml"), "--json"]);
-        let report: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
+        let comparison = etendue(["measure", "compare", &path("curve.json"), &path("c0.toml"), "--json"]);
+        let report: serde_json::Value = serde_json::from_str(&comparison.out).expect("JSON");
         let largest = report["tables"]["curves"][0]["largest_difference"].as_f64().expect("a difference");
         // Out of 255; 3.7 in green if smear is declared as for raw readings. Numbers are integers, and the field is uniform to a few per cent.
         assert!(largest.abs() < 0.3, "{channel}: {largest}");

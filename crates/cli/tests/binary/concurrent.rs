@@ -7,9 +7,9 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// A run that continues until it is killed.
-struct Running(Child);
+struct RunningProcess(Child);
 
-impl Running {
+impl RunningProcess {
     fn begin(arguments: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
         command.current_dir(root()).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
@@ -27,7 +27,7 @@ impl Running {
     }
 }
 
-impl Drop for Running {
+impl Drop for RunningProcess {
     fn drop(&mut self) {
         let _ = self.0.kill();
         let _ = self.0.wait();
@@ -41,8 +41,8 @@ fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
     let (folder, job, camera) = (text(&out), small(), "scenes/cameras/web.toml");
     let moving = text(&tests().join("jobs/moving/moving.toml"));
     etendue(["render", &job, "-o", &shard, "--spp", "2", "--shard", "0/1"]).ok();
-    let first = Running::render_into(&out);
-    let taken = format!("another run (process {}) writes into this folder", first.0.id());
+    let first = RunningProcess::render_into(&out);
+    let expected_problem = format!("another run (process {}) writes into this folder", first.0.id());
     let seconds: [&[&str]; 10] = [
         &["render", &job],
         &["render", &job, "--overwrite"],
@@ -56,7 +56,7 @@ fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
         &["flat", camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.002"],
     ];
     for arguments in seconds {
-        let phrases = [&folder, &taken, "choose another output folder"];
+        let phrases = [&folder, &expected_problem, "choose another output folder"];
         etendue(arguments.iter().copied().chain(["-o", &folder])).refused(&phrases);
     }
     assert!(contents(&out).keys().all(|name| name.starts_with('.')), "nothing but the first one's mark");
@@ -81,7 +81,7 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
         text(&file)
     });
     let out = text(&place.path().join("out"));
-    let runs = cameras.each_ref().map(|camera| Running::begin(&[&["flat", camera, "-o", &out], &light[..]].concat()));
+    let runs = cameras.each_ref().map(|camera| RunningProcess::begin(&[&["flat", camera, "-o", &out], &light[..]].concat()));
     for mut run in runs {
         assert!(run.0.wait().expect("a child").success());
     }
@@ -96,12 +96,12 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
 }
 
 /// Runs that start at one moment: one is admitted, or one after the other, and none mixes its files with another's.
-fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
+fn concurrent_runs_leave_all_files_or_none() -> Row {
     let expected = rendered(&small(), &["--spp", "2"]);
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
     let arguments = ["render", &small(), "-o", &text(&out), "--spp", "2"].map(str::to_owned);
-    let mut runs: Vec<Running> = (0..6).map(|_| Running::begin(&arguments.each_ref().map(String::as_str))).collect();
+    let mut runs: Vec<RunningProcess> = (0..6).map(|_| RunningProcess::begin(&arguments.each_ref().map(String::as_str))).collect();
     let ends: Vec<_> = runs.iter_mut().map(|run| run.0.wait().expect("a child").code()).collect();
     let ended = |status| ends.iter().filter(|code| **code == Some(status)).count();
     // The others were refused: by the lock, or by the files of the first.
@@ -115,8 +115,8 @@ fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
 }
 
 /// A row of asserted results.
-fn row(extreme: &str, expected: &str, found: &str) -> Row {
-    Row { extreme: extreme.to_owned(), expected: expected.to_owned(), found: found.to_owned(), holds: true }
+fn row(extreme: &str, expected: &str, actual: &str) -> Row {
+    Row { extreme: extreme.to_owned(), expected: expected.to_owned(), found: actual.to_owned(), holds: true }
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn several_runs_into_one_folder() {
     let rows = [
         a_second_run_is_refused_until_the_first_has_ended_however_it_does(),
         runs_that_write_into_folders_of_cameras_go_side_by_side(),
-        of_runs_that_begin_together_each_leaves_all_files_or_none(),
+        concurrent_runs_leave_all_files_or_none(),
     ];
     check(
         "Several runs into one folder",

@@ -52,14 +52,14 @@ fn run(task: &Task, folder: &Path) {
     let program = Path::new(env!("CARGO_BIN_EXE_etendue")).parent().expect("a folder");
     let paths = format!("{}:{}", program.display(), std::env::var("PATH").expect("a search path"));
     let mut shell = Command::new("bash");
-    let ran = shell.args(["-euo", "pipefail", "-c", &task.commands]).current_dir(folder).env("PATH", paths).output();
-    let ran = ran.expect("bash runs");
-    let (out, err) = (String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
-    assert!(ran.status.success(), "{}: {}\n{err}", task.title, ran.status);
+    let output = shell.args(["-euo", "pipefail", "-c", &task.commands]).current_dir(folder).env("PATH", paths).output();
+    let output = output.expect("bash runs");
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}: {}\n{err}", task.title, output.status);
     let mut lines = out.lines();
-    for wanted in &task.printed {
-        let found = lines.any(|line| line.trim_end() == wanted);
-        assert!(found, "{}: it does not print, or not in this place:\n{wanted}\nbut\n{out}", task.title);
+    for expected_line in &task.printed {
+        let is_printed = lines.any(|line| line.trim_end() == expected_line);
+        assert!(is_printed, "{}: it does not print, or not in this place:\n{expected_line}\nbut\n{out}", task.title);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Data sets: a sample is the same alone or among all, interrupted runs resume, and invalid variations are refused at their place.
 
-use crate::support::{Ran, contents, etendue, root, text};
+use crate::support::{CommandOutput, contents, etendue, root, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,9 +22,9 @@ const SMALL: [&str; 7] = [
 ];
 const ALL: &str = "coco,kitti,cityscapes,yolo,bop,webdataset,nuscenes";
 
-struct Place(TempDir);
+struct TestFolder(TempDir);
 
-impl Place {
+impl TestFolder {
     fn new() -> Self {
         Self(tempfile::tempdir().expect("a temporary folder"))
     }
@@ -39,12 +39,12 @@ impl Place {
         own.iter().chain(&SMALL).chain(more).map(|word| (*word).to_owned()).collect()
     }
 
-    fn run(&self, folder: &str, more: &[&str]) -> Ran {
+    fn run(&self, folder: &str, more: &[&str]) -> CommandOutput {
         etendue(self.arguments(VARIATIONS, folder, more))
     }
 
     /// Runs with the given variations.
-    fn run_of(&self, variations: &str, more: &[&str]) -> Ran {
+    fn run_of(&self, variations: &str, more: &[&str]) -> CommandOutput {
         let file = self.path("variations.toml");
         fs::write(&file, variations).expect("written");
         etendue(self.arguments(&text(&file), "out", more))
@@ -61,27 +61,27 @@ fn json(path: &Path) -> Value {
 
 #[test]
 fn a_sample_is_the_same_alone_or_in_a_run_and_in_pieces() {
-    let place = Place::new();
+    let place = TestFolder::new();
     place.run("whole", &["--samples", "0..3", "--format", ALL]).ok();
     place.run("alone", &["--samples", "2..3", "--format", ALL, "--threads", "1"]).ok();
-    let (whole, alone) = (place.files("whole"), place.files("alone"));
+    let (all_files, alone) = (place.files("whole"), place.files("alone"));
     // Names of other samples' masks end with the number.
     let of_sample =
         |name: &&String| name.split('/').any(|part| part.starts_with("000002") || part.contains("front_000002"));
-    let names: Vec<_> = whole.keys().filter(of_sample).collect();
+    let names: Vec<_> = all_files.keys().filter(of_sample).collect();
     assert!(names.len() > 12, "{names:?}");
-    names.iter().for_each(|name| assert!(alone.get(*name) == whole.get(*name), "{name}"));
+    names.iter().for_each(|name| assert!(alone.get(*name) == all_files.get(*name), "{name}"));
     place.run("pieces", &["--samples", "2..3", "--format", ALL]).ok();
     place.run("pieces", &["--samples", "0..2", "--format", ALL]).refused(&["dataset.json", "--resume"]);
     place.run("pieces", &["--samples", "0..2", "--format", ALL, "--resume"]).ok();
     let pieces = place.files("pieces");
-    whole.iter().for_each(|(name, bytes)| assert!(pieces.get(name) == Some(bytes), "{name}"));
-    assert_eq!(whole.len(), pieces.len());
+    all_files.iter().for_each(|(name, bytes)| assert!(pieces.get(name) == Some(bytes), "{name}"));
+    assert_eq!(all_files.len(), pieces.len());
 }
 
 #[test]
 fn a_sample_is_what_render_makes_of_its_changes() {
-    let place = Place::new();
+    let place = TestFolder::new();
     place.run("set", &["--samples", "5..6", "--format", "yolo", "--set=output.boxes=true"]).ok();
     let record = json(&place.path("set/samples/000005.json"));
     let changes: Vec<String> = record["set"]
@@ -117,7 +117,7 @@ fn a_sample_is_what_render_makes_of_its_changes() {
 
 #[test]
 fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
-    let place = Place::new();
+    let place = TestFolder::new();
     place.run("whole", &["--samples", "0..3"]).ok().says(&["\"kitti_types\" has no effect without the format kitti"]);
     place.run("part", &["--samples", "0..2"]).ok();
     // State after a kill: files of a sample without its record.
@@ -139,16 +139,16 @@ fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
 
 /// The record of a sample states the digests of its files, and a hash of itself.
 #[test]
-fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
-    let place = Place::new();
+fn incomplete_samples_are_computed_again() {
+    let place = TestFolder::new();
     place.run("out", &["--samples", "0..3", "--format", "coco,yolo"]).ok();
-    let whole = place.files("out");
-    let label = whole.keys().find(|name| name.starts_with("yolo/labels") && name.contains("000001")).expect("a label");
+    let all_files = place.files("out");
+    let label = all_files.keys().find(|name| name.starts_with("yolo/labels") && name.contains("000001")).expect("a label");
     let spoil = |name: &str, change: &dyn Fn(&Path)| change(&place.path(&format!("out/{name}")));
     let resume = |samples: &str| place.run("out", &["--samples", samples, "--format", "coco,yolo", "--resume"]);
     spoil(label, &|file| fs::remove_file(file).expect("it was there"));
     resume("0..3").ok().says(&["samples/000001.json", "is missing or was changed; sample 1 is made again"]);
-    assert!(place.files("out") == whole);
+    assert!(place.files("out") == all_files);
     let record = "samples/000001.json";
     let edit = |from: &str, to: &str| {
         let (from, to) = (from.to_owned(), to.to_owned());
@@ -161,19 +161,19 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
     spoil(record, &edit("\"frame\": 0", "\"frame\": 7"));
     resume("2..4").refused(&["samples/000001.json", "changed after it was written", "make sample 1 anew"]);
     resume("0..3").ok().says(&["sample 1 is made again"]);
-    assert!(place.files("out") == whole);
+    assert!(place.files("out") == all_files);
     spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
     resume("0..3").ok().says(&["this is the record of sample 2; sample 1 is made again"]);
-    assert!(place.files("out") == whole);
+    assert!(place.files("out") == all_files);
 }
 
 /// Files of more than this many blocks of 512 bytes cannot be written, as on a full disk.
-fn with_blocks(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
+fn with_file_limit(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     let before = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
     shell.args(["-c", &before, env!("CARGO_BIN_EXE_etendue")]).args(arguments);
-    let ran = shell.current_dir(root()).output().expect("a shell");
-    (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned())
+    let output = shell.current_dir(root()).output().expect("a shell");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 /// Images of two sizes: files that fit the limit for some samples do not for others.
@@ -185,36 +185,36 @@ choices = [[], ["cameras.front.sensor.width_px=240", "cameras.front.sensor.heigh
 
 #[test]
 fn a_disk_that_fills_keeps_whole_samples_and_a_run_goes_on() {
-    let place = Place::new();
+    let place = TestFolder::new();
     let file = text(&place.path("sizes.toml"));
     fs::write(&file, TWO_SIZES).expect("written");
     let arguments =
         |folder: &str, more: &[&str]| place.arguments(&file, folder, &[&["--samples", "0..6"], more].concat());
     etendue(arguments("whole", &[])).ok();
-    let whole = place.files("whole");
+    let all_files = place.files("whole");
     let bytes_of = |sample: usize| {
         let name = format!("000{sample:03}");
-        whole.iter().filter(|(file, _)| file.contains(&name)).map(|(_, bytes)| bytes.len()).max().expect("files")
+        all_files.iter().filter(|(file, _)| file.contains(&name)).map(|(_, bytes)| bytes.len()).max().expect("files")
     };
     let large = (0..6).find(|sample| bytes_of(*sample) > 20_000).expect("a large one");
     assert!(large > 0 && (0..large).all(|sample| bytes_of(sample) < 16_000), "some that fit come first");
-    let (status, told) = with_blocks(36, &arguments("part", &[]));
-    assert_eq!(status, Some(1), "{told}");
-    let kept = if large == 1 { "1 complete sample".to_owned() } else { format!("{large} complete samples") };
-    assert!(told.contains(&format!("saved {kept}; to continue, use --resume")), "{told}");
+    let (status, stderr) = with_file_limit(36, &arguments("part", &[]));
+    assert_eq!(status, Some(1), "{stderr}");
+    let expected = if large == 1 { "1 complete sample".to_owned() } else { format!("{large} complete samples") };
+    assert!(stderr.contains(&format!("saved {expected}; to continue, use --resume")), "{stderr}");
     let part = place.files("part");
     assert_eq!(part.keys().filter(|name| name.starts_with("samples/")).count(), large);
-    assert!(part.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)), "whole files or none: {:?}", part.keys());
-    let (status, told) = with_blocks(1, &arguments("none", &[]));
-    assert!(status == Some(1) && told.contains("nothing of this run was saved"), "{told}");
+    assert!(part.iter().all(|(name, bytes)| all_files.get(name) == Some(bytes)), "whole files or none: {:?}", part.keys());
+    let (status, stderr) = with_file_limit(1, &arguments("none", &[]));
+    assert!(status == Some(1) && stderr.contains("nothing of this run was saved"), "{stderr}");
     assert!(!place.path("none").exists());
     etendue(arguments("part", &["--resume"])).ok();
-    assert!(place.files("part") == whole);
+    assert!(place.files("part") == all_files);
 }
 
 #[test]
 fn bad_variations_are_refused_where_they_stand() {
-    let place = Place::new();
+    let place = TestFolder::new();
     let vary = |key: &str, rest: &str| format!("format = 1\n[[vary]]\nkey = \"{key}\"\n{rest}\n");
     let uniform = "type = \"uniform\"\nmin = 1\nmax = 2";
     let exposure = "cameras.front.sensor.exposure_s";
@@ -278,8 +278,8 @@ fn bad_variations_are_refused_where_they_stand() {
             "distorted",
         ]);
     }
-    let told = distorted.trim_start_matches("--set=").replace('"', "\\\"");
-    let varied = format!("format = 1\n[[presets]]\nname = \"lens\"\nchoices = [[\"{told}\"]]\n");
+    let change_text = distorted.trim_start_matches("--set=").replace('"', "\\\"");
+    let varied = format!("format = 1\n[[presets]]\nname = \"lens\"\nchoices = [[\"{change_text}\"]]\n");
     place.run_of(&varied, &["--format", "mcap"]).refused(&["sample 0", "--format mcap", "distorted"]);
     place.run_of(&file, &["--set=cameras.front.isp=null"]).refused(&["camera front", "[isp]"]);
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
@@ -288,7 +288,7 @@ fn bad_variations_are_refused_where_they_stand() {
 /// A BOP model has one size: a sample that violates that is discarded, and the set of the preceding ones is complete.
 #[test]
 fn bop_keeps_the_samples_before_one_of_another_size() {
-    let place = Place::new();
+    let place = TestFolder::new();
     let file =
         "format = 1\n[[vary]]\nkey = \"scene.objects.short-block.scale\"\ntype = \"uniform\"\nmin = 0.5\nmax = 0.9\n";
     let run = |more: &[&str]| place.run_of(file, &[&["--format", "bop,yolo"], more].concat());
@@ -302,21 +302,21 @@ fn bop_keeps_the_samples_before_one_of_another_size() {
 
 /// A complete shard has no parts left that could be made again individually.
 #[test]
-fn samples_of_a_complete_shard_are_made_anew_together() {
-    let place = Place::new();
+fn samples_of_a_complete_shard_are_computed_again_together() {
+    let place = TestFolder::new();
     let file = "format = 1\nshard_samples = 2\n[[vary]]\nkey = \"cameras.front.sensor.exposure_s\"\ntype = \"uniform\"\nmin = 1e-5\nmax = 2e-5\n";
     let run = |more: &[&str]| place.run_of(file, &[&["--format", "webdataset"], more].concat());
     run(&["--samples", "0..3"]).ok();
-    let whole = place.files("out");
+    let all_files = place.files("out");
     drop(run(&["--samples", "1..3", "--overwrite"]).refused(&[
         "--samples 1..3",
         "samples 0 to 1 is complete",
         "--samples 0..2",
     ]));
-    assert!(place.files("out") == whole, "nothing was touched");
+    assert!(place.files("out") == all_files, "nothing was touched");
     run(&["--samples", "0..3", "--overwrite"]).ok();
     run(&["--samples", "2..3", "--overwrite"]).ok();
-    assert!(place.files("out") == whole);
+    assert!(place.files("out") == all_files);
     run(&["--samples", "0..3", "--resume"]).ok();
     let shard = place.path("out/webdataset/train-000000.tar");
     let bytes = fs::read(&shard).expect("it is there");
@@ -330,13 +330,13 @@ fn samples_of_a_complete_shard_are_made_anew_together() {
     fs::remove_file(&shard).expect("it was there");
     drop(run(&["--samples", "0..3", "--resume"]).refused(&lost));
     run(&["--samples", "0..2", "--overwrite"]).ok();
-    assert!(place.files("out") == whole);
+    assert!(place.files("out") == all_files);
 }
 
 #[test]
 fn variations_that_ship_are_whole() {
     let plan = |job: &str, variations: &str, more: &[&str]| {
-        let place = Place::new();
+        let place = TestFolder::new();
         let out = text(&place.path("out"));
         let words = ["dataset", job, "--variations", variations, "-o", &out];
         etendue(words.iter().chain(more)).ok();

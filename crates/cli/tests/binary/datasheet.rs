@@ -1,16 +1,16 @@
 //! Camera files made from data sheets: consistent, incomplete and contradictory ones.
 
-use crate::support::{Ran, contents, etendue, root, text};
+use crate::support::{CommandOutput, contents, etendue, root, text};
 use std::path::PathBuf;
 
 const SHEET: &str = "scenes/datasheets/made-up-cmos.toml";
 
 /// The example with changed lines, and the path of its camera.
-struct Sheet {
-    place: tempfile::TempDir,
+struct DataSheetJob {
+    folder: tempfile::TempDir,
 }
 
-impl Sheet {
+impl DataSheetJob {
     fn with(changes: &[(&str, &str)]) -> Self {
         let place = tempfile::tempdir().expect("a temporary folder");
         let mut sheet = std::fs::read_to_string(root().join(SHEET)).expect("the example");
@@ -19,21 +19,21 @@ impl Sheet {
             sheet = sheet.replace(old, new);
         }
         std::fs::write(place.path().join("sheet.toml"), sheet).expect("written");
-        Self { place }
+        Self { folder: place }
     }
 
     fn folder(&self) -> PathBuf {
-        self.place.path().join("out")
+        self.folder.path().join("out")
     }
 
-    fn run(&self) -> Ran {
-        etendue(["datasheet", &text(&self.place.path().join("sheet.toml")), "-o", &text(&self.folder())])
+    fn run(&self) -> CommandOutput {
+        etendue(["datasheet", &text(&self.folder.path().join("sheet.toml")), "-o", &text(&self.folder())])
     }
 
     /// Asserts that the written camera captures a frame.
-    fn takes_a_frame(&self) {
+    fn assert_captures_frame(&self) {
         let camera = text(&self.folder().join("sheet.toml"));
-        let out = text(&self.place.path().join("flat"));
+        let out = text(&self.folder.path().join("flat"));
         let small = ["--set", "sensor.width_px=8", "--set", "sensor.height_px=4"];
         etendue(
             ["flat", &camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.001", "-o", &out]
@@ -46,9 +46,9 @@ impl Sheet {
 
 #[test]
 fn the_example_is_consistent_and_its_camera_can_be_used() {
-    let sheet = Sheet::with(&[]);
-    let ran = sheet.run().ok();
-    assert_eq!(ran.err.lines().count(), 1, "only the linearity error is left out: {}", ran.err);
+    let sheet = DataSheetJob::with(&[]);
+    let output = sheet.run().ok();
+    assert_eq!(output.err.lines().count(), 1, "only the linearity error is left out: {}", output.err);
     let files = contents(&sheet.folder());
     assert_eq!(files.keys().collect::<Vec<_>>(), ["sheet-mono.csv", "sheet.toml"]);
     let camera = String::from_utf8(files["sheet.toml"].clone()).expect("UTF-8");
@@ -57,12 +57,12 @@ fn the_example_is_consistent_and_its_camera_can_be_used() {
     {
         assert!(camera.contains(line), "{line} is missing in\n{camera}");
     }
-    sheet.takes_a_frame();
+    sheet.assert_captures_frame();
 }
 
 #[test]
 fn dark_noise_in_numbers_loses_its_quantisation() {
-    let sheet = Sheet::with(&[("temporal_dark_noise_e = 2.50\n", ""), ("= 0.69", "= 0.6883")]);
+    let sheet = DataSheetJob::with(&[("temporal_dark_noise_e = 2.50\n", ""), ("= 0.69", "= 0.6883")]);
     sheet.run().ok();
     let files = contents(&sheet.folder());
     let camera = String::from_utf8(files["sheet.toml"].clone()).expect("UTF-8");
@@ -76,11 +76,11 @@ fn colour_cameras_have_a_curve_a_channel() {
     let curve = "quantum_efficiency_percent = { red = [[620, 40]], green = [[450, 10], [530, 52]], blue = [[460, 38]] }\ncfa = \"grbg\"";
     let mono = "quantum_efficiency_percent = [[400, 42], [465, 60], [525, 62], [630, 48], [850, 17], [1000, 3]]\nmeasured_at_nm = 525";
     let photons = [("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")];
-    let sheet = Sheet::with(&[&[(mono, curve)][..], &photons].concat());
+    let sheet = DataSheetJob::with(&[&[(mono, curve)][..], &photons].concat());
     sheet.run().ok().says(&["warning", "\"red\" at 620 nm", "all wavelengths"]);
     let files = contents(&sheet.folder());
     assert_eq!(files.keys().collect::<Vec<_>>(), ["sheet-green.csv", "sheet.toml"]);
-    sheet.takes_a_frame();
+    sheet.assert_captures_frame();
 }
 
 #[test]
@@ -98,31 +98,31 @@ fn contradictions_are_refused_with_both_numbers() {
         ("[525, 62]", "[465, 62]", &["quantum_efficiency_percent", "465 nm comes after 465 nm"]),
     ];
     for (old, new, phrases) in cases {
-        let sheet = Sheet::with(&[(old, new)]);
-        let ran = sheet.run().refused(&[&["sheet.toml:"][..], phrases].concat());
-        assert!(!sheet.folder().exists(), "{}", ran.err);
+        let sheet = DataSheetJob::with(&[(old, new)]);
+        let output = sheet.run().refused(&[&["sheet.toml:"][..], phrases].concat());
+        assert!(!sheet.folder().exists(), "{}", output.err);
     }
 }
 
 #[test]
-fn what_differs_by_a_little_is_told_and_taken() {
-    let sheet = Sheet::with(&[("snr_max_db = 41.8", "snr_max_db = 42.1")]);
+fn small_differences_are_reported_and_accepted() {
+    let sheet = DataSheetJob::with(&[("snr_max_db = 41.8", "snr_max_db = 42.1")]);
     sheet.run().ok().says(&["warning", "snr_max_db", "42.1 dB", "41.76 dB"]);
 }
 
 /// Many sheets state the wavelength without a value in photons.
 #[test]
 fn a_wavelength_that_nothing_needs_is_a_warning() {
-    let sheet = Sheet::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);
+    let sheet = DataSheetJob::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);
     sheet.run().ok().says(&["warning", "\"measured_at_nm\" is not used", "saturation_capacity_p"]);
 }
 
 #[test]
 fn nonsense_is_refused() {
-    let less = Sheet::with(&[("temporal_dark_noise_e = 2.50\n", ""), ("noise_dn = 0.69", "noise_dn = 0.2")]);
+    let less = DataSheetJob::with(&[("temporal_dark_noise_e = 2.50\n", ""), ("noise_dn = 0.69", "noise_dn = 0.2")]);
     less.run().refused(&["sheet.toml:", "temporal_dark_noise_dn", "0.2 DN", "0.289 DN"]);
-    let none = Sheet::with(&[("gain_dn_per_e = 0.25\n", ""), ("inverse_gain_e_per_dn = 4.0\n", "")]);
+    let none = DataSheetJob::with(&[("gain_dn_per_e = 0.25\n", ""), ("inverse_gain_e_per_dn = 4.0\n", "")]);
     none.run().refused(&["gain_dn_per_e", "both missing"]);
-    Sheet::with(&[("dark_current_e_s = 12\n", "")]).run().refused(&["dark_current_at_c", "no effect"]);
-    Sheet::with(&[("dsnu_e", "dsnu")]).run().refused(&["dsnu", "dsnu_e"]);
+    DataSheetJob::with(&[("dark_current_e_s = 12\n", "")]).run().refused(&["dark_current_at_c", "no effect"]);
+    DataSheetJob::with(&[("dsnu_e", "dsnu")]).run().refused(&["dsnu", "dsnu_e"]);
 }

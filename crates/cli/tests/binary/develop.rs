@@ -1,6 +1,6 @@
 //! `etendue develop`: raws of every kind developed again, and raws that contradict their camera.
 
-use crate::support::{Ran, contents, etendue, text};
+use crate::support::{CommandOutput, contents, etendue, text};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -83,21 +83,21 @@ picture = true
 "#;
 
 /// A folder with the job, its cameras, and its result: two frames of each camera.
-struct Shots {
-    place: TempDir,
+struct RenderedFrames {
+    folder: TempDir,
 }
 
-impl Shots {
-    fn taken() -> Self {
-        let shots = Self { place: tempfile::tempdir().expect("a temporary folder") };
+impl RenderedFrames {
+    fn render_frames() -> Self {
+        let frames = Self { folder: tempfile::tempdir().expect("a temporary folder") };
         let colour = "white_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
         let mono = CAMERA
             .replace("cfa = \"rggb\"", "cfa = \"mono\"")
             .replace("{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5")
             .replace(colour, "black_level = \"optical_black\"\n");
-        shots.write("bayer.toml", CAMERA);
-        shots.write("mono.toml", &format!("{mono}{MONO}"));
-        shots.write("hdr.toml", &format!("{CAMERA}{HDR}"));
+        frames.write("bayer.toml", CAMERA);
+        frames.write("mono.toml", &format!("{mono}{MONO}"));
+        frames.write("hdr.toml", &format!("{CAMERA}{HDR}"));
         let setup = |(name, format)| {
             format!(
                 "[[cameras]]\nname = \"{name}\"\nfile = \"{name}.toml\"\nposition_m = [0, 0, 1.5]\n\
@@ -105,21 +105,21 @@ impl Shots {
             )
         };
         let cameras = [("bayer", "dng"), ("mono", "tiff"), ("hdr", "png")].map(setup).concat();
-        shots.write("job.toml", &format!("{JOB}\n{cameras}"));
-        etendue(["render", &shots.path("job.toml"), "-o", &shots.path("out"), "--frames", "0..2", "--seed", "9"]).ok();
-        shots
+        frames.write("job.toml", &format!("{JOB}\n{cameras}"));
+        etendue(["render", &frames.path("job.toml"), "-o", &frames.path("out"), "--frames", "0..2", "--seed", "9"]).ok();
+        frames
     }
 
     fn write(&self, name: &str, text: &str) {
-        fs::write(self.place.path().join(name), text).expect("written");
+        fs::write(self.folder.path().join(name), text).expect("written");
     }
 
     fn path(&self, name: &str) -> String {
-        text(&self.place.path().join(name))
+        text(&self.folder.path().join(name))
     }
 
     /// Develops raws, named relative to the folder, into the folder `made`.
-    fn develop(&self, raws: &[&str], camera: &str, options: &[&str]) -> Ran {
+    fn develop(&self, raws: &[&str], camera: &str, options: &[&str]) -> CommandOutput {
         let raws: Vec<String> = raws.iter().map(|raw| self.path(raw)).collect();
         let rest = ["--camera", &self.path(camera), "-o", &self.path("made"), "--overwrite"].map(str::to_owned);
         let options = options.iter().map(|option| (*option).to_owned());
@@ -136,28 +136,28 @@ impl Shots {
 
 #[test]
 fn every_kind_of_raw_gives_the_same_picture_again() {
-    let shots = Shots::taken();
+    let frames = RenderedFrames::render_frames();
     for (camera, extension) in [("bayer", "dng"), ("mono", "tif"), ("hdr", "png")] {
         let raws = [0, 1].map(|frame| format!("out/{camera}/raw.000{frame}.{extension}"));
-        shots.develop(&raws.each_ref().map(String::as_str), &format!("{camera}.toml"), &[]).ok();
-        let (own, made) = (shots.path(&format!("out/{camera}")), shots.path(&format!("made/{camera}")));
-        let (own, made) = (contents(Path::new(&own)), contents(Path::new(&made)));
-        for picture in ["picture.0000.png", "picture.0001.png"] {
-            assert!(own[picture] == made[picture], "{camera}: {picture} has other bytes");
+        frames.develop(&raws.each_ref().map(String::as_str), &format!("{camera}.toml"), &[]).ok();
+        let (own, developed) = (frames.path(&format!("out/{camera}")), frames.path(&format!("made/{camera}")));
+        let (own, developed) = (contents(Path::new(&own)), contents(Path::new(&developed)));
+        for image in ["picture.0000.png", "picture.0001.png"] {
+            assert!(own[image] == developed[image], "{camera}: {image} has other bytes");
         }
-        assert_ne!(made["picture.0000.png"], made["picture.0001.png"], "frames have their own noise");
-        let facts: serde_json::Value = serde_json::from_slice(&made["develop.json"]).expect("JSON");
+        assert_ne!(developed["picture.0000.png"], developed["picture.0001.png"], "frames have their own noise");
+        let facts: serde_json::Value = serde_json::from_slice(&developed["develop.json"]).expect("JSON");
         assert_eq!((&facts["frames"][1]["frame"], &facts["frames"][1]["seed"]), (&1.into(), &9.into()));
     }
 }
 
 #[test]
 fn another_processing_gives_another_picture() {
-    let shots = Shots::taken();
+    let frames = RenderedFrames::render_frames();
     let developed = |options: &[&str]| {
-        shots.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", options).ok();
-        let mut files = contents(Path::new(&shots.path("made/bayer")));
-        fs::remove_dir_all(shots.path("made")).expect("removed");
+        frames.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", options).ok();
+        let mut files = contents(Path::new(&frames.path("made/bayer")));
+        fs::remove_dir_all(frames.path("made")).expect("removed");
         files.remove("develop.json");
         files
     };
@@ -182,68 +182,68 @@ fn another_processing_gives_another_picture() {
 /// Development without a curve and a matrix is stated in the side-car, in its words, and in the file's own chunk.
 #[test]
 fn a_linear_picture_of_the_sensors_colours_is_called_that() {
-    let shots = Shots::taken();
+    let frames = RenderedFrames::render_frames();
     let plain = CAMERA.replace("colour_matrix = { fit = \"D65\" }\n", "tone_curve = \"linear\"\n");
-    shots.write("bayer.toml", &plain);
-    shots.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", &[]).ok();
-    let made = contents(Path::new(&shots.path("made/bayer")));
-    let facts: serde_json::Value = serde_json::from_slice(&made["develop.json"]).expect("JSON");
+    frames.write("bayer.toml", &plain);
+    frames.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", &[]).ok();
+    let developed = contents(Path::new(&frames.path("made/bayer")));
+    let facts: serde_json::Value = serde_json::from_slice(&developed["develop.json"]).expect("JSON");
     let entry = &facts["files"]["picture.0000.png"];
     assert_eq!((&entry["encoding"], &entry["quantity"]), (&"linear".into(), &"linear picture".into()));
     let words = facts["isp"].as_str().expect("words");
     assert!(words.contains("linear tone") && !words.contains("matrix"), "{words}");
-    let has = |name: &[u8]| made["picture.0000.png"].windows(4).any(|four| four == name);
+    let has = |name: &[u8]| developed["picture.0000.png"].windows(4).any(|four| four == name);
     assert!(has(b"gAMA") && !has(b"sRGB"));
 }
 
 #[test]
 fn a_raw_without_a_side_car_needs_its_levels() {
-    let shots = Shots::taken();
-    let (raw, lone) = ("out/bayer/raw.0000.dng", "lone.dng");
-    fs::copy(shots.path(raw), shots.path(lone)).expect("copied");
-    shots.refused(&[lone], "bayer.toml", &[], &["lone.dng", "camera.json", "--levels"]);
-    shots.refused(&[raw], "bayer.toml", &["--levels", "64..4024"], &["raw.0000.dng", "leave --levels out"]);
-    shots.refused(&[lone], "bayer.toml", &["--levels", "64..64"], &["--levels", "BLACK < WHITE"]);
-    shots.refused(&[lone], "hdr.toml", &["--levels", "64..4024"], &["lone.dng", "companded", "side-car"]);
-    shots.develop(&[lone], "bayer.toml", &["--levels", "64..4024", "--seed", "9"]).ok();
-    let picture = |folder: &str| fs::read(shots.path(&format!("{folder}/bayer/picture.0000.png"))).expect("a picture");
-    assert!(picture("made") == picture("out"), "levels, seed and frame are those of the side-car");
+    let frames = RenderedFrames::render_frames();
+    let (raw, single) = ("out/bayer/raw.0000.dng", "lone.dng");
+    fs::copy(frames.path(raw), frames.path(single)).expect("copied");
+    frames.refused(&[single], "bayer.toml", &[], &["lone.dng", "camera.json", "--levels"]);
+    frames.refused(&[raw], "bayer.toml", &["--levels", "64..4024"], &["raw.0000.dng", "leave --levels out"]);
+    frames.refused(&[single], "bayer.toml", &["--levels", "64..64"], &["--levels", "BLACK < WHITE"]);
+    frames.refused(&[single], "hdr.toml", &["--levels", "64..4024"], &["lone.dng", "companded", "side-car"]);
+    frames.develop(&[single], "bayer.toml", &["--levels", "64..4024", "--seed", "9"]).ok();
+    let image = |folder: &str| fs::read(frames.path(&format!("{folder}/bayer/picture.0000.png"))).expect("a picture");
+    assert!(image("made") == image("out"), "levels, seed and frame are those of the side-car");
 }
 
 #[test]
 fn raws_that_contradict_their_camera_are_refused() {
-    let shots = Shots::taken();
+    let frames = RenderedFrames::render_frames();
     let (bayer, hdr) = ("out/bayer/raw.0000.dng", "out/hdr/raw.0000.png");
-    let sidecar = shots.path("out/bayer/camera.json");
-    shots.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that captured it"]);
-    shots.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that captured it"]);
-    shots.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
-    shots.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is frame 0"]);
-    shots.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
-    shots.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
+    let sidecar = frames.path("out/bayer/camera.json");
+    frames.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that captured it"]);
+    frames.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that captured it"]);
+    frames.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
+    frames.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is frame 0"]);
+    frames.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
+    frames.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
     let colour = ["--levels", "0..255"];
-    shots.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);
+    frames.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);
     let optical = ["--set", "isp.black_level=optical_black"];
-    shots.refused(&[bayer], "bayer.toml", &optical, &["isp.black_level", "optical-black"]);
+    frames.refused(&[bayer], "bayer.toml", &optical, &["isp.black_level", "optical-black"]);
 
-    let said = fs::read_to_string(&sidecar).expect("a side-car");
-    let spoilt = |from: &str, to: &str, phrases: &[&str]| {
+    let sidecar_text = fs::read_to_string(&sidecar).expect("a side-car");
+    let assert_refused = |from: &str, to: &str, phrases: &[&str]| {
         let raw = "out/bayer/raw.0001.dng";
-        let text = said.replace(from, to);
-        assert_ne!(text, said, "the side-car lacks {from}");
+        let text = sidecar_text.replace(from, to);
+        assert_ne!(text, sidecar_text, "the side-car lacks {from}");
         fs::write(&sidecar, text).expect("written");
-        shots.refused(&[raw], "bayer.toml", &[], &[&[raw], phrases].concat());
+        frames.refused(&[raw], "bayer.toml", &[], &[&[raw], phrases].concat());
     };
-    spoilt("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["earlier version", "render again"]);
-    spoilt("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that captured it"]);
-    spoilt("\"white_level_dn\": 4024.0", "\"white_level_dn\": 64.0", &["white must be above black"]);
-    spoilt("        32,\n        24\n", "        32,\n        25\n", &["32 × 25 pixels at column 0", "32 × 24"]);
+    assert_refused("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["earlier version", "render again"]);
+    assert_refused("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that captured it"]);
+    assert_refused("\"white_level_dn\": 4024.0", "\"white_level_dn\": 64.0", &["white must be above black"]);
+    assert_refused("        32,\n        24\n", "        32,\n        25\n", &["32 × 25 pixels at column 0", "32 × 24"]);
 }
 
 #[test]
 fn a_camera_without_processing_makes_no_pictures() {
-    let shots = Shots::taken();
+    let frames = RenderedFrames::render_frames();
     let at = CAMERA.find("[isp]").expect("a processing");
-    shots.write("plain.toml", &CAMERA[..at]);
-    shots.refused(&["out/bayer/raw.0000.dng"], "plain.toml", &[], &["plain.toml", "[isp]", "add it"]);
+    frames.write("plain.toml", &CAMERA[..at]);
+    frames.refused(&["out/bayer/raw.0000.dng"], "plain.toml", &[], &["plain.toml", "[isp]", "add it"]);
 }

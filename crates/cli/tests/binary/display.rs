@@ -9,22 +9,22 @@ use std::thread;
 
 /// Content of a viewer: the values of each channel, row by row.
 #[derive(Debug, Default, PartialEq)]
-struct Shown {
+struct ViewerContent {
     size: [usize; 2],
     channels: BTreeMap<String, Vec<f32>>,
 }
 
 /// The fields of a packet.
-struct Fields<'a>(&'a [u8]);
+struct PacketFields<'a>(&'a [u8]);
 
-impl Fields<'_> {
+impl PacketFields<'_> {
     fn bytes<const N: usize>(&mut self) -> [u8; N] {
         let (first, rest) = self.0.split_first_chunk().expect("a field");
         self.0 = rest;
         *first
     }
 
-    fn whole(&mut self) -> usize {
+    fn integer(&mut self) -> usize {
         i32::from_le_bytes(self.bytes()).try_into().expect("no negative number")
     }
 
@@ -36,25 +36,25 @@ impl Fields<'_> {
     }
 
     fn texts(&mut self) -> Vec<String> {
-        (0..self.whole()).map(|_| self.text()).collect()
+        (0..self.integer()).map(|_| self.text()).collect()
     }
 }
 
 /// Reads the packets of one connection to its end.
-fn view(mut stream: TcpStream) -> BTreeMap<String, Shown> {
-    let mut images: BTreeMap<String, Shown> = BTreeMap::new();
+fn view(mut stream: TcpStream) -> BTreeMap<String, ViewerContent> {
+    let mut images: BTreeMap<String, ViewerContent> = BTreeMap::new();
     let mut length = [0; 4];
     while stream.read_exact(&mut length).is_ok() {
         let mut packet = vec![0; u32::from_le_bytes(length) as usize - 4];
         stream.read_exact(&mut packet).expect("a whole packet");
-        let mut fields = Fields(&packet);
+        let mut fields = PacketFields(&packet);
         let ([kind, _], name) = (fields.bytes(), fields.text());
         match kind {
             4 => {
-                let size = [fields.whole(), fields.whole()];
+                let size = [fields.integer(), fields.integer()];
                 let channels = fields.texts().into_iter().map(|name| (name, vec![f32::NAN; size[0] * size[1]]));
                 let channels = channels.collect();
-                assert!(images.insert(name, Shown { size, channels }).is_none(), "made once");
+                assert!(images.insert(name, ViewerContent { size, channels }).is_none(), "made once");
             }
             6 => update(images.get_mut(&name).expect("made before"), &mut fields),
             other => panic!("packet {other}"),
@@ -65,9 +65,9 @@ fn view(mut stream: TcpStream) -> BTreeMap<String, Shown> {
 }
 
 /// The third version of the packet: strided channels.
-fn update(image: &mut Shown, fields: &mut Fields<'_>) {
+fn update(image: &mut ViewerContent, fields: &mut PacketFields<'_>) {
     let channels = fields.texts();
-    let [x, y, width, height] = std::array::from_fn(|_| fields.whole());
+    let [x, y, width, height] = std::array::from_fn(|_| fields.integer());
     let mut longs = || -> Vec<usize> { channels.iter().map(|_| i64::from_le_bytes(fields.bytes()) as usize).collect() };
     let (offsets, strides) = (longs(), longs());
     let values: Vec<f32> = fields.0.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
@@ -81,7 +81,7 @@ fn update(image: &mut Shown, fields: &mut Fields<'_>) {
 }
 
 /// Renders while `viewer` handles the connection.
-fn shown<T: Send + 'static>(
+fn render_to_viewer<T: Send + 'static>(
     options: &[&str],
     viewer: impl FnOnce(TcpStream) -> T + Send + 'static,
 ) -> (BTreeMap<String, Vec<u8>>, String, T) {
@@ -95,15 +95,15 @@ fn shown<T: Send + 'static>(
     (contents(&out), run.err, viewer.join().expect("the viewer"))
 }
 
-fn plain(options: &[&str]) -> BTreeMap<String, Vec<u8>> {
+fn render_without_viewer(options: &[&str]) -> BTreeMap<String, Vec<u8>> {
     crate::support::rendered(&small(), options)
 }
 
 #[test]
 fn a_viewer_shows_the_colours_of_the_written_radiance() {
     for options in [&["--spp", "4"][..], &["--progressive", "--spp", "24"]] {
-        let (files, _, images) = shown(options, view);
-        assert_same(&plain(options), &files, "with a viewer");
+        let (files, _, images) = render_to_viewer(options, view);
+        assert_same(&render_without_viewer(options), &files, "with a viewer");
         let place = tempfile::tempdir().expect("a temporary folder");
         let file = place.path().join("radiance.exr");
         std::fs::write(&file, &files["front/radiance.exr"]).expect("write");
@@ -111,8 +111,8 @@ fn a_viewer_shows_the_colours_of_the_written_radiance() {
         let image = &images["front"];
         assert_eq!(image.size, [written.width, written.height]);
         for name in ["R", "G", "B"] {
-            let told = written.channel(name).expect("a preview").to_floats();
-            assert_eq!(image.channels[name], told.to_vec(), "{name}");
+            let preview = written.channel(name).expect("a preview").to_floats();
+            assert_eq!(image.channels[name], preview.to_vec(), "{name}");
         }
     }
 }
@@ -121,7 +121,7 @@ fn a_viewer_shows_the_colours_of_the_written_radiance() {
 fn electrons_that_pixels_make_are_shown_as_such() {
     let off = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
     let options = [&["--spp", "4"][..], &off].concat();
-    let (files, _, images) = shown(&options, view);
+    let (files, _, images) = render_to_viewer(&options, view);
     let image = &images["front"];
     assert_eq!(image.channels.keys().collect::<Vec<_>>(), ["Y"]);
     assert!(image.channels["Y"].iter().all(|electrons| electrons.is_finite()));
@@ -129,17 +129,17 @@ fn electrons_that_pixels_make_are_shown_as_such() {
 }
 
 #[test]
-fn a_viewer_that_goes_away_is_told_of_and_the_run_goes_on() {
-    let (files, told, ()) = shown(&["--spp", "4"], drop);
-    assert_same(&plain(&["--spp", "4"]), &files, "without its viewer");
-    assert!(told.lines().filter(|line| line.contains("the viewer at 127.0.0.1")).count() <= 1, "{told}");
+fn a_lost_viewer_is_reported_and_the_run_continues() {
+    let (files, messages, ()) = render_to_viewer(&["--spp", "4"], drop);
+    assert_same(&render_without_viewer(&["--spp", "4"]), &files, "without its viewer");
+    assert!(messages.lines().filter(|line| line.contains("the viewer at 127.0.0.1")).count() <= 1, "{messages}");
 }
 
 /// The viewer accepts, and reads nothing before the run is over: its buffers may hold everything, or the connection is closed after 5 s.
 #[test]
 fn a_viewer_that_does_not_read_changes_nothing() {
-    let (files, _, _stream) = shown(&["--spp", "4"], |stream| stream);
-    assert_same(&plain(&["--spp", "4"]), &files, "with a viewer that waits");
+    let (files, _, _stream) = render_to_viewer(&["--spp", "4"], |stream| stream);
+    assert_same(&render_without_viewer(&["--spp", "4"]), &files, "with a viewer that waits");
 }
 
 #[test]

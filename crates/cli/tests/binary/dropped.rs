@@ -23,9 +23,9 @@ fn triangles_without_area_and_duplicates_are_counted_in_the_plan() {
     fs::write(place.path().join("m.obj"), OBJ).expect("written");
     let plan = etendue(["plan", &text(&job)]).ok().out;
     assert!(plan.contains("1 instance, 2 triangles (2 stored)"), "{plan}");
-    let told = |words: &[&str]| plan.lines().any(|line| words.iter().all(|word| line.contains(word)));
-    assert!(told(&["2 ", "area", "dropped"]), "{plan}");
-    assert!(told(&["2 ", "duplicate", "dropped"]), "{plan}");
+    let has_line = |words: &[&str]| plan.lines().any(|line| words.iter().all(|word| line.contains(word)));
+    assert!(has_line(&["2 ", "area", "dropped"]), "{plan}");
+    assert!(has_line(&["2 ", "duplicate", "dropped"]), "{plan}");
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn a_mesh_of_nothing_but_such_triangles_is_an_empty_one() {
 }
 
 /// Renders a job of a folder with these files; returns its output.
-fn rendered(files: &[(&str, &str)]) -> crate::support::Ran {
+fn rendered(files: &[(&str, &str)]) -> crate::support::CommandOutput {
     let place = tempfile::tempdir().expect("a temporary folder");
     files.iter().for_each(|(name, text)| fs::write(place.path().join(name), text).expect("written"));
     let output = text(&place.path().join("out"));
@@ -48,15 +48,15 @@ fn rendered(files: &[(&str, &str)]) -> crate::support::Ran {
 
 #[test]
 fn a_rendering_repeats_what_was_dropped() {
-    let ran = rendered(&[("job.toml", JOB), ("m.obj", OBJ)]).ok();
-    ran.says(&["warning: ", "m.obj: 2 triangles of zero area and 2 duplicates are removed"]);
+    let output = rendered(&[("job.toml", JOB), ("m.obj", OBJ)]).ok();
+    output.says(&["warning: ", "m.obj: 2 triangles of zero area and 2 duplicates are removed"]);
 }
 
 #[test]
 fn a_rendering_says_that_nothing_gives_light() {
     let dark = JOB.replace("radiance_w_m2_sr_nm = 1", "radiance_w_m2_sr_nm = 0");
-    let ran = rendered(&[("job.toml", &dark), ("m.obj", OBJ)]).ok();
-    ran.says(&["warning: camera front: there is no light"]);
+    let output = rendered(&[("job.toml", &dark), ("m.obj", OBJ)]).ok();
+    output.says(&["warning: camera front: there is no light"]);
 }
 
 const QUAD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\n";
@@ -67,17 +67,17 @@ fn a_missing_material_library_is_a_warning_and_grey_where_the_scene_says_nothing
     let named = rendered(&[("job.toml", JOB), ("m.obj", &mesh)]).ok();
     assert_eq!(named.err, "", "an object that names its material needs no library");
     let job = JOB.replace("mesh = \"m\", material = \"grey\"", "mesh = \"m\"");
-    let ran = rendered(&[("job.toml", &job), ("m.obj", &mesh)]).ok();
-    let warnings: Vec<&str> = ran.err.lines().collect();
-    assert_eq!(warnings.len(), 1, "{}", ran.err);
-    ran.says(&["warning: ", "\"red\"", "\"blue\"", "line 1: the material library", "lost.mtl` does not exist", "grey"]);
+    let output = rendered(&[("job.toml", &job), ("m.obj", &mesh)]).ok();
+    let warnings: Vec<&str> = output.err.lines().collect();
+    assert_eq!(warnings.len(), 1, "{}", output.err);
+    output.says(&["warning: ", "\"red\"", "\"blue\"", "line 1: the material library", "lost.mtl` does not exist", "grey"]);
     let no_library = mesh.replace("mtllib lost.mtl\n", "");
     let refused = rendered(&[("job.toml", &job), ("m.obj", &no_library)]);
     assert_eq!(refused.status, 2, "a file that names no library leaves the scene to say it: {}", refused.err);
 }
 
 #[test]
-fn a_remark_that_concerns_many_things_is_told_once() {
+fn a_note_on_many_objects_is_reported_once() {
     let materials =
         "materials = [{ name = \"a\", preset = \"sign_ra1_white\" }, { name = \"b\", preset = \"sign_ra2_white\" }]";
     let job = JOB
@@ -87,7 +87,7 @@ fn a_remark_that_concerns_many_things_is_told_once() {
     fs::write(place.path().join("job.toml"), job).expect("written");
     fs::write(place.path().join("m.obj"), OBJ).expect("written");
     let plan = etendue(["plan", &text(&place.path().join("job.toml"))]).ok().out;
-    let told: Vec<&str> = plan.lines().filter(|line| line.contains("R_A is constant")).collect();
-    assert_eq!(told.len(), 1, "{plan}");
-    assert!(told[0].contains("materials.a, ") && told[0].contains("materials.b: "), "{plan}");
+    let lines: Vec<&str> = plan.lines().filter(|line| line.contains("R_A is constant")).collect();
+    assert_eq!(lines.len(), 1, "{plan}");
+    assert!(lines[0].contains("materials.a, ") && lines[0].contains("materials.b: "), "{plan}");
 }

@@ -1,7 +1,7 @@
 //! Drops on the windscreen in images: their refraction, and their times.
 
 use crate::support::{assert_same, etendue, rendered, text};
-use etendue_io::exr::{Samples, read_exr};
+use etendue_io::exr::{ExrSamples, read_exr};
 use std::path::Path;
 
 const SIDE: usize = 24;
@@ -100,19 +100,19 @@ start_s = 0.9
 frame_rate_hz = 5
 "#;
 
-struct Scene {
+struct DropsScene {
     _place: tempfile::TempDir,
     job: String,
 }
 
-fn scene(floor: &str, drops: &str) -> Scene {
+fn scene(floor: &str, drops: &str) -> DropsScene {
     let place = tempfile::tempdir().expect("a temporary folder");
     let path = place.path().join("job.toml");
     std::fs::write(&path, JOB.replace("FLOOR", floor).replace("DROPS", drops)).expect("written");
-    Scene { job: text(&path), _place: place }
+    DropsScene { job: text(&path), _place: place }
 }
 
-impl Scene {
+impl DropsScene {
     /// Electrons of all pixels, row by row.
     fn electrons(&self) -> Vec<f64> {
         self.plane("electrons.exr", "electrons")
@@ -124,7 +124,7 @@ impl Scene {
         let output = text(&place.path().join("out"));
         etendue(["render", &self.job, "-o", &output]).ok();
         let file = read_exr(Path::new(&format!("{output}/c/{name}"))).expect("a picture");
-        let Some(Samples::Float(values)) = file.channel(channel) else { panic!("{channel}") };
+        let Some(ExrSamples::Float(values)) = file.channel(channel) else { panic!("{channel}") };
         values.iter().map(|v| f64::from(*v)).collect()
     }
 }
@@ -192,9 +192,9 @@ fn a_frame_of_changing_drops_is_the_same_alone_and_in_shards() {
         let shard = format!("{i}/2");
         etendue(["render", &rain.job, "-o", &part(i), "--frames", "3..5", "--shard", &shard]).ok();
     }
-    let whole = text(&place.path().join("whole"));
-    etendue(["merge", "-o", &whole, &part(0), &part(1)]).ok();
-    let merged = crate::support::contents(Path::new(&whole));
+    let merged_folder = text(&place.path().join("whole"));
+    etendue(["merge", "-o", &merged_folder, &part(0), &part(1)]).ok();
+    let merged = crate::support::contents(Path::new(&merged_folder));
     assert_same(&rendered(&rain.job, &["--frames", "3..5"]), &merged, "two shards");
 }
 

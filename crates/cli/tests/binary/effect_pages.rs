@@ -14,13 +14,13 @@ fn page(name: &str) -> Option<String> {
 fn every_effect_that_the_plan_knows_has_a_page() {
     let plan: Value = serde_json::from_str(&etendue(["plan", JOB, "--json"]).ok().out).expect("JSON");
     let effects = plan["cameras"][0]["effects"].as_array().expect("a list");
-    let is_told = |effect: &&Value| {
+    let is_reported = |effect: &&Value| {
         ["weather", "lens", "sensor", "processing"].contains(&effect["group"].as_str().expect("a group"))
             && effect["reason"] != "not modelled by this program"
     };
     let index = page("README").expect("the index");
     let mut count = 0;
-    for effect in effects.iter().filter(is_told) {
+    for effect in effects.iter().filter(is_reported) {
         let name = effect["id"].as_str().expect("an id").replace('_', "-");
         let text =
             page(&name).unwrap_or_else(|| panic!("docs/effects/{name}.md is missing: see docs/effects/README.md"));

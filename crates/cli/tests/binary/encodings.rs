@@ -1,6 +1,6 @@
 //! Sources of an image's encoding for measurements: options, side-car, chunks of the file, assumption.
 
-use crate::support::{Ran, etendue, text};
+use crate::support::{CommandOutput, etendue, text};
 use etendue_core::Plane;
 use etendue_core::maths::f64::{log10, pow};
 use etendue_core::quantity::{DigitalNumber, Display};
@@ -17,17 +17,17 @@ fn light(i: usize) -> f32 {
     0.1 + 0.7 * (x - 39.0 - 0.0875 * (y - 39.5)).clamp(0.0, 1.0)
 }
 
-struct Pictures {
-    place: TempDir,
+struct TestImages {
+    folder: TempDir,
 }
 
-impl Pictures {
+impl TestImages {
     fn new() -> Self {
-        Self { place: tempfile::tempdir().expect("a folder") }
+        Self { folder: tempfile::tempdir().expect("a folder") }
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> String {
-        let file = self.place.path().join(name);
+        let file = self.folder.path().join(name);
         std::fs::write(&file, bytes).expect("written");
         text(&file)
     }
@@ -40,19 +40,19 @@ impl Pictures {
     }
 
     /// An 8-bit image whose file states its encoding.
-    fn stated(&self, name: &str, encoding: &Encoding, number: impl Fn(f32) -> f32) -> String {
+    fn image_with_encoding(&self, name: &str, encoding: &Encoding, number: impl Fn(f32) -> f32) -> String {
         let plane = Plane::<Display>::from_samples(80, 80, (0..80 * 80).map(|i| [number(light(i)); 3]).collect());
         self.write(name, &encode_display(&plane.expect("a square"), encoding).expect("a picture"))
     }
 }
 
-fn sfr(picture: &str, options: &[&str]) -> Ran {
-    etendue(["measure", "sfr", picture].into_iter().chain(options.iter().copied()))
+fn sfr(image: &str, options: &[&str]) -> CommandOutput {
+    etendue(["measure", "sfr", image].into_iter().chain(options.iter().copied()))
 }
 
 /// Frequency of half response, and the encoding used with its reason.
-fn found(picture: &str, options: &[&str]) -> (f64, String, String) {
-    let report: Value = serde_json::from_str(&sfr(picture, &[options, &["--json"]].concat()).ok().out).expect("JSON");
+fn measured_encoding(image: &str, options: &[&str]) -> (f64, String, String) {
+    let report: Value = serde_json::from_str(&sfr(image, &[options, &["--json"]].concat()).ok().out).expect("JSON");
     let mtf50 = report["tables"]["edges"][0]["mtf50_cycles_per_px"]["value"].as_f64();
     let words = |key: &str| report["encodings"][0][key].as_str().unwrap_or_default().to_owned();
     (mtf50.unwrap_or_else(|| panic!("no MTF50 in {report}")), words("encoding"), words("reason"))
@@ -60,62 +60,62 @@ fn found(picture: &str, options: &[&str]) -> (f64, String, String) {
 
 #[test]
 fn pictures_of_any_encoding_give_one_response() {
-    let pictures = Pictures::new();
+    let images = TestImages::new();
     let (linear, as_is) = (Encoding::Linear, |l: f32| l);
-    let (truth, encoding, reason) = found(&pictures.grey("linear.png", as_is), &[]);
+    let (truth, encoding, reason) = measured_encoding(&images.grey("linear.png", as_is), &[]);
     assert!(encoding == "linear" && reason.starts_with("assumed") && reason.contains("--encoding"), "{reason}");
-    let same = |picture: &str, options: &[&str], encoding: &str, phrase: &str| {
-        let (mtf50, taken, reason) = found(picture, options);
-        assert!((mtf50 - truth).abs() < 0.003, "{picture} {options:?}: {mtf50} for {truth}");
-        assert!(taken == encoding && reason.contains(phrase), "{picture} {options:?}: {taken}, {reason}");
+    let same = |image: &str, options: &[&str], encoding: &str, phrase: &str| {
+        let (mtf50, mode, reason) = measured_encoding(image, options);
+        assert!((mtf50 - truth).abs() < 0.003, "{image} {options:?}: {mtf50} for {truth}");
+        assert!(mode == encoding && reason.contains(phrase), "{image} {options:?}: {mode}, {reason}");
     };
-    same(&pictures.grey("srgb.png", encode), &["--encoding", "srgb"], "sRGB", "--encoding");
-    same(&pictures.stated("linear8.png", &linear, as_is), &[], "linear", "gAMA chunk");
-    same(&pictures.stated("srgb8.png", &Encoding::Srgb, encode), &[], "sRGB", "sRGB chunk");
+    same(&images.grey("srgb.png", encode), &["--encoding", "srgb"], "sRGB", "--encoding");
+    same(&images.image_with_encoding("linear8.png", &linear, as_is), &[], "linear", "gAMA chunk");
+    same(&images.image_with_encoding("srgb8.png", &Encoding::Srgb, encode), &[], "sRGB", "sRGB chunk");
     same(
-        &pictures.stated("gamma8.png", &Encoding::Gamma(1.8), |l| pow(f64::from(l), 1.0 / 1.8) as f32),
+        &images.image_with_encoding("gamma8.png", &Encoding::Gamma(1.8), |l| pow(f64::from(l), 1.0 / 1.8) as f32),
         &[],
         "gamma 1.8",
         "gAMA",
     );
-    same(&pictures.stated("lying.png", &Encoding::Srgb, as_is), &["--encoding", "linear"], "linear", "--encoding");
-    let table = pictures.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
+    same(&images.image_with_encoding("lying.png", &Encoding::Srgb, as_is), &["--encoding", "linear"], "linear", "--encoding");
+    let table = images.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
     let bent = |l: f32| if l < 0.2 { 2.5 * l } else { 0.5 + 0.625 * (l - 0.2) };
-    same(&pictures.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
+    same(&images.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
     // A measured function: linear in the logarithm of the exposure, in the image's own numbers.
-    let oecf = pictures.write("oecf.csv", b"# cd/m2, DN\n1 6553.5\n100 58981.5\n");
+    let oecf = images.write("oecf.csv", b"# cd/m2, DN\n1 6553.5\n100 58981.5\n");
     let log = |l: f32| 0.1 + 0.4 * log10(100.0 * f64::from(l)) as f32;
-    same(&pictures.grey("log.png", log), &["--encoding", &oecf], "OECF of 2 points", "oecf.csv");
+    same(&images.grey("log.png", log), &["--encoding", &oecf], "OECF of 2 points", "oecf.csv");
 }
 
 #[test]
 fn a_side_car_goes_before_what_the_file_says_and_options_before_both() {
-    let pictures = Pictures::new();
-    let (truth, ..) = found(&pictures.grey("linear.png", |l| l), &[]);
-    let picture = pictures.stated("picture.0000.png", &Encoding::Srgb, |l| l);
+    let images = TestImages::new();
+    let (truth, ..) = measured_encoding(&images.grey("linear.png", |l| l), &[]);
+    let image = images.image_with_encoding("picture.0000.png", &Encoding::Srgb, |l| l);
     let sidecar = |encoding: &str| {
-        let said = format!(r#"{{"program": "etendue", "files": {{"picture.0000.png": {{"encoding": {encoding}}}}}}}"#);
-        pictures.write("develop.json", said.as_bytes());
+        let sidecar_text = format!(r#"{{"program": "etendue", "files": {{"picture.0000.png": {{"encoding": {encoding}}}}}}}"#);
+        images.write("develop.json", sidecar_text.as_bytes());
     };
     sidecar("\"linear\"");
-    let (mtf50, encoding, reason) = found(&picture, &[]);
+    let (mtf50, encoding, reason) = measured_encoding(&image, &[]);
     assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json next to it", "{reason}");
-    let (wrong, _, reason) = found(&picture, &["--encoding", "srgb"]);
+    let (wrong, _, reason) = measured_encoding(&image, &["--encoding", "srgb"]);
     assert!((wrong - truth).abs() > 0.02 && reason == "--encoding", "{wrong} {truth} {reason}");
     sidecar("\"sepia\"");
-    sfr(&picture, &[]).refused(&["develop.json", "unknown encoding of picture.0000.png"]);
+    sfr(&image, &[]).refused(&["develop.json", "unknown encoding of picture.0000.png"]);
 }
 
 #[test]
 fn tables_and_words_that_are_no_encoding_are_refused() {
-    let pictures = Pictures::new();
-    let picture = pictures.grey("a.png", |l| l);
-    sfr(&picture, &["--encoding", "gamma"]).refused(&["--encoding", "linear, srgb or a table"]);
-    sfr(&picture, &["--encoding", "none.csv"]).refused(&["none.csv"]);
-    let falling = pictures.write("falling.csv", b"0, 0\n0.5, 0.9\n1, 0.8\n");
-    sfr(&picture, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs never fall"]);
-    let wide = pictures.write("wide.csv", b"0, 0, 1\n1, 1, 1\n");
-    sfr(&picture, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
+    let images = TestImages::new();
+    let image = images.grey("a.png", |l| l);
+    sfr(&image, &["--encoding", "gamma"]).refused(&["--encoding", "linear, srgb or a table"]);
+    sfr(&image, &["--encoding", "none.csv"]).refused(&["none.csv"]);
+    let falling = images.write("falling.csv", b"0, 0\n0.5, 0.9\n1, 0.8\n");
+    sfr(&image, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs never fall"]);
+    let wide = images.write("wide.csv", b"0, 0, 1\n1, 1, 1\n");
+    sfr(&image, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
 }
 
 /// Photon transfer measures linear numbers: a frame that states an encoding is refused.
@@ -124,11 +124,11 @@ fn frames_that_say_they_are_encoded_are_no_raws() {
     let stacks = crate::support::root().join("tests/oracles/figures/emva1288");
     let stored = std::fs::read_to_string(stacks.join("EMVA1288descriptor.txt")).expect("a descriptor");
     let stored = stored.replace("images\\", &(text(&stacks.join("images")) + "/"));
-    let pictures = Pictures::new();
-    let descriptor = pictures.write("descriptor.txt", stored.as_bytes());
+    let images = TestImages::new();
+    let descriptor = images.write("descriptor.txt", stored.as_bytes());
     let ptc = |options: &[&str]| etendue(["measure", "ptc", &descriptor].into_iter().chain(options.iter().copied()));
-    let told = ptc(&[]).ok().out;
-    assert!(told.contains("encoding: linear (raw numbers are measured as stored)"), "{told}");
+    let report = ptc(&[]).ok().out;
+    assert!(report.contains("encoding: linear (raw numbers are measured as stored)"), "{report}");
     ptc(&["--encoding", "linear"]).ok();
     ptc(&["--encoding", "srgb"]).refused(&["sRGB numbers (--encoding)", "proportional to charge", "leave it out"]);
     assert!(Path::new(&descriptor).is_file());

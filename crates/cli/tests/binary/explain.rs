@@ -1,6 +1,6 @@
 //! The catalogue of errors: its examples have their errors, and the page of errors is generated from it.
 
-use crate::support::{Ran, bless, error_code, etendue, etendue_in, root, tests};
+use crate::support::{CommandOutput, bless, error_code, etendue, etendue_in, root, tests};
 use etendue::{ErrorCode, ExampleContext};
 use std::fs::{self, File};
 use std::path::Path;
@@ -52,7 +52,7 @@ fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
 /// Commands whose corrected form takes long, or needs files that no test makes here.
 const NOT_RUN: [ErrorCode; 3] = [ErrorCode::NotMeasurable, ErrorCode::NotStated, ErrorCode::NotEnoughMemory];
 
-fn replaced(path: &Path, from: &str, to: &str) {
+fn replace_in_file(path: &Path, from: &str, to: &str) {
     let text = fs::read_to_string(path).expect("text");
     assert!(text.contains(from), "{} lacks {from}", path.display());
     fs::write(path, text.replacen(from, to, 1)).expect("written");
@@ -68,8 +68,8 @@ fn words(command: &str) -> Vec<String> {
     command.split_whitespace().map(word).collect()
 }
 
-fn codes(ran: &Ran) -> Vec<&str> {
-    ran.err.lines().filter_map(error_code).collect()
+fn codes(output: &CommandOutput) -> Vec<&str> {
+    output.err.lines().filter_map(error_code).collect()
 }
 
 #[test]
@@ -83,27 +83,27 @@ fn every_example_has_its_error_and_none_when_mended() {
         }
         let job = folder.join("job.toml");
         fs::rename(folder.join("small.toml"), &job).expect("renamed");
-        edits(code).iter().for_each(|(from, to)| replaced(&job, from, to));
-        let held = prepare(code, folder);
+        edits(code).iter().for_each(|(from, to)| replace_in_file(&job, from, to));
+        let prepared = prepare(code, folder);
         let example = code.explanation().example;
-        let spoilt = match example.context {
+        let modified = match example.context {
             ExampleContext::Keys => Some(job),
             ExampleContext::File(name) => Some(folder.join(name)),
             ExampleContext::Command => None,
         };
-        let (wrong, right) = match &spoilt {
+        let (wrong, right) = match &modified {
             Some(_) => ("plan job.toml", "plan job.toml"),
             None => (example.wrong, example.right),
         };
-        if !NOT_RUN.contains(&code) && held.is_none() && spoilt.is_some() {
+        if !NOT_RUN.contains(&code) && prepared.is_none() && modified.is_some() {
             etendue_in(folder, words(right)).ok();
         }
-        if let Some(path) = &spoilt {
-            replaced(path, example.right, example.wrong);
+        if let Some(path) = &modified {
+            replace_in_file(path, example.right, example.wrong);
         }
-        let ran = etendue_in(folder, words(wrong));
-        assert!(ran.status == 2 && codes(&ran).contains(&code.word()), "{code}: {ran:?}");
-        if spoilt.is_none() && !NOT_RUN.contains(&code) {
+        let output = etendue_in(folder, words(wrong));
+        assert!(output.status == 2 && codes(&output).contains(&code.word()), "{code}: {output:?}");
+        if modified.is_none() && !NOT_RUN.contains(&code) {
             etendue_in(folder, words(right)).ok();
         }
     }
@@ -118,10 +118,10 @@ fn a_code_is_explained_with_cause_example_and_remedy() {
     assert!(etendue(["explain", "output-exists"]).ok().out.contains("with --overwrite."), "flags are spelled");
     let list = etendue(["explain"]).ok().out;
     assert_eq!(list.lines().count(), ErrorCode::ALL.len());
-    let ran = etendue(["explain", "unknwn-key"]);
-    assert_eq!(ran.status, 2);
-    let told = "error[unknown-name]: there is no error code \"unknwn-key\"; did you mean \"unknown-key\"?\n";
-    assert_eq!(ran.err, told);
+    let output = etendue(["explain", "unknwn-key"]);
+    assert_eq!(output.status, 2);
+    let expected = "error[unknown-name]: there is no error code \"unknwn-key\"; did you mean \"unknown-key\"?\n";
+    assert_eq!(output.err, expected);
 }
 
 #[test]
@@ -152,12 +152,12 @@ fn the_page_of_errors_is_the_catalogue() {
     let path = root().join("docs/errors.md");
     let text = fs::read_to_string(&path).expect("the page");
     let (head, stored) = text.split_once(MARK).expect("its mark");
-    let made = page();
+    let generated = page();
     if bless() {
-        fs::write(&path, format!("{head}{MARK}{made}")).expect("written");
+        fs::write(&path, format!("{head}{MARK}{generated}")).expect("written");
     } else {
         assert_eq!(
-            stored, made,
+            stored, generated,
             "write it anew with ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary explain::"
         );
     }

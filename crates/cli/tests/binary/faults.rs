@@ -20,24 +20,24 @@ static WRITING: Mutex<()> = Mutex::new(());
 
 /// A quantity or curve of a comparison: its largest E_n, and the threshold for a flag.
 #[derive(Clone, Copy, Debug)]
-struct Test {
+struct ComparedQuantity {
     e_n: f64,
     limit: f64,
 }
 
-impl Test {
+impl ComparedQuantity {
     fn differs(self) -> bool {
         self.e_n.abs() > self.limit
     }
 }
 
 /// A comparison, by quantity and curve.
-type Compared = BTreeMap<String, Test>;
+type ComparedQuantities = BTreeMap<String, ComparedQuantity>;
 
 /// A folder of one test.
-struct Bench(tempfile::TempDir);
+struct TestFolder(tempfile::TempDir);
 
-impl Bench {
+impl TestFolder {
     fn new() -> Self {
         Self(tempfile::tempdir().expect("a folder"))
     }
@@ -64,26 +64,26 @@ impl Bench {
 
     /// Compares the result of a measurement (its arguments) with the declaration of a camera file.
     #[track_caller]
-    fn beside(&self, measure: &[&str], camera: &str, options: &[&str]) -> Compared {
-        let found = etendue(["measure"].iter().chain(measure).chain(&["--json"])).ok().out;
+    fn compare_with_declaration(&self, measure: &[&str], camera: &str, options: &[&str]) -> ComparedQuantities {
+        let output = etendue(["measure"].iter().chain(measure).chain(&["--json"])).ok().out;
         let file = self.path("measured.json");
-        std::fs::write(&file, found).expect("a temporary file");
+        std::fs::write(&file, output).expect("a temporary file");
         let compare = ["measure", "compare", &text(&file), camera, "--json"].map(str::to_owned);
-        let ran = etendue(compare.into_iter().chain(options.iter().map(|o| (*o).to_owned())));
-        let report: Value = serde_json::from_str(&ran.out).unwrap_or_else(|_| panic!("{ran:?}"));
+        let run = etendue(compare.into_iter().chain(options.iter().map(|o| (*o).to_owned())));
+        let report: Value = serde_json::from_str(&run.out).unwrap_or_else(|_| panic!("{run:?}"));
         let compared = tests(&report);
-        assert_eq!(ran.status, i32::from(compared.values().any(|t| t.differs())), "{ran:?}");
+        assert_eq!(run.status, i32::from(compared.values().any(|t| t.differs())), "{run:?}");
         compared
     }
 }
 
 /// The tests of a comparison.
-fn tests(report: &Value) -> Compared {
+fn tests(report: &Value) -> ComparedQuantities {
     let rows = |table: &str| report["tables"][table].as_array().cloned().unwrap_or_default();
     let test = |row: &Value, name: &str| {
         Some((
             row[name].as_str()?.to_owned(),
-            Test { e_n: row["e_n"].as_f64()?, limit: row["limit"].as_f64().unwrap_or(1.0) },
+            ComparedQuantity { e_n: row["e_n"].as_f64()?, limit: row["limit"].as_f64().unwrap_or(1.0) },
         ))
     };
     let quantities = rows("quantities").into_iter().filter_map(|row| test(&row, "quantity"));
@@ -92,24 +92,24 @@ fn tests(report: &Value) -> Compared {
 
 /// Asserts that nothing is flagged for a camera without a defect.
 #[track_caller]
-fn sound(compared: &Compared) {
+fn assert_none_flagged(compared: &ComparedQuantities) {
     assert!(!compared.is_empty() && compared.values().all(|t| !t.differs()), "a sound camera is flagged: {compared:?}");
 }
 
 /// Asserts that the defect is flagged by its quantity, which the sound camera passes.
 #[track_caller]
-fn flagged(fault: &str, seeded: &str, quantity: &str, faulty: &Compared, healthy: &Compared) {
-    let (with, without) = (faulty[quantity], healthy[quantity]);
-    assert!(with.differs() && !without.differs(), "{fault}: {quantity} {with:?}, without it {without:?}");
-    told(fault, seeded, quantity, with, without);
+fn assert_flagged(defect: &str, seeded: &str, quantity: &str, defective: &ComparedQuantities, healthy: &ComparedQuantities) {
+    let (with, without) = (defective[quantity], healthy[quantity]);
+    assert!(with.differs() && !without.differs(), "{defect}: {quantity} {with:?}, without it {without:?}");
+    assert_row(defect, seeded, quantity, with, without);
 }
 
 /// Asserts that the page has the defect's row; its numbers are those of the last `just faults`.
 #[track_caller]
-fn told(fault: &str, seeded: &str, quantity: &str, with: Test, without: Test) {
-    let head = format!("| {fault} | {seeded} | `{quantity}` |");
+fn assert_row(defect: &str, seeded: &str, quantity: &str, with: ComparedQuantity, without: ComparedQuantity) {
+    let head = format!("| {defect} | {seeded} | `{quantity}` |");
     if bless() {
-        row(fault, &format!("{head} {:.2} | {:.2} | {:.2} |", with.e_n, without.e_n, with.limit));
+        assert_in_page(defect, &format!("{head} {:.2} | {:.2} | {:.2} |", with.e_n, without.e_n, with.limit));
         return;
     }
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -119,14 +119,14 @@ fn told(fault: &str, seeded: &str, quantity: &str, with: Test, without: Test) {
 
 /// Asserts that the page has this row of a defect.
 #[track_caller]
-fn row(fault: &str, row: &str) {
+fn assert_in_page(defect: &str, row: &str) {
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let page = std::fs::read_to_string(root().join(PAGE)).expect("the page");
     if !bless() {
         assert!(page.lines().any(|line| line == row), "{PAGE} lacks {row}: run just faults");
         return;
     }
-    let old = format!("| {fault} |");
+    let old = format!("| {defect} |");
     let known = page.lines().any(|line| line.starts_with(&old));
     let lines = page.lines().map(|line| if line.starts_with(&old) { row.to_owned() } else { line.to_owned() });
     let further = (!known).then(|| row.to_owned());

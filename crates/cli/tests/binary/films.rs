@@ -32,11 +32,11 @@ const THIN: &str = "lens = { type = \"thin\", focal_length_mm = 6, f_number = 4,
 const GLARE: &str = "margin = 0.1, glare = { scatter = 0.02, core_um = 25, exponent = 2.5 }";
 const SPECTRA: &str = "radiance = true\nirradiance = true\nvariance = true\nground_truth = true";
 
-struct Place {
+struct FilmJob {
     folder: tempfile::TempDir,
 }
 
-impl Place {
+impl FilmJob {
     fn new(passes: &str, camera: &str, output: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let job = JOB.replace("PASSES", passes).replace("CAMERA", camera).replace("OUTPUT", output);
@@ -55,10 +55,10 @@ impl Place {
     /// Asserts equal results from memory and from disk, and an empty folder for scratch files.
     fn check(&self, what: &str) {
         let (job, scratch) = (self.job(), text(&self.path("scratch")));
-        let held = rendered(&job, &["--scratch", &scratch]);
+        let in_memory = rendered(&job, &["--scratch", &scratch]);
         assert!(!self.path("scratch").exists(), "{what}: what fits needs no folder");
         let small = ["--film-memory", "1", "--scratch", &scratch];
-        assert_same(&held, &rendered(&job, &small), what);
+        assert_same(&in_memory, &rendered(&job, &small), what);
         let left = fs::read_dir(self.path("scratch")).expect("the disk was used").count();
         assert_eq!(left, 0, "{what}: scratch files that stay");
     }
@@ -72,18 +72,18 @@ fn camera(lens: &str, sensor: &str, effects: &str) -> String {
 #[test]
 fn light_through_the_lens_does_not_depend_on_the_memory_of_films() {
     let replicates = "spp = 4\nreplicates = 2";
-    Place::new(replicates, &camera(THIN, "", GLARE), SPECTRA).check("effects, band by band");
-    Place::new("spp = 1", &camera(THIN, "", ""), "radiance = true\nground_truth = false")
+    FilmJob::new(replicates, &camera(THIN, "", GLARE), SPECTRA).check("effects, band by band");
+    FilmJob::new("spp = 1", &camera(THIN, "", ""), "radiance = true\nground_truth = false")
         .check("one replicate, whose variance is not kept");
-    Place::new("passes = [2, 2]\nreplicates = 2", &camera(THIN, "", ""), SPECTRA).check("passes");
+    FilmJob::new("passes = [2, 2]\nreplicates = 2", &camera(THIN, "", ""), SPECTRA).check("passes");
 }
 
 #[test]
 fn photographs_do_not_depend_on_the_memory_of_films() {
     let electronics = format!(", {ELECTRONICS}");
     let output = "radiance = true\nelectrons = true\nraw = true\ndepth_png = true";
-    Place::new("spp = 4\nreplicates = 2", &camera(THIN, &electronics, GLARE), output).check("electrons of bands");
-    Place::new(
+    FilmJob::new("spp = 4\nreplicates = 2", &camera(THIN, &electronics, GLARE), output).check("electrons of bands");
+    FilmJob::new(
         "spp = 4\nreplicates = 2",
         &camera(THIN, &electronics, ""),
         "radiance = true\nelectrons = true\nraw = true",
@@ -98,11 +98,11 @@ fn radiance_at_the_pupil_and_its_lens_do_not_depend_on_the_memory_of_films() {
         format!("{lens}\nsensor = {{ {SENSOR}{more} }}\n{render}\neffects = {{ {GLARE} }}")
     };
     let electronics = format!(", {ELECTRONICS}");
-    Place::new("spp = 2", &at_pupil(THIN, &electronics), "radiance = true\nirradiance = true\nraw = true")
+    FilmJob::new("spp = 2", &at_pupil(THIN, &electronics), "radiance = true\nirradiance = true\nraw = true")
         .check("a thin lens");
-    Place::new("spp = 2", &at_pupil(THIN, ""), "radiance = true").check("radiance alone");
+    FilmJob::new("spp = 2", &at_pupil(THIN, ""), "radiance = true").check("radiance alone");
     let deep = at_pupil(THIN, "").replace("\"none\"", "\"physical\"");
-    Place::new("spp = 2", &deep, "irradiance = true").check("depth of field");
+    FilmJob::new("spp = 2", &deep, "irradiance = true").check("depth of field");
 }
 
 /// One element, whose reflections are traced quickly; behind the filter each band has its own étendue.
@@ -114,36 +114,36 @@ fn prescriptions_and_their_ghosts_do_not_depend_on_the_memory_of_films() {
     );
     let through = camera(&lens, &format!(", {ELECTRONICS}"), "ghosts = true");
     let output = "irradiance = true\nvariance = true\nelectrons = true\nghosts = true\nraw = true";
-    Place::new("spp = 2\nreplicates = 2", &through, output).check("through the lens");
+    FilmJob::new("spp = 2\nreplicates = 2", &through, output).check("through the lens");
     let at_pupil = format!("{through}\nrender = {{ route = \"pupil\", depth_of_field = \"none\" }}");
     let output = output.replace("variance = true\n", "");
-    Place::new("spp = 2", &at_pupil, &output).check("at the pupil");
+    FilmJob::new("spp = 2", &at_pupil, &output).check("at the pupil");
     let bare = at_pupil.replace("effects = { ghosts = true }", "");
-    Place::new("spp = 2", &bare, "irradiance = true\nraw = true").check("at the pupil, without ghosts");
+    FilmJob::new("spp = 2", &bare, "irradiance = true\nraw = true").check("at the pupil, without ghosts");
 }
 
 #[test]
-fn the_plan_tells_where_a_film_is() {
-    let place = Place::new("spp = 4\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
+fn the_plan_reports_where_a_film_is_stored() {
+    let place = FilmJob::new("spp = 4\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
     let plan = |options: &[&str]| etendue(["plan", &place.job()].iter().chain(options)).ok().out;
     // 20 bands: means and variances of 4 bytes; also weights, samples and non-finite counts.
-    let told = "film 0.2 MB in memory, its bands 2.4 MB on disk";
-    assert!(plan(&["--film-memory", "1"]).contains(told), "{}", plan(&["--film-memory", "1"]));
+    let expected = "film 0.2 MB in memory, its bands 2.4 MB on disk";
+    assert!(plan(&["--film-memory", "1"]).contains(expected), "{}", plan(&["--film-memory", "1"]));
     assert!(plan(&["--film-memory", "3"]).contains("film 2.6 MB\n"), "{}", plan(&[]));
     let json: serde_json::Value = serde_json::from_str(&plan(&["--film-memory", "1", "--json"])).expect("JSON");
     let cost = &json["cameras"][0]["cost"];
     assert_eq!(cost["film_bytes"], f64::from(3 * 4 * 150 * 101));
     assert_eq!(cost["film_disk_bytes"], f64::from(2 * 20 * 4 * 150 * 101));
     let deep = format!("{}\nrender = {{ route = \"pupil\", depth_of_field = \"physical\" }}", camera(THIN, "", ""));
-    let place = Place::new("spp = 1", &deep, "irradiance = true");
-    let told = etendue(["plan", &place.job(), "--film-memory", "1"]).ok().out;
-    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(told.contains("MB on disk, all read into memory at once for depth of field"), "{told}");
+    let place = FilmJob::new("spp = 1", &deep, "irradiance = true");
+    let output = etendue(["plan", &place.job(), "--film-memory", "1"]).ok().out;
+    let output = output.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(output.contains("MB on disk, all read into memory at once for depth of field"), "{output}");
 }
 
 #[test]
 fn a_folder_for_scratch_files_that_cannot_be_is_refused_before_anything_is_rendered() {
-    let place = Place::new("spp = 1", &camera(THIN, "", ""), "radiance = true");
+    let place = FilmJob::new("spp = 1", &camera(THIN, "", ""), "radiance = true");
     fs::write(place.path("file"), b"").expect("written");
     let (scratch, output) = (text(&place.path("file/scratch")), text(&place.path("out")));
     let options = ["--film-memory", "1", "--scratch", &scratch];
@@ -158,12 +158,12 @@ fn a_folder_for_scratch_files_that_cannot_be_is_refused_before_anything_is_rende
 
 #[test]
 fn shards_and_progressive_runs_of_films_on_the_disk_give_the_same() {
-    let place = Place::new("passes = [2, 2]\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
+    let place = FilmJob::new("passes = [2, 2]\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
     let (job, scratch) = (place.job(), text(&place.path("scratch")));
-    let held = rendered(&job, &[]);
+    let in_memory = rendered(&job, &[]);
     let small = ["--film-memory", "1", "--scratch", &scratch];
     let progressive = rendered(&job, &[&small[..], &["--progressive"]].concat());
-    assert_same(&held, &progressive, "refined after each pass");
+    assert_same(&in_memory, &progressive, "refined after each pass");
     let shards: Vec<String> = (0..2).map(|i| text(&place.path(&format!("shard{i}")))).collect();
     for (i, shard) in shards.iter().enumerate() {
         let which = format!("{i}/2");
@@ -171,5 +171,5 @@ fn shards_and_progressive_runs_of_films_on_the_disk_give_the_same() {
     }
     let merged = text(&place.path("merged"));
     etendue(["merge", "-o", &merged].into_iter().chain(shards.iter().map(String::as_str))).ok();
-    assert_same(&held, &crate::support::contents(Path::new(&merged)), "shards");
+    assert_same(&in_memory, &crate::support::contents(Path::new(&merged)), "shards");
 }

@@ -9,7 +9,7 @@ use etendue_io::png::{encode_display, encode_raw16};
 use std::path::Path;
 
 /// Flags that need another one, and are tried with it, or that concern the process.
-const ELSEWHERE: [&str; 4] = ["--help", "--limit", "--camera", "--overwrite"];
+const TESTED_ELSEWHERE: [&str; 4] = ["--help", "--limit", "--camera", "--overwrite"];
 
 /// Flags of all measurements of images, and values that change every image of this test.
 const PICTURE: &[(&str, &str)] = &[
@@ -32,10 +32,10 @@ const CHART: &[(&str, &str)] = &[
 ];
 
 /// Output of a run, its exit status, and its files.
-fn ran(words: &[&str], out: &Path) -> (i32, String, String, Vec<String>) {
-    let made = etendue(words);
+fn run(words: &[&str], out: &Path) -> (i32, String, String, Vec<String>) {
+    let result = etendue(words);
     let files = std::fs::read_dir(out).expect("a folder").map(|f| text(&f.expect("a file").path()));
-    (made.status, made.out, made.err, files.collect())
+    (result.status, result.out, result.err, files.collect())
 }
 
 /// The flags that `--help` lists.
@@ -53,10 +53,10 @@ fn each_changes_something(base: &[&str], values: &[&[(&str, &str)]]) {
     let empty = folder.path().join("without");
     std::fs::create_dir(&empty).expect("a folder");
     let words: Vec<&str> = ["measure"].into_iter().chain(base.iter().copied()).collect();
-    let without = ran(&words, &empty);
+    let without = run(&words, &empty);
     assert_eq!(without.0, 0, "{words:?}: {}", without.2);
     let lost = text(&folder.path().join("lost.json"));
-    for (i, flag) in flags(kind).iter().filter(|flag| !ELSEWHERE.contains(&flag.as_str())).enumerate() {
+    for (i, flag) in flags(kind).iter().filter(|flag| !TESTED_ELSEWHERE.contains(&flag.as_str())).enumerate() {
         let out = folder.path().join(i.to_string());
         std::fs::create_dir(&out).expect("a folder");
         let file = |name: &str| text(&out.join(name));
@@ -76,7 +76,7 @@ fn each_changes_something(base: &[&str], values: &[&[(&str, &str)]]) {
             Some(place) => all[place + 1] = value.as_str(),
             None => all.extend([flag.as_str(), value.as_str()].into_iter().filter(|word| !word.is_empty())),
         }
-        assert_ne!(ran(&all, &out), without, "measure {kind}: {flag} {value} changes nothing");
+        assert_ne!(run(&all, &out), without, "measure {kind}: {flag} {value} changes nothing");
     }
 }
 
@@ -107,7 +107,7 @@ fn dot(x: f64, y: f64) -> f64 {
 const SIZE: [usize; 2] = [320, 240];
 
 #[test]
-fn of_measurements_of_charts_of_points() {
+fn flags_of_point_chart_measurements() {
     let folder = tempfile::tempdir().expect("a folder");
     let grey = picture(folder.path(), "dots.png", SIZE, |x, y| 20_000.0 * dot(x / 20.3 + 0.25, y / 20.3 + 0.25));
     each_changes_something(&["distortion", &grey], &[CHART, &[("--encoding", "srgb"), ("--centre-px", "150,120")]]);
@@ -128,7 +128,7 @@ fn of_measurements_of_charts_of_points() {
 }
 
 #[test]
-fn of_measurements_of_an_edge_and_of_an_even_field() {
+fn flags_of_edge_and_flat_field_measurements() {
     let folder = tempfile::tempdir().expect("a folder");
     // 5° from the columns, slightly non-uniform.
     let edge = picture(folder.path(), "edge.png", SIZE, |x, y| {
@@ -144,16 +144,16 @@ fn of_measurements_of_an_edge_and_of_an_even_field() {
         ("--pixels-per-degree", "40"),
     ];
     each_changes_something(&["sfr", &edge], &[own, PICTURE]);
-    let even = picture(folder.path(), "even.png", SIZE, |x, y| {
+    let uniform = picture(folder.path(), "even.png", SIZE, |x, y| {
         let r2 = ((x - 160.0) * (x - 160.0) + (y - 120.0) * (y - 120.0)) / 40_000.0;
         15_000.0 * (1.0 - 0.3 * r2) + 300.0 + 50.0 * scatter(x, y, 0)
     });
     let own: &[(&str, &str)] = &[("--centre-px", "150,110"), ("--rings", "6"), ("--pixel-pitch-um", "3")];
-    each_changes_something(&["vignetting", &even], &[own, PICTURE]);
+    each_changes_something(&["vignetting", &uniform], &[own, PICTURE]);
 }
 
 #[test]
-fn of_measurements_of_patches() {
+fn flags_of_patch_measurements() {
     let folder = tempfile::tempdir().expect("a folder");
     let patches = |name: &str, frame: usize| {
         picture(folder.path(), name, SIZE, |x, y| {
@@ -187,7 +187,7 @@ fn of_measurements_of_patches() {
 }
 
 #[test]
-fn of_measurements_of_depth_and_of_lenses() {
+fn flags_of_depth_and_lens_measurements() {
     let folder = tempfile::tempdir().expect("a folder");
     let depth = |name: &str, metres: &dyn Fn(usize, usize) -> f32| {
         let mut bytes = b"Pf\n64 48\n-1.0\n".to_vec();

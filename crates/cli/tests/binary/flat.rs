@@ -1,8 +1,8 @@
 //! Uniform illumination of bare sensors from the command line.
 
-use crate::support::{Ran, contents, etendue, text};
-use etendue_io::exr::{Samples, read_exr};
-use etendue_io::picture::read_picture;
+use crate::support::{CommandOutput, contents, etendue, text};
+use etendue_io::exr::{ExrSamples, read_exr};
+use etendue_io::picture::read_image;
 use etendue_scene::asset::ImagePixels;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -11,13 +11,13 @@ const WEB: &str = "scenes/cameras/web.toml";
 const SMALL: [&str; 4] = ["--set", "sensor.width_px=16", "--set", "sensor.height_px=8"];
 
 /// Runs `flat`; returns the run, and the camera's files.
-fn flat(camera: &str, options: &[&str]) -> (Ran, BTreeMap<String, Vec<u8>>) {
+fn flat(camera: &str, options: &[&str]) -> (CommandOutput, BTreeMap<String, Vec<u8>>) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
     let arguments = ["flat", camera, "--wavelength-nm", "525", "-o", &out];
-    let ran = etendue(arguments.iter().copied().chain(options.iter().copied()));
+    let output = etendue(arguments.iter().copied().chain(options.iter().copied()));
     let files = contents(&place.path().join("out"));
-    (ran, files)
+    (output, files)
 }
 
 /// A file of its own.
@@ -31,16 +31,16 @@ fn stored(bytes: &[u8], name: &str) -> (tempfile::TempDir, PathBuf) {
 /// Digital numbers of a raw, and its columns and rows.
 fn numbers(bytes: &[u8]) -> (Vec<u16>, [u32; 2]) {
     let (_place, path) = stored(bytes, "raw.png");
-    let picture = read_picture(&path).expect("a picture");
-    let ImagePixels::Gray16(samples) = picture.pixels else { panic!("16 bits") };
-    (samples, [picture.width, picture.height])
+    let image = read_image(&path).expect("a picture");
+    let ImagePixels::Gray16(samples) = image.pixels else { panic!("16 bits") };
+    (samples, [image.width, image.height])
 }
 
 #[test]
 fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
     let options = [&SMALL[..], &["--irradiance-w-m2", "0.002", "--frames", "3..5"]].concat();
-    let (ran, files) = flat(WEB, &options);
-    ran.ok();
+    let (output, files) = flat(WEB, &options);
+    output.ok();
     let names = ["camera.json", "picture.0003.png", "picture.0004.png", "raw.0003.png", "raw.0004.png"];
     assert_eq!(files.keys().cloned().collect::<Vec<_>>(), names.map(|n| format!("web/{n}")));
     assert_ne!(files["web/raw.0003.png"], files["web/raw.0004.png"]);
@@ -50,8 +50,8 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
     assert!((photons - 50.341_165_675_4 * 12.96 * 10.0 * 0.525 * 0.2).abs() < 1e-6 * photons, "{photons}");
     // No exposure control: the camera has it, a bench does not.
     assert!(facts["frames"].as_array().expect("frames").iter().all(|f| f["exposure_s"] == 0.01));
-    let (_, again) = flat(WEB, &options);
-    assert_eq!(files, again);
+    let (_, repeated) = flat(WEB, &options);
+    assert_eq!(files, repeated);
     let (_, other) = flat(WEB, &[&options[..], &["--seed", "7"]].concat());
     assert_ne!(files["web/raw.0003.png"], other["web/raw.0003.png"]);
 }
@@ -61,15 +61,15 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
 #[test]
 fn a_thinned_picture_has_the_pixels_that_are_read() {
     let options = [&SMALL[..], &["--irradiance-w-m2", "0.002"]].concat();
-    let (_, whole) = flat(WEB, &options);
-    let (ran, thin) = flat("scenes/cameras/web-video.toml", &options);
-    ran.ok();
-    let (whole, [width, _]) = numbers(&whole["web/raw.0000.png"]);
+    let (_, full) = flat(WEB, &options);
+    let (output, thin) = flat("scenes/cameras/web-video.toml", &options);
+    output.ok();
+    let (full, [width, _]) = numbers(&full["web/raw.0000.png"]);
     let (thin_numbers, size) = numbers(&thin["web-video/raw.0000.png"]);
     assert_eq!(size, [8, 4]);
     let place = |i: u32| i / 2 * 4 + i % 2;
     for (x, y) in (0..32).map(|i| (i % 8, i / 8)) {
-        assert_eq!(thin_numbers[(y * 8 + x) as usize], whole[(place(y) * width + place(x)) as usize], "{x} {y}");
+        assert_eq!(thin_numbers[(y * 8 + x) as usize], full[(place(y) * width + place(x)) as usize], "{x} {y}");
     }
     let facts: serde_json::Value = serde_json::from_slice(&thin["web-video/camera.json"]).expect("JSON");
     let rows = &facts["sensor"]["shutter"];
@@ -81,8 +81,8 @@ fn a_thinned_picture_has_the_pixels_that_are_read() {
 
 #[test]
 fn light_is_given_by_its_photons_too() {
-    let (ran, files) = flat(WEB, &[&SMALL[..], &["--photons", "1234.5"]].concat());
-    ran.ok();
+    let (output, files) = flat(WEB, &[&SMALL[..], &["--photons", "1234.5"]].concat());
+    output.ok();
     let facts: serde_json::Value = serde_json::from_slice(&files["web/camera.json"]).expect("JSON");
     let number = |key: &str| facts["light"][key].as_f64().expect("a number");
     assert!((number("photons_per_pixel") / 1234.5 - 1.0).abs() < 1e-12);
@@ -104,10 +104,10 @@ fn light_is_given_by_its_photons_too() {
 fn causes_make_up_the_numbers_and_do_not_change_them() {
     let options = [&SMALL[..], &["--irradiance-w-m2", "0.05"]].concat();
     for camera in [WEB, "scenes/cameras/ccd-mono.toml", "scenes/cameras/ccd-bayer.toml"] {
-        let (ran, plain) = flat(camera, &options);
-        ran.ok();
-        let (ran, files) = flat(camera, &[&options[..], &["--signal-breakdown"]].concat());
-        ran.ok();
+        let (output, plain) = flat(camera, &options);
+        output.ok();
+        let (output, files) = flat(camera, &[&options[..], &["--signal-breakdown"]].concat());
+        output.ok();
         let name = files.keys().find(|n| n.ends_with("signal_breakdown.0000.exr")).expect("signal_breakdown").clone();
         let raw = name.replace("signal_breakdown.0000.exr", "raw.0000.png");
         assert_eq!(files[&raw], plain[&raw], "{camera}");
@@ -123,7 +123,7 @@ fn causes_make_up_the_numbers_and_do_not_change_them() {
             .iter()
             .filter(|channel| channel.name != "saturated")
             .map(|channel| match &channel.samples {
-                Samples::Float(values) => values,
+                ExrSamples::Float(values) => values,
                 other => panic!("{other:?}"),
             })
             .collect();
@@ -141,8 +141,8 @@ fn causes_make_up_the_numbers_and_do_not_change_them() {
 fn a_picture_of_no_time_is_dark() {
     let no_time = [&SMALL[..], &["--set", "sensor.exposure_s=0"]].concat();
     let lit = [&no_time[..], &["--irradiance-w-m2", "1"]].concat();
-    let (ran, files) = flat("scenes/cameras/automotive.toml", &lit);
-    ran.ok();
+    let (output, files) = flat("scenes/cameras/automotive.toml", &lit);
+    output.ok();
     assert!(files.contains_key("automotive/picture.0000.png"));
     let (_, dark) = flat("scenes/cameras/automotive.toml", &[&no_time[..], &["--irradiance-w-m2", "0"]].concat());
     assert_eq!(files["automotive/raw.0000.png"], dark["automotive/raw.0000.png"]);
@@ -154,26 +154,26 @@ fn a_picture_of_no_time_is_dark() {
 
 #[test]
 fn sensors_that_cannot_be_are_refused() {
-    let refused = |set: &str, phrases: &[&str]| {
+    let assert_refused = |set: &str, phrases: &[&str]| {
         flat(WEB, &[&SMALL[..], &["--set", set, "--irradiance-w-m2", "1"]].concat()).0.refused(phrases)
     };
-    refused("sensor.gain_dn_per_e=1e-30", &["gain_dn_per_e", "so small"]);
-    refused("sensor.roi_px=[1e300,0,4,4]", &["roi_px", "beyond the image"]);
+    assert_refused("sensor.gain_dn_per_e=1e-30", &["gain_dn_per_e", "so small"]);
+    assert_refused("sensor.roi_px=[1e300,0,4,4]", &["roi_px", "beyond the image"]);
 }
 
 #[test]
 fn the_series_of_the_standard_names_all_its_frames() {
     let options = [&SMALL[..], &["--photon-transfer", "4", "--stack", "3"]].concat();
-    let (ran, files) = flat("scenes/cameras/ccd-mono.toml", &options);
-    ran.ok();
+    let (output, files) = flat("scenes/cameras/ccd-mono.toml", &options);
+    output.ok();
     assert_eq!(files.len(), 4 * 4 + 6 + 2);
     let descriptor = String::from_utf8(files["ccd-mono/emva1288.txt"].clone()).expect("UTF-8");
     let lines: Vec<&str> = descriptor.lines().collect();
     // Bits, columns and rows of the image: the optical black is excluded.
     assert_eq!(lines[..2], ["v 4.0", "n 12 16 8"]);
-    let heads: Vec<&str> = lines.iter().filter(|l| !l.starts_with('i')).skip(2).copied().collect();
-    assert_eq!(heads.len(), 10);
-    assert!(heads[0].starts_with("b 250000.000 ") && heads[1] == "d 250000.000", "{heads:?}");
+    let headings: Vec<&str> = lines.iter().filter(|l| !l.starts_with('i')).skip(2).copied().collect();
+    assert_eq!(headings.len(), 10);
+    assert!(headings[0].starts_with("b 250000.000 ") && headings[1] == "d 250000.000", "{headings:?}");
     let images = lines.iter().filter_map(|l| l.strip_prefix("i "));
     assert!(images.clone().all(|name| files.contains_key(&format!("ccd-mono/{name}"))));
     assert_eq!(images.count(), 22);
@@ -224,10 +224,10 @@ fn what_cannot_be_measured_is_refused() {
         ("--irradiance-w-m2", "1e15", "at most 9e15"),
         ("--photon-transfer", "2", "expected a whole number from 3 to 10000"),
     ] {
-        let (ran, files) = flat(WEB, &[&SMALL[..], &[option, value]].concat());
-        assert_eq!((ran.status, files.len()), (2, 0), "{value}");
-        ran.says(&[phrase]);
+        let (output, files) = flat(WEB, &[&SMALL[..], &[option, value]].concat());
+        assert_eq!((output.status, files.len()), (2, 0), "{value}");
+        output.says(&[phrase]);
     }
-    let (ran, _) = flat(WEB, &[&SMALL[..], &["--photon-transfer", "3", "--stack", "3"]].concat());
-    ran.ok().says(&["warning", "3 kinds of pixel"]);
+    let (output, _) = flat(WEB, &[&SMALL[..], &["--photon-transfer", "3", "--stack", "3"]].concat());
+    output.ok().says(&["warning", "3 kinds of pixel"]);
 }

@@ -59,24 +59,24 @@ fn the_distortion_of_dots_is_the_one_they_were_drawn_with() {
     });
     let camera = text(&folder.path().join("distortion.toml"));
     let plot = text(&folder.path().join("distortion.svg"));
-    let found = json(&["measure", "distortion", &file, "--target", "dots", "--camera-out", &camera, "--plot", &plot]);
-    for point in found["tables"]["curve"].as_array().expect("a curve") {
+    let report = json(&["measure", "distortion", &file, "--target", "dots", "--camera-out", &camera, "--plot", &plot]);
+    for point in report["tables"]["curve"].as_array().expect("a curve") {
         let field = point["field_percent"].as_f64().expect("a number") / 100.0;
         let ratio = point["ratio"]["value"].as_f64().expect("a number");
         let want = 1.0 / (1.0 + k1 * field * field + k2 * field * field * field * field);
         // The bench's tolerance is 0.1 % of the field, for distances that are a part of it.
         assert!((ratio - want).abs() * field < 1e-3, "{field}: {ratio} {want}");
     }
-    assert!((figure(&found, "backward_k1")[0] - k1).abs() < 3e-3, "{found}");
-    let [centre, uncertainty] = figure(&found, "backward_centre_x_px");
-    assert!((centre - 200.0).abs() < 0.3 && uncertainty < 0.3, "{found}");
+    assert!((figure(&report, "backward_k1")[0] - k1).abs() < 3e-3, "{report}");
+    let [centre, uncertainty] = figure(&report, "backward_centre_x_px");
+    assert!((centre - 200.0).abs() < 0.3 && uncertainty < 0.3, "{report}");
     let keys = std::fs::read_to_string(&camera).expect("written");
     let lens =
         "format = 1\n[lens]\ntype = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = \"infinity\"\n";
     let sensor = "[sensor]\nwidth_px = 400\nheight_px = 300\npixel_pitch_um = 6\n";
-    let whole = folder.path().join("camera.toml");
-    std::fs::write(&whole, format!("{lens}{keys}{sensor}")).expect("written");
-    etendue(["measure", "lens", &text(&whole)]).ok();
+    let camera_file = folder.path().join("camera.toml");
+    std::fs::write(&camera_file, format!("{lens}{keys}{sensor}")).expect("written");
+    etendue(["measure", "lens", &text(&camera_file)]).ok();
     assert!(std::fs::read_to_string(&plot).expect("drawn").contains("half diagonal"));
 }
 
@@ -107,16 +107,16 @@ fn a_pinhole_is_calibrated_from_its_views() {
     let mut arguments = vec!["calibrate"];
     arguments.extend(views.iter().map(String::as_str));
     arguments.extend(["--grid", "9x6", "--pitch-mm", "30", "--pixel-pitch-um", "6", "-o", &camera]);
-    let found = json(&arguments);
+    let report = json(&arguments);
     for (key, want) in [("fx_px", 320.0), ("fy_px", 320.0), ("cx_px", 205.0), ("cy_px", 148.0), ("k1", 0.0)] {
-        let [value, uncertainty] = figure(&found, key);
+        let [value, uncertainty] = figure(&report, key);
         // Errors of 16 samples per pixel are not noise: wider than three standard uncertainties.
         assert!(
             (value - want).abs() < 5.0 * uncertainty && uncertainty < 1e-2 * (want + 1.0),
             "{key}: {value} {uncertainty}"
         );
     }
-    let distance = found["tables"]["views"][0]["distance_mm"].as_f64().expect("a number");
+    let distance = report["tables"]["views"][0]["distance_mm"].as_f64().expect("a number");
     assert!((distance - 390.0).abs() < 0.5, "{distance}");
     etendue(["measure", "lens", &camera]).ok();
     let one = ["measure", "focal", &views[0], "--pitch-mm", "30"];
@@ -145,36 +145,36 @@ fn a_pinhole_is_calibrated_from_its_views() {
 
 /// A view without a chart gives no information on the camera.
 #[test]
-fn a_view_without_a_chart_is_left_out_and_told() {
+fn a_view_without_a_chart_is_omitted_and_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let turns = [[0.5, 0.0], [-0.4, 0.3], [0.1, -0.5]];
     let good = turns.iter().enumerate().map(|(i, t)| board(folder.path(), &format!("view{i}.png"), *t));
     let empty = ["wall0.png", "wall1.png"].map(|name| picture(folder.path(), name, SIZE, |x, _| 0.4 + 1e-4 * x));
     let views: Vec<String> = good.chain(empty).collect();
-    let told = |which: &[usize]| -> Vec<&str> {
+    let left_out = |which: &[usize]| -> Vec<&str> {
         let files = which.iter().map(|i| views[*i].as_str());
         ["calibrate"].into_iter().chain(files).chain(["--pitch-mm", "30"]).collect()
     };
-    let found = json(&told(&[0, 3, 1, 2]));
-    assert!(found["notes"].to_string().contains("wall0.png: omitted"), "{}", found["notes"]);
-    assert_eq!(found["tables"]["views"].as_array().expect("views").len(), 3);
+    let report = json(&left_out(&[0, 3, 1, 2]));
+    assert!(report["notes"].to_string().contains("wall0.png: omitted"), "{}", report["notes"]);
+    assert_eq!(report["tables"]["views"].as_array().expect("views").len(), 3);
     // Two views are too few to omit others; with no valid view the first gives the reason.
-    etendue(told(&[0, 1, 3])).refused(&["wall0.png: ", "no checkerboard or grid of dots"]);
-    etendue(told(&[4, 3])).refused(&["wall1.png: ", "none of the 2 images shows the chart"]);
+    etendue(left_out(&[0, 1, 3])).refused(&["wall0.png: ", "no checkerboard or grid of dots"]);
+    etendue(left_out(&[4, 3])).refused(&["wall1.png: ", "none of the 2 images shows the chart"]);
 }
 
 /// Four coefficients of a fisheye beyond the points of OpenCV's board: the results are valid, a camera file from them is not.
 #[test]
-fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
+fn a_camera_that_folds_outside_its_points_is_reported_without_a_file() {
     let views: Vec<String> = [1, 2, 3, 4, 5, 6]
         .map(|i| text(&root().join(format!("tests/oracles/figures/checkerboard/left{i:02}.jpg"))))
         .to_vec();
     let all = ["calibrate", "--pitch-mm", "30", "--model", "kannala-brandt"];
     let all: Vec<&str> = all.into_iter().chain(views.iter().map(String::as_str)).collect();
-    let found = json(&all);
+    let report = json(&all);
     // OpenCV with its own model and all views: 532.8 px (opencv.json); six views and another model differ by about 3 px.
-    assert!((figure(&found, "fx_px")[0] - 533.0).abs() < 4.0, "{found}");
-    assert!(found["notes"].to_string().contains("folds the image over"), "{}", found["notes"]);
+    assert!((figure(&report, "fx_px")[0] - 533.0).abs() < 4.0, "{report}");
+    assert!(report["notes"].to_string().contains("folds the image over"), "{}", report["notes"]);
     let folder = tempfile::tempdir().expect("a folder");
     let file = text(&folder.path().join("camera.toml"));
     let with: Vec<&str> = all.into_iter().chain(["--pixel-pitch-um", "6", "-o", &file]).collect();
@@ -183,7 +183,7 @@ fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
 }
 
 #[test]
-fn colours_that_are_displaced_are_told_and_grey_is_refused() {
+fn displaced_colours_are_reported_and_grey_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let level = |x: f64, y: f64, shift: f64| {
         let at = |k: usize| (k as f64 + 0.5) / 4.0;
@@ -197,12 +197,12 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
     let plane = Plane::<Display>::from_samples(400, 300, pixels.collect()).expect("a rectangle");
     let file = folder.path().join("colours.png");
     std::fs::write(&file, encode_display(&plane, &Encoding::Srgb).expect("a picture")).expect("written");
-    let found = json(&["measure", "chromatic", &text(&file)]);
+    let report = json(&["measure", "chromatic", &text(&file)]);
     // 16 samples and 8 bits: a few hundredths of a pixel.
-    assert!((figure(&found, "red_largest_px")[0] - 0.4).abs() < 0.06, "{found}");
-    assert!((figure(&found, "blue_largest_px")[0] - 0.2).abs() < 0.06, "{found}");
+    assert!((figure(&report, "red_largest_px")[0] - 0.4).abs() < 0.06, "{report}");
+    assert!((figure(&report, "blue_largest_px")[0] - 0.2).abs() < 0.06, "{report}");
     // JSON lists every point in both colours; the text does so on request.
-    let points = found["tables"]["points"].as_array().expect("points");
+    let points = report["tables"]["points"].as_array().expect("points");
     let red = points.iter().find(|point| point["channel"] == "red").expect("a point in red");
     assert!(points.len() > 300 && (red["less_green_x_px"].as_f64().expect("a number") - 0.4).abs() < 0.1, "{red}");
     let text_of = |further: &[&str]| etendue([&["measure", "chromatic", &text(&file)][..], further].concat()).ok().out;
@@ -226,16 +226,16 @@ fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
         };
         dot((x - shift) / 20.3 + 0.25, y / 20.3 + 0.25)
     });
-    let found = json(&["measure", "chromatic", &file, "--cfa", "RGGB"]);
+    let report = json(&["measure", "chromatic", &file, "--cfa", "RGGB"]);
     for (key, want) in
         [("red_shift_x_px", 0.4), ("red_shift_y_px", 0.0), ("blue_shift_x_px", -0.2), ("blue_shift_y_px", 0.0)]
     {
-        let [shift, uncertainty] = figure(&found, key);
+        let [shift, uncertainty] = figure(&report, key);
         assert!((shift - want).abs() < 3.0 * uncertainty && uncertainty < 0.02, "{key}: {shift} {uncertainty}");
     }
     for (channel, shift) in [("G", 0.0), ("red", 0.4), ("B", -0.2)] {
-        let found = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", channel]);
-        let points = found["tables"]["points"].as_array().expect("points");
+        let report = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", channel]);
+        let points = report["tables"]["points"].as_array().expect("points");
         assert!(points.len() > 250, "{}", points.len());
         let off = |key: &str, shift: f64| {
             let at = |p: &Value| (p[key].as_f64().expect("a number") - shift) / 20.3 + 0.25;
@@ -245,8 +245,8 @@ fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
         assert!(x.abs() < 0.02 && y.abs() < 0.02, "{channel}: {x} {y}");
     }
     // Mutually displaced colours deviate by their mean displacement, and in waves.
-    let found = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "balanced"]);
-    let points = found["tables"]["points"].as_array().expect("points");
+    let report = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "balanced"]);
+    let points = report["tables"]["points"].as_array().expect("points");
     let x = |p: &Value| (p["x_px"].as_f64().expect("a number") - 0.05) / 20.3 + 0.25;
     let off: Vec<f64> = points.iter().map(|p| 20.3 * (x(p) - x(p).round())).collect();
     let mean = off.iter().sum::<f64>() / off.len() as f64;
@@ -256,16 +256,16 @@ fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
 }
 
 #[test]
-fn points_and_covariances_are_told() {
+fn points_and_covariances_are_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = board(folder.path(), "board.png", [0.3, 0.2]);
     let arguments = ["measure", "distortion", &file];
-    let found = json(&arguments);
-    let covariances = found["covariances"].as_array().expect("covariances");
+    let report = json(&arguments);
+    let covariances = report["covariances"].as_array().expect("covariances");
     for covariance in covariances {
         let number = |i: usize, j: usize| covariance["matrix"][i][j].as_f64().unwrap_or(f64::INFINITY);
         for (i, key) in covariance["of"].as_array().expect("names").iter().enumerate() {
-            let u = figure(&found, key.as_str().expect("a name"))[1];
+            let u = figure(&report, key.as_str().expect("a name"))[1];
             assert!((number(i, i).sqrt() / u - 1.0).abs() < 1e-9 || u.is_infinite(), "{key}: {covariance}");
             // Cauchy and Schwarz, and symmetry.
             assert!((0..4).all(|j| number(i, j) == number(j, i) || (number(i, j) / number(j, i) - 1.0).abs() < 1e-9));
@@ -275,15 +275,15 @@ fn points_and_covariances_are_told() {
             );
         }
     }
-    let points = found["tables"]["points"].as_array().expect("points").len();
+    let points = report["tables"]["points"].as_array().expect("points").len();
     let text = |more: &[&str]| etendue(arguments.iter().chain(more).copied()).ok().out.lines().count();
     assert!(points > 40 && text(&["--points"]) > text(&[]) + points, "{points}");
     assert!(
-        found["figures"]["picture_height_percent"]["value"].as_f64().expect("two rows from side to side").abs() < 3.0
+        report["figures"]["picture_height_percent"]["value"].as_f64().expect("two rows from side to side").abs() < 3.0
     );
     // Tilted by 20°, with another centre of distortion: the map excludes the tilt, and the curve is that of k1 and k2.
-    let found = json(&["measure", "distortion", &photograph()]);
-    assert!(!found["notes"].to_string().contains("the curve differs from k1 and k2"), "{}", found["notes"]);
+    let report = json(&["measure", "distortion", &photograph()]);
+    assert!(!report["notes"].to_string().contains("the curve differs from k1 and k2"), "{}", report["notes"]);
 }
 
 #[test]
@@ -297,22 +297,22 @@ fn depths_of_stereo_are_read_from_float_maps() {
     };
     let truth = map("truth.pfm", &|i| if i % 32 == 31 { f32::INFINITY } else { 8.0 });
     let guess = map("guess.pfm", &|i| if i % 7 == 0 { f32::NAN } else { 10.0 });
-    let found = json(&["measure", "depth", &guess, &truth, "--focal-base-px-m", "400"]);
+    let report = json(&["measure", "depth", &guess, &truth, "--focal-base-px-m", "400"]);
     // 400 px m (1/8 − 1/10) = 10 px, a fifth of the disparity.
-    assert!((figure(&found, "disparity_px")[0] - 10.0).abs() < 1e-4 && figure(&found, "d1_percent")[0] == 100.0);
-    assert!((figure(&found, "scale")[0] - 1.0).abs() < 1e-9);
+    assert!((figure(&report, "disparity_px")[0] - 10.0).abs() < 1e-4 && figure(&report, "d1_percent")[0] == 100.0);
+    assert!((figure(&report, "scale")[0] - 1.0).abs() < 1e-9);
     let scaled = json(&["measure", "depth", &guess, &truth, "--align", "median"]);
     assert!(figure(&scaled, "rmse_m")[0] < 1e-5 && (figure(&scaled, "scale")[0] - 0.8).abs() < 1e-6);
-    let drawn = text(&folder.path().join("depth.svg"));
-    etendue(["measure", "depth", &guess, &truth, "--ranges-m", "0,5,9,20", "--plot", &drawn]).ok();
-    let drawn = std::fs::read_to_string(&drawn).expect("a plot");
-    assert!(["bias", "RMSE", "depth, m"].iter().all(|word| drawn.contains(word)), "{drawn}");
-    let refused = |more: &[&str], told: &[&str]| {
-        etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(told);
+    let plot_file = text(&folder.path().join("depth.svg"));
+    etendue(["measure", "depth", &guess, &truth, "--ranges-m", "0,5,9,20", "--plot", &plot_file]).ok();
+    let svg = std::fs::read_to_string(&plot_file).expect("a plot");
+    assert!(["bias", "RMSE", "depth, m"].iter().all(|word| svg.contains(word)), "{svg}");
+    let assert_refused = |more: &[&str], phrases: &[&str]| {
+        etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(phrases);
     };
-    refused(&["--outlier-ratio", "nan"], &["outlier ratio", "not NaN"]);
-    refused(&["--edge-ratio", "-1"], &["edge ratio", "not -1"]);
-    refused(&["--focal-base-px-m", "0"], &["focal length times baseline"]);
+    assert_refused(&["--outlier-ratio", "nan"], &["outlier ratio", "not NaN"]);
+    assert_refused(&["--edge-ratio", "-1"], &["edge ratio", "not -1"]);
+    assert_refused(&["--focal-base-px-m", "0"], &["focal length times baseline"]);
     etendue(["measure", "depth", &truth, &truth]).refused(&["in every pixel"]);
 }
 

@@ -37,7 +37,7 @@ fn job(file: &Path, axes: &str) -> String {
 }
 
 /// Renders two jobs and compares their results.
-fn compared(one: &str, other: &str, options: &[&str]) -> (crate::support::Ran, tempfile::TempDir) {
+fn compared(one: &str, other: &str, options: &[&str]) -> (crate::support::CommandOutput, tempfile::TempDir) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let rendered = [("one", one), ("other", other)].map(|(name, job)| {
         let file = place.path().join(format!("{name}.toml"));
@@ -67,10 +67,10 @@ fn models_of_both_formats_give_the_same_picture() {
     }
     for model in ["kenney-city/building-small-a", "kenney-vehicles/vehicle-truck-red"] {
         let of = |extension: &str, axes: &str| job(&assets.join(format!("{model}.{extension}")), axes);
-        let (ran, _place) = compared(&of("glb", ""), &of("obj", "up_axis = \"y\""), &[]);
-        assert_eq!(ran.status, 0, "{model}: {}{}", ran.out, ran.err);
-        let (ran, _place) = compared(&of("glb", ""), &of("obj", "up_axis = \"y\"\nscale = 1.2"), &[]);
-        assert_eq!(ran.status, 1, "{model}: a model a fifth larger is found: {}", ran.out);
+        let (output, _place) = compared(&of("glb", ""), &of("obj", "up_axis = \"y\""), &[]);
+        assert_eq!(output.status, 0, "{model}: {}{}", output.out, output.err);
+        let (output, _place) = compared(&of("glb", ""), &of("obj", "up_axis = \"y\"\nscale = 1.2"), &[]);
+        assert_eq!(output.status, 1, "{model}: a model a fifth larger is found: {}", output.out);
     }
 }
 
@@ -114,24 +114,24 @@ fn a_square_is_the_one_of_our_own_words() {
     let own = JOB
         .replace("MESHES", "[[scene.materials]]\nname = \"own\"\ntype = \"diffuse\"\nreflectance = [0.5, 0.25, 0.75]\nemission = { luminance_cd_m2 = 40, rgb = [1, 1, 1] }")
         .replace("BODY", "shape = { type = \"quad\", size_m = [1, 1] }\nmaterial = \"own\"");
-    let (ran, _place) = compared(&job(&place.path().join("m.gltf"), ""), &own, &[]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let (ran, _place) =
+    let (output, _place) = compared(&job(&place.path().join("m.gltf"), ""), &own, &[]);
+    assert_eq!(output.status, 0, "{}{}", output.out, output.err);
+    let (output, _place) =
         compared(&job(&place.path().join("m.gltf"), ""), &own.replace("cd_m2 = 40", "cd_m2 = 400"), &[]);
-    assert_eq!(ran.status, 1, "more light is found: {}", ran.out);
+    assert_eq!(output.status, 1, "more light is found: {}", output.out);
 }
 
 #[test]
 fn damaged_files_are_refused_with_their_place_in_the_job() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (file, mesh) = (place.path().join("job.toml"), place.path().join("m.glb"));
-    let whole = fs::read(scene_glb()).expect("the file");
-    fs::write(&mesh, &whole[..whole.len() / 2]).expect("written");
+    let bytes = fs::read(scene_glb()).expect("the file");
+    fs::write(&mesh, &bytes[..bytes.len() / 2]).expect("written");
     fs::write(&file, job(&mesh, "")).expect("written");
     let out = text(&place.path().join("out"));
     etendue(["render", &text(&file), "-o", &out]).refused(&["m.glb: ", "truncated", "job.toml:5:8", "file"]);
     assert!(!Path::new(&out).exists(), "nothing is written");
-    fs::write(&mesh, whole).expect("written");
+    fs::write(&mesh, bytes).expect("written");
     fs::write(&file, job(&mesh, "up_axis = \"z\"")).expect("written");
     etendue(["plan", &text(&file)]).refused(&["job.toml:6:", "up_axis", "+y points upwards"]);
     fs::write(&file, job(&place.path().join("m.obj"), "")).expect("written");
@@ -153,10 +153,10 @@ fn a_ply_file_is_a_mesh_without_materials() {
         let body = format!("shape = {{ type = \"quad\", size_m = [{size}] }}\nmaterial = \"own\"");
         JOB.replace("MESHES", material).replace("BODY", &body)
     };
-    let (ran, _place) = compared(&of_ply, &own("1, 1"), &[]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let (ran, _place) = compared(&of_ply, &own("2, 2"), &[]);
-    assert_eq!(ran.status, 1, "a larger square is found: {}", ran.out);
+    let (output, _place) = compared(&of_ply, &own("1, 1"), &[]);
+    assert_eq!(output.status, 0, "{}{}", output.out, output.err);
+    let (output, _place) = compared(&of_ply, &own("2, 2"), &[]);
+    assert_eq!(output.status, 1, "a larger square is found: {}", output.out);
     fs::write(&file, &of_ply).expect("written");
     let plan = etendue(["plan", &text(&file)]).ok().out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(plan.contains("m.ply: vertex and face colours are not used: give the object a material"), "{plan}");

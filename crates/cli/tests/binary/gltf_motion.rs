@@ -1,6 +1,6 @@
 //! Animations of glTF files as frames with keys: the written files, and images against those of the same file without motion.
 
-use crate::support::{Ran, etendue, text};
+use crate::support::{CommandOutput, etendue, text};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -89,7 +89,7 @@ fn scene(interpolation: &str, is_still: bool) -> Value {
     file
 }
 
-fn imported(folder: &Path, file: &Value, name: &str) -> (Ran, PathBuf) {
+fn imported(folder: &Path, file: &Value, name: &str) -> (CommandOutput, PathBuf) {
     let floats = |numbers: &[f32]| -> Vec<u8> { numbers.iter().flat_map(|v| v.to_le_bytes()).collect() };
     let bytes = [
         floats(&CORNERS),
@@ -102,8 +102,8 @@ fn imported(folder: &Path, file: &Value, name: &str) -> (Ran, PathBuf) {
     ];
     fs::write(folder.join("all numbers.bin"), bytes.concat()).expect("written");
     fs::write(folder.join(format!("{name}.gltf")), file.to_string()).expect("written");
-    let made = folder.join(format!("{name} made"));
-    (etendue(["import", &text(&folder.join(format!("{name}.gltf"))), "-o", &text(&made)]), made.join("job.toml"))
+    let imported_folder = folder.join(format!("{name} made"));
+    (etendue(["import", &text(&folder.join(format!("{name}.gltf"))), "-o", &text(&imported_folder)]), imported_folder.join("job.toml"))
 }
 
 fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {
@@ -138,31 +138,31 @@ fn what_moves_begins_where_its_first_keys_say() {
     still.0.ok();
     let still = rendered(place.path(), &still.1, "still-out", "1");
     for (i, interpolation) in ["LINEAR", "CUBICSPLINE"].into_iter().enumerate() {
-        let (told, job) = imported(place.path(), &scene(interpolation, false), &format!("moving-{i}"));
-        told.ok();
+        let (output, job) = imported(place.path(), &scene(interpolation, false), &format!("moving-{i}"));
+        output.ok();
         let moving = rendered(place.path(), &job, &format!("moving-out-{i}"), "2");
-        let ran = etendue(["compare", &still, &moving]);
-        assert_eq!(ran.status, 0, "{interpolation}: {}{}", ran.out, ran.err);
+        let run = etendue(["compare", &still, &moving]);
+        assert_eq!(run.status, 0, "{interpolation}: {}{}", run.out, run.err);
     }
     let mut other = scene("LINEAR", true);
     other["nodes"][2]["scale"] = json!([1, 1, 1.5]);
-    let (told, job) = imported(place.path(), &other, "other");
-    told.ok();
-    let ran = etendue(["compare", &still, &rendered(place.path(), &job, "other-out", "3")]);
-    assert_eq!(ran.status, 1, "a smaller hand is found: {}", ran.out);
+    let (output, job) = imported(place.path(), &other, "other");
+    output.ok();
+    let run = etendue(["compare", &still, &rendered(place.path(), &job, "other-out", "3")]);
+    assert_eq!(run.status, 1, "a smaller hand is found: {}", run.out);
 }
 
 #[test]
 fn keys_are_those_of_the_file() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let (told, job) = imported(place.path(), &scene("CUBICSPLINE", false), "a");
-    let told = told.ok();
+    let (output, job) = imported(place.path(), &scene("CUBICSPLINE", false), "a");
+    let output = output.ok();
     for phrase in [
         "node \"arm\" moves: a frame with 33 keys; its cubic curves have 16 keys from key to key, half-way off by",
         "node \"hand\" moves: a frame with 5 keys; its steps take 1 µs",
         "its meshes: object \"a\"",
     ] {
-        assert!(told.err.contains(phrase), "{phrase}: {}", told.err);
+        assert!(output.err.contains(phrase), "{phrase}: {}", output.err);
     }
     let scene = fs::read_to_string(job.with_file_name("scene.toml")).expect("a scene");
     for phrase in
@@ -174,7 +174,7 @@ fn keys_are_those_of_the_file() {
 }
 
 #[test]
-fn what_cannot_move_is_said_and_damage_is_refused() {
+fn unsupported_motion_is_reported_and_damage_is_refused() {
     let change = |pointer: &str, value: Value| {
         let mut file = scene("LINEAR", false);
         *file.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")) = value;
@@ -191,9 +191,9 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
         ),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
-        let (told, job) = imported(place.path(), &file, "a");
-        let told = told.ok();
-        assert!(told.err.contains(phrase), "{phrase}: {}", told.err);
+        let (output, job) = imported(place.path(), &file, "a");
+        let output = output.ok();
+        assert!(output.err.contains(phrase), "{phrase}: {}", output.err);
         etendue(["plan", &text(&job)]).ok();
     }
     for (file, phrase) in [
@@ -223,11 +223,11 @@ fn what_moves_and_what_stands_have_names_apart() {
     let mut file = scene("LINEAR", false);
     file["nodes"][1]["name"] = json!("still");
     file["nodes"][2]["name"] = json!("A");
-    let (told, job) = imported(place.path(), &file, "a");
-    told.ok();
-    let made = fs::read_to_string(job.with_file_name("scene.toml")).expect("a scene");
+    let (output, job) = imported(place.path(), &file, "a");
+    output.ok();
+    let scene_text = fs::read_to_string(job.with_file_name("scene.toml")).expect("a scene");
     for part in ["still", "still-2", "A-2"] {
-        assert!(made.contains(&format!("file = \"meshes/{part}.gltf\"")), "{part}: {made}");
+        assert!(scene_text.contains(&format!("file = \"meshes/{part}.gltf\"")), "{part}: {scene_text}");
     }
     etendue(["plan", &text(&job)]).ok();
 }

@@ -108,31 +108,31 @@ impl Golden {
     fn check(&self) {
         let place = tempfile::tempdir().expect("a temporary folder");
         if bless() {
-            let made = self.render(&place.path().join("golden"), &["--seed", "1000"]);
-            std::fs::copy(made, self.file()).expect("the golden result can be written");
+            let rendered = self.render(&place.path().join("golden"), &["--seed", "1000"]);
+            std::fs::copy(rendered, self.file()).expect("the golden result can be written");
         }
         let golden = text(&self.file());
         let same = self.render(&place.path().join("same"), &["--seed", "1"]);
-        let ran = etendue(["compare", &golden, &same, "--difference", &text(&place.path().join("none"))]);
-        assert_eq!(ran.status, 0, "{}{}", ran.out, keep(self.name, &golden, &same));
-        assert!(ran.out.contains("no difference is proven"), "{}", ran.out);
+        let output = etendue(["compare", &golden, &same, "--difference", &text(&place.path().join("none"))]);
+        assert_eq!(output.status, 0, "{}{}", output.out, write_comparison(self.name, &golden, &same));
+        assert!(output.out.contains("no difference is proven"), "{}", output.out);
         assert!(!place.path().join("none").exists(), "no pictures of no difference");
 
         let changed = self.render(&place.path().join("changed"), &["--seed", "1", "--set", self.change]);
-        let pictures = place.path().join("difference");
-        let ran = etendue(["compare", &golden, &changed, "--difference", &text(&pictures)]);
-        assert_eq!(ran.status, 1, "{} is not found:\n{}", self.change, ran.out);
-        assert!(ran.out.contains("they differ") && ran.err.contains("differ"), "{}{}", ran.out, ran.err);
+        let image_folder = place.path().join("difference");
+        let output = etendue(["compare", &golden, &changed, "--difference", &text(&image_folder)]);
+        assert_eq!(output.status, 1, "{} is not found:\n{}", self.change, output.out);
+        assert!(output.out.contains("they differ") && output.err.contains("differ"), "{}{}", output.out, output.err);
         for name in ["a.png", "b.png", "difference.png"] {
-            etendue(["inspect", &text(&pictures.join(name))]).ok();
+            etendue(["inspect", &text(&image_folder.join(name))]).ok();
         }
     }
 }
 
 /// Writes image, reference and difference for a developer; returns their paths.
-fn keep(name: &str, golden: &str, found: &str) -> String {
+fn write_comparison(name: &str, golden: &str, actual: &str) -> String {
     let folder = root().join("target/golden-differences").join(name);
-    etendue(["compare", golden, found, "--difference", &text(&folder)]);
+    etendue(["compare", golden, actual, "--difference", &text(&folder)]);
     format!("image, reference and difference are in {}", folder.display())
 }
 
@@ -165,12 +165,12 @@ fn the_stored_results_are_small() {
 #[test]
 fn comparing_a_result_with_itself_finds_nothing_and_says_so_in_json() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let made = GOLDENS[0].render(place.path(), &["--seed", "4"]);
-    let ran = etendue(["compare", &made, &made, "--json"]).ok();
-    let told: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
-    assert_eq!(told["differ"], false);
-    let channels = told["channels"].as_array().expect("a list of channels");
-    assert!(channels.len() == 4 && channels.iter().all(|c| c["unequal"] == 0), "{}", ran.out);
+    let rendered = GOLDENS[0].render(place.path(), &["--seed", "4"]);
+    let output = etendue(["compare", &rendered, &rendered, "--json"]).ok();
+    let comparison: serde_json::Value = serde_json::from_str(&output.out).expect("JSON");
+    assert_eq!(comparison["differ"], false);
+    let channels = comparison["channels"].as_array().expect("a list of channels");
+    assert!(channels.len() == 4 && channels.iter().all(|c| c["unequal"] == 0), "{}", output.out);
 }
 
 /// The difference of a darker scene and a brighter one is negative; exchanged it has the opposite sign and the same magnitude.
@@ -182,8 +182,8 @@ fn a_comparison_states_which_result_is_subtracted() {
         GOLDENS[1].render(&place.path().join(name), &["--seed", "4", "--set", &change])
     };
     let (dark, bright) = (lamp("dark", "10000"), lamp("bright", "20000"));
-    let ran = etendue(["compare", &dark, &bright]);
-    assert!(ran.out.starts_with(&format!("difference = A − B = {dark} − {bright}\n")), "{}", ran.out);
+    let output = etendue(["compare", &dark, &bright]);
+    assert!(output.out.starts_with(&format!("difference = A − B = {dark} − {bright}\n")), "{}", output.out);
     let bias = |a: &str, b: &str| {
         let report: serde_json::Value = serde_json::from_str(&etendue(["compare", a, b, "--json"]).out).expect("JSON");
         assert_eq!((&report["difference"], &report["a"], &report["b"]), (&"a - b".into(), &a.into(), &b.into()));
@@ -203,6 +203,6 @@ fn electrons_folded_and_beside_a_cube_agree() {
         format!("{output}/front/electrons.exr")
     };
     let cube = file("cube", &[]);
-    let folded = file("folded", &["--seed", "2", "--set", "output.radiance=false", "--set", "output.irradiance=false"]);
-    assert_eq!(etendue(["compare", &cube, &folded]).status, 0);
+    let accumulates_electrons = file("folded", &["--seed", "2", "--set", "output.radiance=false", "--set", "output.irradiance=false"]);
+    assert_eq!(etendue(["compare", &cube, &accumulates_electrons]).status, 0);
 }

@@ -1,6 +1,6 @@
 //! Files and arguments that could hang the program or fill the memory.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::{etendue, text};
 use std::path::Path;
 use std::process::Command;
@@ -16,9 +16,9 @@ fn pipe(path: &Path) -> String {
 fn pipes_in_the_place_of_files_are_refused() {
     const PIPE: &str = "this is a pipe, not a regular file; save its content as a file and give that";
     for name in ["tower.obj", "tower.mtl", "checker.png", "sky.hdr"] {
-        let spoilt = Spoilt::new();
-        pipe(&spoilt.folder().join(name));
-        spoilt.render(&[]).refused(&[name, PIPE]);
+        let job = ModifiedJob::new();
+        pipe(&job.folder().join(name));
+        job.render(&[]).refused(&[name, PIPE]);
     }
     let place = tempfile::tempdir().expect("a temporary folder");
     let pipe = |name: &str| pipe(&place.path().join(name));
@@ -41,41 +41,41 @@ fn pipes_in_the_place_of_files_are_refused() {
 /// Unused files are not read, and need not exist.
 #[test]
 fn unused_files_need_not_exist() {
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let mesh = "meshes = [{ name = \"spare\", file = \"no.obj\", up_axis = \"z\" }, ";
-    spoilt.spoil("small.toml", "meshes = [", mesh);
-    spoilt.spoil(
+    job.replace_first("small.toml", "meshes = [", mesh);
+    job.replace_first(
         "small.toml",
         "textures = [",
         "textures = [{ name = \"big\", file = \"no.png\", encoding = \"srgb\" }, ",
     );
     let material =
         "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
-    spoilt.spoil("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
-    let plan = etendue(["plan", &spoilt.job()]).ok().out;
-    for told in
+    job.replace_first("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
+    let plan = etendue(["plan", &job.job()]).ok().out;
+    for phrase in
         ["mesh that no object shows: spare", "material that no object has: rest", "texture that nothing shown has: big"]
     {
-        assert!(plan.contains(told), "{plan}");
+        assert!(plan.contains(phrase), "{plan}");
     }
-    spoilt.spoil("small.toml", "texture = \"checker\"", "texture = \"big\"");
-    etendue(["plan", &spoilt.job()]).refused(&["no.png", "no such image file"]);
+    job.replace_first("small.toml", "texture = \"checker\"", "texture = \"big\"");
+    etendue(["plan", &job.job()]).refused(&["no.png", "no such image file"]);
 }
 
 #[test]
 fn numbers_that_keys_refuse_are_refused_as_arguments() {
-    let spoilt = Spoilt::new();
-    let said = |options: &[&str], phrases: &[&str]| drop(spoilt.render(options).refused(phrases));
-    said(&["--spp", "2147483648"], &["--spp 2147483648: found 2147483648; give a whole number from 1 to 1048576"]);
-    said(&["--spp", "0"], &["--spp 0: found 0; give a whole number from 1 to 1048576"]);
-    said(&["--seed", "18446744073709551615"], &["--seed 18446744073709551615", "from 0 to 9223372036854775807"]);
-    said(&["--threads", "100000"], &["'100000'", "a whole number from 1 to 1024"]);
-    said(&["--frames", "0..4294967295"], &["4294967295 frames; one run takes at most 100000"]);
+    let job = ModifiedJob::new();
+    let refused = |options: &[&str], phrases: &[&str]| drop(job.render(options).refused(phrases));
+    refused(&["--spp", "2147483648"], &["--spp 2147483648: found 2147483648; give a whole number from 1 to 1048576"]);
+    refused(&["--spp", "0"], &["--spp 0: found 0; give a whole number from 1 to 1048576"]);
+    refused(&["--seed", "18446744073709551615"], &["--seed 18446744073709551615", "from 0 to 9223372036854775807"]);
+    refused(&["--threads", "100000"], &["'100000'", "a whole number from 1 to 1024"]);
+    refused(&["--frames", "0..4294967295"], &["4294967295 frames; one run takes at most 100000"]);
 }
 
 #[test]
 fn a_key_of_twenty_thousand_parts_is_refused_in_a_line() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));
-    let ran = Spoilt::new().render(&["--set", &set]).refused(&["--set a.a.a", "20000 parts"]);
-    assert!(ran.err.len() < 500, "{}", ran.err.len());
+    let output = ModifiedJob::new().render(&["--set", &set]).refused(&["--set a.a.a", "20000 parts"]);
+    assert!(output.err.len() < 500, "{}", output.err.len());
 }

@@ -1,6 +1,6 @@
 //! Unusable output folders, links in them, and names unsuitable for files.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::{contents, etendue, rendered, small, text};
 use serde_json::Value;
 use std::fs;
@@ -17,19 +17,19 @@ fn folders_that_cannot_be_are_refused_before_the_work() {
     let file = place.path().join("file");
     fs::write(&file, b"theirs").expect("written");
     let endless = ["--spp", "1000000"];
-    let refused = |out: &Path, why: &str| {
+    let assert_refused = |out: &Path, why: &str| {
         let out = text(out);
         etendue(["render", &small(), "-o", &out].iter().chain(&endless)).refused(&[&out, why]);
     };
-    refused(&file, "expected a folder for the results, but this is a file");
+    assert_refused(&file, "expected a folder for the results, but this is a file");
     etendue(["render", &small(), "-o", &text(&file.join("deep"))].iter().chain(&endless)).refused(&[&text(&file)]);
     assert_eq!(fs::read(&file).expect("a file"), b"theirs");
     // The kernel's own folder accepts no files, even from root.
     if cfg!(target_os = "linux") {
-        refused(Path::new("/proc/etendue"), "this output folder cannot be created");
-        refused(Path::new("/proc"), "this output folder cannot be written to");
+        assert_refused(Path::new("/proc/etendue"), "this output folder cannot be created");
+        assert_refused(Path::new("/proc"), "this output folder cannot be written to");
     }
-    refused(&place.path().join("n".repeat(300)), "this output folder cannot be created: File name too long");
+    assert_refused(&place.path().join("n".repeat(300)), "this output folder cannot be created: File name too long");
     // A file in place of a camera's folder, and a folder in place of a file.
     let out = place.path().join("out");
     fs::create_dir_all(out.join("front/radiance.exr")).expect("made");
@@ -60,43 +60,43 @@ fn a_read_only_folder_is_refused_before_the_work() {
 #[test]
 fn links_are_replaced_and_never_written_through() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let foreign = place.path().join("foreign");
-    fs::create_dir(&foreign).expect("made");
-    fs::write(foreign.join("theirs.exr"), b"theirs").expect("written");
+    let others = place.path().join("foreign");
+    fs::create_dir(&others).expect("made");
+    fs::write(others.join("theirs.exr"), b"theirs").expect("written");
     let (out, real) = (place.path().join("out"), place.path().join("real"));
     fs::create_dir_all(real.join("front")).expect("made");
     // The output folder itself may be a link.
     symlink(&real, &out).expect("link");
-    symlink(foreign.join("theirs.exr"), real.join("front/radiance.exr")).expect("link");
-    symlink(foreign.join("none.png"), real.join("front/picture.0000.png")).expect("link");
+    symlink(others.join("theirs.exr"), real.join("front/radiance.exr")).expect("link");
+    symlink(others.join("none.png"), real.join("front/picture.0000.png")).expect("link");
     let render =
         |options: &[&str]| etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options));
     render(&[]).refused(&["front/", "already there"]);
     render(&["--overwrite"]).ok();
     assert!(contents(&real) == rendered(&small(), &LIGHT), "the files of a folder without links");
     assert!(!real.join("front/radiance.exr").is_symlink());
-    assert_eq!(contents(&foreign).keys().collect::<Vec<_>>(), ["theirs.exr"]);
-    assert_eq!(fs::read(foreign.join("theirs.exr")).expect("a file"), b"theirs");
+    assert_eq!(contents(&others).keys().collect::<Vec<_>>(), ["theirs.exr"]);
+    assert_eq!(fs::read(others.join("theirs.exr")).expect("a file"), b"theirs");
     fs::remove_dir_all(real.join("front")).expect("removed");
-    symlink(&foreign, real.join("front")).expect("link");
+    symlink(&others, real.join("front")).expect("link");
     render(&["--overwrite"]).refused(&["front", "a symbolic link is in the place of a folder of results"]);
-    assert_eq!(contents(&foreign).len(), 1);
+    assert_eq!(contents(&others).len(), 1);
 }
 
 /// The state of a progressive run is in a subfolder: a link in its place is never followed.
 #[test]
 fn a_link_in_the_place_of_the_state_is_refused_and_nothing_is_deleted_behind_it() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let (out, foreign) = (place.path().join("out"), place.path().join("foreign"));
-    [&out, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("made"));
-    fs::write(foreign.join("front.film.exr"), b"precious").expect("written");
-    symlink(&foreign, out.join(".progress")).expect("link");
+    let (out, others) = (place.path().join("out"), place.path().join("foreign"));
+    [&out, &others].iter().for_each(|folder| fs::create_dir(folder).expect("made"));
+    fs::write(others.join("front.film.exr"), b"precious").expect("written");
+    symlink(&others, out.join(".progress")).expect("link");
     for options in [&["--overwrite"][..], &["--resume"], &[], &["--progressive"], &["--progressive", "--overwrite"]] {
         etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options))
             .refused(&[".progress", "a symbolic link is in the place of a folder of results"]);
-        assert_eq!(fs::read(foreign.join("front.film.exr")).expect("a file"), b"precious", "{options:?}");
+        assert_eq!(fs::read(others.join("front.film.exr")).expect("a file"), b"precious", "{options:?}");
     }
-    assert_eq!(contents(&foreign).len(), 1);
+    assert_eq!(contents(&others).len(), 1);
 }
 
 #[test]
@@ -121,23 +121,23 @@ fn names_of_cameras_are_names_of_files_on_every_system() {
         &long,
     ];
     for name in names {
-        let spoilt = Spoilt::new();
-        spoilt.spoil("small.toml", "name = \"front\"", &format!("name = \"{name}\""));
-        spoilt.render(&LIGHT).refused(&["small.toml:", "name", "letters, digits, - and _"]);
+        let job = ModifiedJob::new();
+        job.replace_first("small.toml", "name = \"front\"", &format!("name = \"{name}\""));
+        job.render(&LIGHT).refused(&["small.toml:", "name", "letters, digits, - and _"]);
     }
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let long = "n".repeat(100);
-    spoilt.spoil("small.toml", "name = \"front\"", &format!("name = \"{long}\""));
-    let out = spoilt.folder().join("results");
-    etendue(["render", &spoilt.job(), "-o", &text(&out)].iter().chain(&LIGHT)).ok();
+    job.replace_first("small.toml", "name = \"front\"", &format!("name = \"{long}\""));
+    let out = job.folder().join("results");
+    etendue(["render", &job.job(), "-o", &text(&out)].iter().chain(&LIGHT)).ok();
     assert!(out.join(&long).join("radiance.exr").exists());
 }
 
 /// Names of objects are in no file name; the side-car states them unchanged.
 #[test]
 fn names_of_objects_may_be_anything() {
-    let strange = ["../../x", ".", "-rf", "two\nlines \"and\" quotes", "nul\0", "\u{202e}straße 🚗", &"n".repeat(5000)];
-    let objects: String = strange
+    let unusual = ["../../x", ".", "-rf", "two\nlines \"and\" quotes", "nul\0", "\u{202e}straße 🚗", &"n".repeat(5000)];
+    let objects: String = unusual
         .iter()
         .map(|name| {
             let name = serde_json::to_string(name).expect("text");
@@ -153,7 +153,7 @@ fn names_of_objects_may_be_anything() {
     let files = rendered(&text(&job), &[&LIGHT[..], &set].concat());
     let facts: Value = serde_json::from_slice(&files["front/camera.json"]).expect("JSON");
     let message = facts.to_string();
-    for name in strange {
+    for name in unusual {
         assert!(message.contains(&Value::from(name).to_string()), "{name:?}");
     }
     assert!(files.keys().all(|name| name.starts_with("front/")), "{:?}", files.keys());
@@ -164,10 +164,10 @@ fn names_of_folders_may_be_anything_that_the_system_takes() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let expected = rendered(&small(), &LIGHT);
     let name = std::ffi::OsString::from_vec;
-    for strange in
+    for unusual in
         [b"two\nlines".to_vec(), "straße 🚗".into(), b"-rf".to_vec(), b"not \xff UTF-8".to_vec(), b". ".to_vec()]
     {
-        let out = place.path().join(name(strange));
+        let out = place.path().join(name(unusual));
         let arguments = ["render".into(), small().into(), "-o".into(), out.clone().into_os_string()];
         etendue(arguments.into_iter().chain(LIGHT.map(std::ffi::OsString::from))).ok();
         assert!(contents(&out) == expected, "{out:?}");

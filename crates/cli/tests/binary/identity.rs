@@ -10,7 +10,7 @@ fn hash(job: &str, options: &[&str]) -> String {
 }
 
 /// A job whose reflectance is tabulated in `paint.csv` next to it.
-const TABLED: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
+const TABULATED_JOB: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
                       \"paint.csv\" } }]\n[[scene.objects]]\nname = \"o\"\nshape = { type = \"sphere\", radius_m = 1 }\n\
                       material = \"m\"\n[[cameras]]\nname = \"c\"\nposition_m = [-4, 0, 0]\nlook_at_m = [0, 0, 0]\n\
                       lens = { type = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
@@ -20,14 +20,14 @@ const TABLED: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \
 fn one_value_of_one_spectrum_changes_the_hash_and_a_path_does_not() {
     let hash_of = |middle: &str| {
         let place = tempfile::tempdir().expect("a temporary folder");
-        fs::write(place.path().join("job.toml"), TABLED).expect("written");
+        fs::write(place.path().join("job.toml"), TABULATED_JOB).expect("written");
         let table = format!("wavelength_nm,value\n400,0.2\n600,{middle}\n700,0.9\n");
         fs::write(place.path().join("paint.csv"), table).expect("written");
         hash(&text(&place.path().join("job.toml")), &[])
     };
-    let (low, high, again) = (hash_of("0.3"), hash_of("0.8"), hash_of("0.3"));
+    let (low, high, repeated) = (hash_of("0.3"), hash_of("0.8"), hash_of("0.3"));
     assert_ne!(low, high, "the hash must see inside a table");
-    assert_eq!(low, again, "another folder is the same plan");
+    assert_eq!(low, repeated, "another folder is the same plan");
 }
 
 #[test]
@@ -72,13 +72,13 @@ fn an_exposed_image_states_its_own_camera_and_geometry() {
 
 #[test]
 fn a_width_of_bands_that_nobody_keeps_is_remarked_and_moves_no_wavelength() {
-    let folded = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
-    let wide = ["--set", "render.band_width_nm=97"].into_iter().chain(folded);
+    let accumulates_electrons = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
+    let wide = ["--set", "render.band_width_nm=97"].into_iter().chain(accumulates_electrons);
     let plan = etendue(["plan", &small()].into_iter().chain(wide)).ok().out;
     assert!(plan.contains("no spectrum is stored, so the width of bands has no effect"), "{plan}");
     let (a, b) = (
-        rendered(&small(), &folded),
-        rendered(&small(), &[&folded[..], &["--set", "render.band_width_nm=97"]].concat()),
+        rendered(&small(), &accumulates_electrons),
+        rendered(&small(), &[&accumulates_electrons[..], &["--set", "render.band_width_nm=97"]].concat()),
     );
     assert!(a["front/raw.0000.png"] == b["front/raw.0000.png"]);
 }

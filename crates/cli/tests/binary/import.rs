@@ -40,7 +40,7 @@ fn floor(light: &Value, rotation: [f64; 4]) -> Value {
 }
 
 /// Writes a file and imports it into `made` next to it; returns the output.
-fn imported(folder: &Path, file: &Value) -> crate::support::Ran {
+fn imported(folder: &Path, file: &Value) -> crate::support::CommandOutput {
     let floats: Vec<u8> =
         [-50_f32, 0., 50., 50., 0., 50., 50., 0., -50., -50., 0., -50.].iter().flat_map(|v| v.to_le_bytes()).collect();
     fs::write(folder.join("floor.bin"), [&floats[..], &[0, 1, 2, 0, 2, 3]].concat()).expect("written");
@@ -49,7 +49,7 @@ fn imported(folder: &Path, file: &Value) -> crate::support::Ran {
 }
 
 /// Makes the cameras of a job small.
-fn smaller(folder: &Path) -> PathBuf {
+fn shrink_cameras(folder: &Path) -> PathBuf {
     let job = folder.join("made/job.toml");
     let small = fs::read_to_string(&job).expect("a job").replace(
         "width_px = 720, height_px = 480, pixel_pitch_um = 50",
@@ -61,9 +61,9 @@ fn smaller(folder: &Path) -> PathBuf {
 
 /// Mean luminance of a radiance file by its preview in linear sRGB, cd/m².
 fn luminance(folder: &Path, camera: &str) -> f64 {
-    let told = etendue(["inspect", &text(&folder.join(format!("out/{camera}/radiance.exr")))]).ok();
+    let report = etendue(["inspect", &text(&folder.join(format!("out/{camera}/radiance.exr")))]).ok();
     let mean = |channel: &str| -> f64 {
-        let line = told.out.lines().find(|line| line.split_whitespace().next() == Some(channel)).expect("a preview");
+        let line = report.out.lines().find(|line| line.split_whitespace().next() == Some(channel)).expect("a preview");
         line.split_whitespace().nth(3).expect("a mean").parse().expect("a number")
     };
     0.2126 * mean("R") + 0.7152 * mean("G") + 0.0722 * mean("B")
@@ -90,12 +90,12 @@ fn lights_of_gltf_have_the_levels_of_closed_forms() {
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
         imported(place.path(), &floor(&light, rotation)).ok();
-        let (job, out) = (smaller(place.path()), place.path().join("out"));
+        let (job, out) = (shrink_cameras(place.path()), place.path().join("out"));
         etendue(["render", &text(&job), "-o", &text(&out), "--spp", "64"]).ok();
         let expected = 0.5 * illuminance / std::f64::consts::PI;
         for camera in ["eye", "plan-view"] {
-            let found = luminance(place.path(), camera);
-            assert!((found - expected).abs() <= 0.003 * expected, "{light}: {found} cd/m² for {expected} ({camera})");
+            let actual = luminance(place.path(), camera);
+            assert!((actual - expected).abs() <= 0.003 * expected, "{light}: {actual} cd/m² for {expected} ({camera})");
         }
     }
 }
@@ -104,15 +104,15 @@ fn lights_of_gltf_have_the_levels_of_closed_forms() {
 fn an_import_says_what_became_of_what() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let mut file = floor(&json!({ "type": "point", "intensity": 400, "range": 3 }), [0.0, 0.0, 0.0, 1.0]);
-    let told = imported(place.path(), &file).ok();
-    assert!(told.out.contains("made/scene.toml") && told.out.contains("made/job.toml"), "{}", told.out);
+    let output = imported(place.path(), &file).ok();
+    assert!(output.out.contains("made/scene.toml") && output.out.contains("made/job.toml"), "{}", output.out);
     for phrase in [
         "its meshes: object \"floor\"",
         "light \"Key-Light\", point: 400 cd; its range is not used: light is not cut off",
         "camera \"eye\": perspective, vertical field of view 0.2292°; its near and far planes are not used",
         "camera \"plan-view\": orthographic of 0.012",
     ] {
-        assert!(told.err.contains(phrase), "{phrase}: {}", told.err);
+        assert!(output.err.contains(phrase), "{phrase}: {}", output.err);
     }
     let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
     assert!(scene.contains("file = \"../floor.gltf\"") && scene.starts_with("# Made of floor.gltf"), "{scene}");
@@ -124,8 +124,8 @@ fn an_import_says_what_became_of_what() {
     file["nodes"] = json!([{ "mesh": 0 }]);
     file["scenes"] = json!([{ "nodes": [0] }]);
     fs::remove_dir_all(place.path().join("made")).expect("removed");
-    let told = imported(place.path(), &file).ok();
-    assert!(told.err.contains("it has no light") && told.err.contains("\"view\" is added"), "{}", told.err);
+    let output = imported(place.path(), &file).ok();
+    assert!(output.err.contains("it has no light") && output.err.contains("\"view\" is added"), "{}", output.err);
     etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
 }
 
@@ -158,10 +158,10 @@ fn scenes_that_cannot_be_imported_are_refused_and_nothing_is_written() {
         assert!(!place.path().join("made").exists(), "{phrase}: nothing is written");
     }
     let place = tempfile::tempdir().expect("a temporary folder");
-    let made = text(&place.path().join("made"));
-    etendue(["import", &text(&place.path().join("none.glb")), "-o", &made]).refused(&["none.glb", "no such"]);
+    let out = text(&place.path().join("made"));
+    etendue(["import", &text(&place.path().join("none.glb")), "-o", &out]).refused(&["none.glb", "no such"]);
     fs::write(place.path().join("a.blend"), "BLENDER").expect("written");
-    etendue(["import", &text(&place.path().join("a.blend")), "-o", &made]).refused(&["a.blend", ".glb"]);
+    etendue(["import", &text(&place.path().join("a.blend")), "-o", &out]).refused(&["a.blend", ".glb"]);
 }
 
 /// A scene in pbrt's format: a camera 3 m above the origin of a diffuse floor, z upwards.
@@ -179,24 +179,24 @@ fn pbrt(lights: &str) -> String {
 #[test]
 fn lights_of_pbrt_have_the_levels_of_closed_forms() {
     let pi = std::f64::consts::PI;
-    let from_lamp = 2.0 / (6.5 * 6.5_f64.sqrt());
+    let irradiance_factor = 2.0 / (6.5 * 6.5_f64.sqrt());
     let cone = 2.0 * pi * ((1.0 - SIN_40) + 0.5 * (SIN_40 - 0.5)); // cos 50° and cos 60°
     for (lights, illuminance) in [
         (
             "LightSource \"point\" \"rgb I\" [ 40 40 40 ] \"float scale\" 10 \"point3 from\" [ 1.5 0.5 2 ]",
-            400.0 * from_lamp,
+            400.0 * irradiance_factor,
         ),
         (
             "Translate 1.5 0 2 LightSource \"point\" \"float power\" 5000 \"point3 from\" [ 0 0.5 0 ] Identity",
-            5000.0 / (4.0 * pi) * from_lamp,
+            5000.0 / (4.0 * pi) * irradiance_factor,
         ),
         (
             "LightSource \"spot\" \"spectrum I\" \"stdillum-A\" \"float scale\" 400 \"point3 from\" [ 1.5 0.5 2 ] \"point3 to\" [ 0 0 0 ]",
-            400.0 * from_lamp,
+            400.0 * irradiance_factor,
         ),
         (
             "LightSource \"spot\" \"float power\" 900 \"point3 from\" [ 1.5 0.5 2 ] \"point3 to\" [ 1.5 0.5 0 ] \"float coneangle\" 60 \"float conedeltaangle\" 10",
-            900.0 / cone * from_lamp,
+            900.0 / cone * irradiance_factor,
         ),
         (
             "LightSource \"distant\" \"blackbody L\" [ 6500 ] \"float illuminance\" 300 \"point3 from\" [ 0 3 4 ] \"point3 to\" [ 0 0 0 ]",
@@ -215,12 +215,12 @@ fn lights_of_pbrt_have_the_levels_of_closed_forms() {
         ),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
-        let (file, made, out) = ("a.pbrt", place.path().join("made"), place.path().join("out"));
+        let (file, imported, out) = ("a.pbrt", place.path().join("made"), place.path().join("out"));
         fs::write(place.path().join(file), pbrt(lights)).expect("written");
-        etendue(["import", &text(&place.path().join(file)), "-o", &text(&made)]).ok();
-        etendue(["render", &text(&made.join("job.toml")), "-o", &text(&out), "--spp", "256"]).ok();
-        let (found, expected) = (luminance(place.path(), "camera"), 0.5 * illuminance / pi);
-        assert!((found - expected).abs() <= 0.005 * expected, "{lights}: {found} cd/m² for {expected}");
+        etendue(["import", &text(&place.path().join(file)), "-o", &text(&imported)]).ok();
+        etendue(["render", &text(&imported.join("job.toml")), "-o", &text(&out), "--spp", "256"]).ok();
+        let (actual, expected) = (luminance(place.path(), "camera"), 0.5 * illuminance / pi);
+        assert!((actual - expected).abs() <= 0.005 * expected, "{lights}: {actual} cd/m² for {expected}");
     }
 }
 
@@ -238,20 +238,20 @@ fn alpha_of_pbrt_is_opacity() {
         [("0.25", 180.0, "made: 2 objects"), ("0", 240.0, "a shape of alpha 0 is left out")]
     {
         let place = tempfile::tempdir().expect("a temporary folder");
-        let (made, out) = (place.path().join("made"), place.path().join("out"));
+        let (imported, out) = (place.path().join("made"), place.path().join("out"));
         fs::write(place.path().join("a.pbrt"), pbrt(&format!("{sun}{}", disc(alpha)))).expect("written");
-        let told = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&made)]).ok();
-        assert!(told.err.contains(phrase), "{}", told.err);
-        etendue(["render", &text(&made.join("job.toml")), "-o", &text(&out), "--spp", "256"]).ok();
-        let (found, expected) = (luminance(place.path(), "camera"), 0.5 * illuminance / std::f64::consts::PI);
-        assert!((found - expected).abs() <= 0.016 * expected, "{alpha}: {found} cd/m² for {expected}");
+        let output = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&imported)]).ok();
+        assert!(output.err.contains(phrase), "{}", output.err);
+        etendue(["render", &text(&imported.join("job.toml")), "-o", &text(&out), "--spp", "256"]).ok();
+        let (actual, expected) = (luminance(place.path(), "camera"), 0.5 * illuminance / std::f64::consts::PI);
+        assert!((actual - expected).abs() <= 0.016 * expected, "{alpha}: {actual} cd/m² for {expected}");
     }
     let place = tempfile::tempdir().expect("a temporary folder");
     let scene =
         pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"realistic\" \"string lensfile\" \"wide.dat\"");
     fs::write(place.path().join("a.pbrt"), scene).expect("written");
-    let told = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
-    assert!(told.err.contains("the camera \"realistic\" is not understood: a perspective of 40°"), "{}", told.err);
+    let output = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
+    assert!(output.err.contains("the camera \"realistic\" is not understood: a perspective of 40°"), "{}", output.err);
 }
 
 /// The scenes of scenes/import against the same written by hand, by the Z test of `compare`; a lamp that is a tenth brighter is detected.
@@ -260,8 +260,8 @@ fn scenes_of_pbrt_are_those_of_our_own_words() {
     for name in ["shapes", "smoke"] {
         let place = tempfile::tempdir().expect("a temporary folder");
         let folder = crate::support::root().join("scenes/import");
-        let made = place.path().join("made");
-        etendue(["import", &text(&folder.join(format!("{name}.pbrt"))), "-o", &text(&made)]).ok();
+        let imported = place.path().join("made");
+        etendue(["import", &text(&folder.join(format!("{name}.pbrt"))), "-o", &text(&imported)]).ok();
         let render = |job: &Path, out: &str, seed: &str, more: &[&str]| {
             let out = text(&place.path().join(out));
             let sampling =
@@ -271,17 +271,17 @@ fn scenes_of_pbrt_are_those_of_our_own_words() {
             format!("{out}/camera/radiance.exr")
         };
         let own = render(&folder.join(format!("{name}.toml")), "own", "1", &[]);
-        let theirs = render(&made.join("job.toml"), "theirs", "2", &[]);
-        let ran = etendue(["compare", &own, &theirs]);
-        assert_eq!(ran.status, 0, "{name}: {}{}", ran.out, ran.err);
+        let theirs = render(&imported.join("job.toml"), "theirs", "2", &[]);
+        let output = etendue(["compare", &own, &theirs]);
+        assert_eq!(output.status, 0, "{name}: {}{}", output.out, output.err);
         let key = if name == "shapes" {
             "scene.environment.luminance_cd_m2=43"
         } else {
             "scene.lights.sun.illuminance_lx=1100"
         };
         let brighter = render(&folder.join(format!("{name}.toml")), "brighter", "3", &["--set", key]);
-        let ran = etendue(["compare", &brighter, &theirs]);
-        assert_eq!(ran.status, 1, "{name}: more light is found: {}", ran.out);
+        let output = etendue(["compare", &brighter, &theirs]);
+        assert_eq!(output.status, 1, "{name}: more light is found: {}", output.out);
     }
 }
 

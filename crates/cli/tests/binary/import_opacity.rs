@@ -4,7 +4,7 @@
 use crate::mitsuba::pixels;
 use crate::support::{etendue, text};
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
+use etendue_io::exr::{ExrLayer, encode_layers};
 use etendue_io::png::encode_grey8;
 use std::fs;
 use std::path::Path;
@@ -15,12 +15,12 @@ const HEIGHT: usize = 16;
 const SKY: f64 = 100.0;
 
 /// A black card, seen alone, between a camera and uniform light: z upwards, its image upright.
-fn pbrt(alpha: &str, picture: &str) -> String {
+fn pbrt(alpha: &str, image: &str) -> String {
     format!(
         "LookAt 3 0 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 30\n\
          Film \"rgb\" \"integer xresolution\" {WIDTH} \"integer yresolution\" {HEIGHT}\nWorldBegin\n\
          LightSource \"infinite\" \"rgb L\" [ 1 1 1 ] \"float scale\" {SKY}\n\
-         Texture \"holes\" \"float\" \"imagemap\" \"string filename\" \"{picture}\" \"string wrap\" \"clamp\"\n\
+         Texture \"holes\" \"float\" \"imagemap\" \"string filename\" \"{image}\" \"string wrap\" \"clamp\"\n\
          Texture \"fewer\" \"float\" \"scale\" \"texture tex\" \"holes\" \"float scale\" 0.5\n\
          Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n\
          Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] {alpha}\n\
@@ -29,7 +29,7 @@ fn pbrt(alpha: &str, picture: &str) -> String {
 }
 
 /// The same in our format, whose y points the other way.
-fn own(opacity: &str) -> String {
+fn own_scene(opacity: &str) -> String {
     let pitch = 50_000.0 / HEIGHT as f64;
     // The shorter side covers 30°.
     let focal = 25.0 / 0.267_949_192_431_122_7;
@@ -49,7 +49,7 @@ fn own(opacity: &str) -> String {
 const GREYS: [u8; 4] = [255, 188, 0, 137];
 
 /// Opacities of the quarters: greys of 8-bit images are sRGB in pbrt and Mitsuba (IEC 61966-2-1).
-fn shares() -> [f64; 4] {
+fn quarter_opacities() -> [f64; 4] {
     // ((188/255 + 0.055)/1.055)^2.4 and the same of 137.
     [1.0, 0.502_886, 0.0, 0.250_158]
 }
@@ -59,11 +59,11 @@ fn files_in(folder: &Path) {
     let texels: Vec<u8> = (0..256).map(grey).collect();
     fs::write(folder.join("holes.png"), encode_grey8(16, 16, &texels).expect("a PNG")).expect("written");
     // The same as the opacity of a white image, and as the greys of a fully opaque one.
-    let share = |i: usize| shares()[2 * usize::from(i / 16 >= 8) + usize::from(i % 16 >= 8)] as f32;
-    let (shares, ones): (Vec<f32>, Vec<f32>) = ((0..256).map(share).collect(), vec![1.0; 256]);
-    for (name, alpha, grey) in [("leaf.exr", &shares, &ones), ("whole.exr", &ones, &shares)] {
+    let opacity = |i: usize| quarter_opacities()[2 * usize::from(i / 16 >= 8) + usize::from(i % 16 >= 8)] as f32;
+    let (opacities, ones): (Vec<f32>, Vec<f32>) = ((0..256).map(opacity).collect(), vec![1.0; 256]);
+    for (name, alpha, grey) in [("leaf.exr", &opacities, &ones), ("whole.exr", &ones, &opacities)] {
         let channels = [("A", alpha), ("B", grey), ("G", grey), ("R", grey)];
-        let layers = channels.map(|(name, c)| (name.to_owned(), Layer::Float(c)));
+        let layers = channels.map(|(name, c)| (name.to_owned(), ExrLayer::Float(c)));
         let bytes = encode_layers(16, 16, &layers, &Provenance::default()).expect("an EXR");
         fs::write(folder.join(name), bytes).expect("written");
     }
@@ -83,52 +83,52 @@ fn rendered(job: &Path, seed: &str) -> Vec<f64> {
 const CRITICAL: f64 = 5.5;
 
 #[track_caller]
-fn agrees(found: &[f64], other: &[f64], opacity: impl Fn(usize, usize) -> Option<f64>, what: &str) {
-    for (i, (found, other)) in found.iter().zip(other).enumerate() {
+fn assert_agrees(actual: &[f64], other: &[f64], opacity: impl Fn(usize, usize) -> Option<f64>, what: &str) {
+    for (i, (actual, other)) in actual.iter().zip(other).enumerate() {
         // Between quarters texels are blended.
         let Some(opacity) = opacity(i % WIDTH, i / WIDTH) else { continue };
         let error = SKY * (opacity * (1.0 - opacity) / 1024.0).sqrt();
         // Noise of wavelengths is 0.3 % of the light.
-        let (through, even) = (SKY * (1.0 - opacity), 0.003 * SKY);
-        assert!((found - through).abs() <= CRITICAL * error + even, "{what}, pixel {i}: {found} for {through}");
-        let apart = CRITICAL * error * std::f64::consts::SQRT_2 + even;
-        assert!((found - other).abs() <= apart, "{what}, pixel {i}: {found} beside {other} of our own opacity");
+        let (through, tolerance) = (SKY * (1.0 - opacity), 0.003 * SKY);
+        assert!((actual - through).abs() <= CRITICAL * error + tolerance, "{what}, pixel {i}: {actual} for {through}");
+        let apart = CRITICAL * error * std::f64::consts::SQRT_2 + tolerance;
+        assert!((actual - other).abs() <= apart, "{what}, pixel {i}: {actual} beside {other} of our own opacity");
     }
 }
 
 /// Opacity of a pixel within a quarter, `scale` times that of the image: its middle is the card's.
 fn quarter(scale: f64) -> impl Fn(usize, usize) -> Option<f64> {
     move |x: usize, y: usize| {
-        let beside = |at: usize, middle: usize| at + 2 < middle || at > middle + 1;
-        (beside(x, WIDTH / 2) && beside(y, HEIGHT / 2))
-            .then(|| scale * shares()[2 * usize::from(y >= HEIGHT / 2) + usize::from(x >= WIDTH / 2)])
+        let is_outside = |at: usize, middle: usize| at + 2 < middle || at > middle + 1;
+        (is_outside(x, WIDTH / 2) && is_outside(y, HEIGHT / 2))
+            .then(|| scale * quarter_opacities()[2 * usize::from(y >= HEIGHT / 2) + usize::from(x >= WIDTH / 2)])
     }
 }
 
 /// Results of a scene file, and of our own opacity.
-fn both(file: &str, scene: &str, opacity: &str) -> [Vec<f64>; 2] {
+fn results_of_both(file: &str, scene: &str, opacity: &str) -> [Vec<f64>; 2] {
     let place = tempfile::tempdir().expect("a temporary folder");
     files_in(place.path());
     fs::write(place.path().join(file), scene).expect("written");
     etendue(["import", &text(&place.path().join(file)), "-o", &text(&place.path().join("made"))]).ok();
-    fs::write(place.path().join("own.toml"), own(opacity)).expect("written");
+    fs::write(place.path().join("own.toml"), own_scene(opacity)).expect("written");
     [("made/job.toml", "1"), ("own.toml", "2")].map(|(job, seed)| rendered(&place.path().join(job), seed))
 }
 
-const OWN: &str = "{ texture = \"holes\" }";
+const OWN_OPACITY: &str = "{ texture = \"holes\" }";
 
 #[test]
 fn alpha_of_pbrt_lets_through_what_our_own_opacity_does() {
     let holes = "\"texture alpha\" \"holes\"";
-    let [theirs, ours] = both("a.pbrt", &pbrt("\"float alpha\" 0.3", "holes.png"), "0.3");
-    agrees(&theirs, &ours, |_, _| Some(0.3), "a number");
-    for picture in ["holes.png", "leaf.exr", "whole.exr"] {
-        let [theirs, ours] = both("a.pbrt", &pbrt(holes, picture), OWN);
-        agrees(&theirs, &ours, quarter(1.0), picture);
+    let [theirs, ours] = results_of_both("a.pbrt", &pbrt("\"float alpha\" 0.3", "holes.png"), "0.3");
+    assert_agrees(&theirs, &ours, |_, _| Some(0.3), "a number");
+    for image in ["holes.png", "leaf.exr", "whole.exr"] {
+        let [theirs, ours] = results_of_both("a.pbrt", &pbrt(holes, image), OWN_OPACITY);
+        assert_agrees(&theirs, &ours, quarter(1.0), image);
     }
     let half = "{ texture = \"holes\", scale = 0.5 }";
-    let [theirs, ours] = both("a.pbrt", &pbrt("\"texture alpha\" \"fewer\"", "holes.png"), half);
-    agrees(&theirs, &ours, quarter(0.5), "half a picture");
+    let [theirs, ours] = results_of_both("a.pbrt", &pbrt("\"texture alpha\" \"fewer\"", "holes.png"), half);
+    assert_agrees(&theirs, &ours, quarter(0.5), "half a picture");
 }
 
 /// The same card for Mitsuba.
@@ -146,12 +146,12 @@ fn mitsuba(opacity: &str) -> String {
 
 #[test]
 fn masks_of_mitsuba_let_through_what_our_own_opacity_does() {
-    let [theirs, ours] = both("a.xml", &mitsuba("<float name=\"opacity\" value=\"0.3\"/>"), "0.3");
-    agrees(&theirs, &ours, |_, _| Some(0.3), "a number");
-    let picture = "<texture name=\"opacity\" type=\"bitmap\"><string name=\"filename\" value=\"FILE\"/>\
+    let [theirs, ours] = results_of_both("a.xml", &mitsuba("<float name=\"opacity\" value=\"0.3\"/>"), "0.3");
+    assert_agrees(&theirs, &ours, |_, _| Some(0.3), "a number");
+    let image = "<texture name=\"opacity\" type=\"bitmap\"><string name=\"filename\" value=\"FILE\"/>\
                    <string name=\"wrap_mode\" value=\"clamp\"/></texture>";
     for file in ["holes.png", "whole.exr"] {
-        let [theirs, ours] = both("a.xml", &mitsuba(&picture.replace("FILE", file)), OWN);
-        agrees(&theirs, &ours, quarter(1.0), file);
+        let [theirs, ours] = results_of_both("a.xml", &mitsuba(&image.replace("FILE", file)), OWN_OPACITY);
+        assert_agrees(&theirs, &ours, quarter(1.0), file);
     }
 }

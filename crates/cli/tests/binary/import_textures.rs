@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// Red, green; blue, white: rows from the top.
-fn four(folder: &Path) {
+fn write_image(folder: &Path) {
     const SIDE: usize = 64;
     let colour = |i: usize| match (i % SIDE < SIDE / 2, i / SIDE < SIDE / 2) {
         (true, true) => [1.0, 0.0, 0.0],
@@ -25,15 +25,15 @@ fn four(folder: &Path) {
 /// Returns the mean of the preview in linear sRGB in the middle of a scene, in uniform light of 1, and the messages of the import.
 fn mean(scene: &str) -> ([f64; 3], String) {
     let place = tempfile::tempdir().expect("a folder");
-    four(place.path());
-    let (file, made, out) = (place.path().join("a.pbrt"), place.path().join("made"), place.path().join("out"));
-    let whole = format!(
+    write_image(place.path());
+    let (file, imported, out) = (place.path().join("a.pbrt"), place.path().join("made"), place.path().join("out"));
+    let scene_text = format!(
         "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 12\nLookAt 0 0 -5  0 0 0  0 1 0\n\
          Camera \"perspective\" \"float fov\" 4.56\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n{scene}\n"
     );
-    fs::write(&file, whole).expect("written");
-    let notes = etendue(["import", &text(&file), "-o", &text(&made)]).ok().err.clone();
-    etendue(["render", &text(&made.join("job.toml")), "-o", &text(&out), "--spp", "64"]).ok();
+    fs::write(&file, scene_text).expect("written");
+    let notes = etendue(["import", &text(&file), "-o", &text(&imported)]).ok().err.clone();
+    etendue(["render", &text(&imported.join("job.toml")), "-o", &text(&out), "--spp", "64"]).ok();
     let inspected = etendue(["inspect", &text(&out.join("camera/radiance.exr"))]).ok();
     let channel = |name: &str| -> f64 {
         let line = inspected.out.lines().find(|line| line.split_whitespace().next() == Some(name)).expect("a preview");
@@ -47,9 +47,9 @@ const PICTURE: &str = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename
 /// Values of pbrt-v4 where no derivation is given. Spectra of saturated reflectances differ between the programs by up to 1 %, and the noise of
 /// wavelengths at 64 samples of 144 pixels is 0.3 %: 0.02 is allowed.
 fn assert_mean(scene: &str, expected: [f64; 3]) {
-    let (found, _) = mean(scene);
-    let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.02);
-    assert!(is_near, "{found:?}, expected {expected:?}: {scene}");
+    let (actual, _) = mean(scene);
+    let is_near = actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.02);
+    assert!(is_near, "{actual:?}, expected {expected:?}: {scene}");
 }
 
 #[test]

@@ -9,8 +9,8 @@ use std::time::Duration;
 fn after(before: &str, arguments: &[&str]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("{before}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]).args(arguments);
-    let ran = shell.current_dir(crate::support::root()).output().expect("a shell");
-    (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned())
+    let output = shell.current_dir(crate::support::root()).output().expect("a shell");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 #[test]
@@ -18,9 +18,9 @@ fn a_disk_that_fills_leaves_no_file_under_its_final_name() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
     // Files of more than 8 blocks of 512 bytes cannot be written, as on a full disk; the signal that reports it first is ignored.
-    let (status, told) = after("trap '' XFSZ; ulimit -f 8", &["render", &small(), "-o", &out, "--spp", "2"]);
-    assert_eq!(status, Some(1), "{told}");
-    assert!(told.contains("error") && told.contains(&out), "{told}");
+    let (status, stderr) = after("trap '' XFSZ; ulimit -f 8", &["render", &small(), "-o", &out, "--spp", "2"]);
+    assert_eq!(status, Some(1), "{stderr}");
+    assert!(stderr.contains("error") && stderr.contains(&out), "{stderr}");
     assert!(!Path::new(&out).exists(), "{:?}", contents(Path::new(&out)).keys());
     etendue(["render", &small(), "-o", &out, "--spp", "2"]).ok();
 }
@@ -29,9 +29,9 @@ fn a_disk_that_fills_leaves_no_file_under_its_final_name() {
 fn a_run_that_is_killed_at_any_moment_leaves_whole_files_or_none() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let arguments = |out: &str| ["render", &small(), "-o", out, "--spp", "64", "--overwrite"].map(str::to_owned);
-    let whole = text(&place.path().join("whole"));
-    etendue(arguments(&whole)).ok();
-    let expected = contents(Path::new(&whole));
+    let undisturbed = text(&place.path().join("whole"));
+    etendue(arguments(&undisturbed)).ok();
+    let expected = contents(Path::new(&undisturbed));
     let out = text(&place.path().join("out"));
     let mut killed = 0;
     for milliseconds in [5, 20, 40, 60, 90, 130, 180] {

@@ -1,7 +1,7 @@
 //! Models from elsewhere: the city and the trucks of the shared assets.
 
 use crate::support::{contents, etendue, root, tests, text};
-use etendue_io::exr::{ExrFile, Samples, read_exr};
+use etendue_io::exr::{ExrFile, ExrSamples, read_exr};
 use etendue_testkit::skip::all_here;
 use std::path::Path;
 
@@ -14,8 +14,8 @@ fn job() -> Option<String> {
 }
 
 /// Values of a channel of the ground truth where `instance.ID` is one of `instances`.
-fn of(file: &ExrFile, channel: &str, instances: &[u32]) -> Vec<f32> {
-    let Some(Samples::Uint(ids)) = file.channel("instance.ID") else { panic!("identities") };
+fn values_of_instances(file: &ExrFile, channel: &str, instances: &[u32]) -> Vec<f32> {
+    let Some(ExrSamples::Uint(ids)) = file.channel("instance.ID") else { panic!("identities") };
     let values = file.channel(channel).expect("a channel of the ground truth").to_floats();
     ids.iter().zip(values).filter(|(id, _)| instances.contains(id)).map(|(_, value)| value).collect()
 }
@@ -40,19 +40,19 @@ fn a_city_made_elsewhere_stands_upright_in_colour_and_in_scale() {
     etendue(["render", &job, "-o", &output].iter().chain(&small)).ok();
     let truth = read_exr(Path::new(&format!("{output}/front/ground_truth.exr"))).expect("the ground truth");
     let identities = identities(&contents(Path::new(&output))["front/camera.json"]);
-    let seen = |object: &str, channel: &str| range(&of(&truth, channel, &identities(object)));
+    let values_of = |object: &str, channel: &str| range(&values_of_instances(&truth, channel, &identities(object)));
 
     // The red truck: 2.1 × (1.5 wide, 1.3 high, 2.8 long), its rear at 16 − 2.94 m, on the right-hand lane.
-    let (rear, _) = seen("truck-red", "P.X");
+    let (rear, _) = values_of("truck-red", "P.X");
     assert!((rear - 13.06).abs() < 0.2, "rear at {rear} m");
-    let (right, left) = seen("truck-red", "P.Y");
+    let (right, left) = values_of("truck-red", "P.Y");
     assert!((right + 3.375).abs() < 0.2 && (left + 0.225).abs() < 0.2, "from {right} to {left} m");
-    let (ground, top) = seen("truck-red", "P.Z");
+    let (ground, top) = values_of("truck-red", "P.Z");
     assert!((-0.01..0.9).contains(&ground) && (top - 2.73).abs() < 0.2, "from {ground} to {top} m");
     // The road is flat on the ground, its pavements half a metre higher, with houses on it.
-    let (low, high) = seen("road", "P.Z");
+    let (low, high) = values_of("road", "P.Z");
     assert!(low > -1e-4 && high < 0.501, "road from {low} to {high} m");
-    let (low, high) = seen("house-c", "P.Z");
+    let (low, high) = values_of("house-c", "P.Z");
     assert!(low > -1e-4 && high < 17.501, "house from {low} to {high} m");
     coloured(&output);
 }
@@ -70,8 +70,8 @@ fn identities(sidecar: &[u8]) -> impl Fn(&str) -> Vec<u32> + use<> {
 
 /// The palette image is used: red and purple houses, a green tree, not one grey.
 fn coloured(output: &str) {
-    let picture = etendue_io::picture::read_picture(Path::new(&format!("{output}/front/picture.0000.png")));
-    let etendue_scene::asset::ImagePixels::Rgb8(pixels) = picture.expect("the picture").pixels else {
+    let image = etendue_io::picture::read_image(Path::new(&format!("{output}/front/picture.0000.png")));
+    let etendue_scene::asset::ImagePixels::Rgb8(pixels) = image.expect("the picture").pixels else {
         panic!("8 bits")
     };
     let strong = |a: usize, b: usize| pixels.iter().filter(|p| u16::from(p[a]) > 60 + u16::from(p[b])).count();

@@ -6,7 +6,7 @@
 
 use crate::support::{assert_same, contents, etendue, root, small, tests, text};
 use etendue_io::exr::read_exr;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_testkit::page::{self, Row};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -15,23 +15,23 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Number of kills in the quick part, over all kinds of runs.
-const FEW: usize = 12;
+const QUICK_KILLS: usize = 12;
 
 /// A kind of run.
-struct Kind {
+struct RunKind {
     name: &'static str,
     arguments: Vec<String>,
     /// Further arguments of a run that follows a killed one.
-    again: &'static str,
+    repeat_arguments: &'static str,
     /// True if files are replaced by refined ones during the run.
     refines: bool,
 }
 
-impl Kind {
-    fn new(name: &'static str, arguments: &[&str], again: &'static str) -> Self {
+impl RunKind {
+    fn new(name: &'static str, arguments: &[&str], repeat_arguments: &'static str) -> Self {
         let arguments: Vec<String> = arguments.iter().map(|word| (*word).to_owned()).collect();
         let refines = arguments.iter().any(|word| word == "--progressive");
-        Self { name, arguments, again, refines }
+        Self { name, arguments, repeat_arguments: again: repeat_arguments, refines }
     }
 
     fn all(shards: [&str; 2]) -> Vec<Self> {
@@ -51,9 +51,9 @@ impl Kind {
     }
 
     /// Result of this many kills: an incomplete file, or different final bytes, has failed the run before.
-    fn row(&self, count: &Count, kills: usize) -> Row {
+    fn row(&self, count: &KillCounts, kills: usize) -> Row {
         Row {
-            extreme: format!("{}, killed, then begun again with `{}`", self.name, self.again),
+            extreme: format!("{}, killed, then begun again with `{}`", self.name, self.repeat_arguments),
             expected: "complete files, final bytes equal".to_owned(),
             found: format!("after each of {} kills", count.killed),
             holds: count.killed == kills && count.completed > 0,
@@ -62,14 +62,14 @@ impl Kind {
 
     fn arguments(&self, out: &Path, is_again: bool) -> Vec<String> {
         let output = ["-o".to_owned(), text(out)];
-        self.arguments.iter().cloned().chain(output).chain(is_again.then(|| self.again.to_owned())).collect()
+        self.arguments.iter().cloned().chain(output).chain(is_again.then(|| self.repeat_arguments.to_owned())).collect()
     }
 }
 
 /// A generator of random moments: SplitMix64 (Steele, Lea and Flood 2014).
-struct Moments(u64);
+struct RandomMoments(u64);
 
-impl Moments {
+impl RandomMoments {
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -78,20 +78,20 @@ impl Moments {
     }
 
     /// Returns a number from 0 to 1.
-    fn share(&mut self) -> f64 {
+    fn random_fraction(&mut self) -> f64 {
         self.next() as f64 / u64::MAX as f64
     }
 }
 
 /// Results of kills of one kind of run.
 #[derive(Default)]
-struct Count {
+struct KillCounts {
     killed: usize,
     /// Runs that ended before their moment.
     too_late: usize,
     /// Kills after which no file had its final name, some files had, or temporary files were left.
-    nothing: usize,
-    some: usize,
+    no_file: usize,
+    some_files: usize,
     leftovers: usize,
     completed: usize,
 }
@@ -100,14 +100,14 @@ struct Count {
 fn is_readable(path: &Path, bytes: &[u8]) -> bool {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("exr") => read_exr(path).is_ok(),
-        Some("png") => read_picture(path).is_ok(),
+        Some("png") => read_image(path).is_ok(),
         Some("json") => serde_json::from_slice::<serde_json::Value>(bytes).is_ok(),
         _ => false,
     }
 }
 
 /// Kills a run of a kind after a time; returns true if it was still running.
-fn kill(kind: &Kind, out: &Path, is_again: bool, after: Duration) -> bool {
+fn kill(kind: &RunKind, out: &Path, is_again: bool, after: Duration) -> bool {
     let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
     command.current_dir(root()).args(kind.arguments(out, is_again)).stdout(Stdio::null()).stderr(Stdio::null());
     let mut run = command.spawn().expect("it starts");
@@ -120,7 +120,7 @@ fn kill(kind: &Kind, out: &Path, is_again: bool, after: Duration) -> bool {
 
 /// Asserts that every file with its final name is complete.
 #[track_caller]
-fn check(kind: &Kind, out: &Path, expected: &BTreeMap<String, Vec<u8>>, count: &mut Count) {
+fn check(kind: &RunKind, out: &Path, expected: &BTreeMap<String, Vec<u8>>, count: &mut KillCounts) {
     let (mut finals, mut hidden) = (0, 0);
     for (name, bytes) in contents(out) {
         let file = Path::new(&name).file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -133,23 +133,23 @@ fn check(kind: &Kind, out: &Path, expected: &BTreeMap<String, Vec<u8>>, count: &
         let is_whole = expected.get(&name) == Some(&bytes) || (kind.refines && is_readable(&out.join(&name), &bytes));
         assert!(is_whole, "{}: {name} is not whole after a kill", kind.name);
     }
-    count.nothing += usize::from(finals == 0);
-    count.some += usize::from(finals > 0);
+    count.no_file += usize::from(finals == 0);
+    count.some_files += usize::from(finals > 0);
     count.leftovers += usize::from(hidden > 0);
 }
 
 /// Kills runs of a kind at `kills` moments within them.
-fn disturb(kind: &Kind, kills: usize, moments: &mut Moments) -> Count {
+fn kill_repeatedly(kind: &RunKind, kills: usize, moments: &mut RandomMoments) -> KillCounts {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let whole = place.path().join("whole");
+    let undisturbed = place.path().join("whole");
     let begin = Instant::now();
-    etendue(kind.arguments(&whole, false)).ok();
+    etendue(kind.arguments(&undisturbed, false)).ok();
     let takes = begin.elapsed();
-    let expected = contents(&whole);
-    let (out, mut count, mut is_again) = (place.path().join("out"), Count::default(), false);
+    let expected = contents(&undisturbed);
+    let (out, mut count, mut is_again) = (place.path().join("out"), KillCounts::default(), false);
     while count.killed < kills {
         assert!(count.too_late < 20 + 4 * kills, "{}: no moment is within a run", kind.name);
-        match kill(kind, &out, is_again, takes.mul_f64(moments.share())) {
+        match kill(kind, &out, is_again, takes.mul_f64(moments.random_fraction())) {
             true => count.killed += 1,
             false => count.too_late += 1,
         }
@@ -179,17 +179,17 @@ fn runs_that_are_killed_at_random_moments_end_in_the_bytes_of_undisturbed_ones()
         etendue(["render", &small(), "--spp", "2", "--shard", &format!("{index}/2"), "-o", shard]).ok();
     }
     let many = setting("ETENDUE_KILLS").map(|kills| kills as usize);
-    let kinds = Kind::all(shards.each_ref().map(String::as_str));
-    let mut moments = Moments(setting("ETENDUE_KILLS_SEED").unwrap_or(1));
+    let kinds = RunKind::all(shards.each_ref().map(String::as_str));
+    let mut moments = RandomMoments(setting("ETENDUE_KILLS_SEED").unwrap_or(1));
     let mut table =
         "| run | killed | nothing had its name | some files had | temporary files were left | rerun or resumed |\n\
                      | --- | ---: | ---: | ---: | ---: | ---: |\n"
             .to_owned();
     let mut rows = Vec::new();
     for kind in &kinds {
-        let kills = many.unwrap_or(FEW).div_ceil(kinds.len());
-        let count = disturb(kind, kills, &mut moments);
-        let Count { killed, nothing, some, leftovers, completed, .. } = count;
+        let kills = many.unwrap_or(QUICK_KILLS).div_ceil(kinds.len());
+        let count = kill_repeatedly(kind, kills, &mut moments);
+        let KillCounts { killed, no_file: nothing, some_files: some, leftovers, completed, .. } = count;
         rows.push(kind.row(&count, kills));
         writeln!(table, "| {} | {killed} | {nothing} | {some} | {leftovers} | {completed} |", kind.name)
             .expect("memory");
@@ -197,7 +197,7 @@ fn runs_that_are_killed_at_random_moments_end_in_the_bytes_of_undisturbed_ones()
     if many.is_some() {
         std::fs::write(root().join("target/kills.md"), table).expect("written");
     } else {
-        let about = "Small runs are killed and repeated until they end. Every file under a final name is complete, and the final bytes are those of an uninterrupted run. 996 kills are in docs/robustness.md (`just kills 1000`).";
-        page::check("Kills at random moments", about, &rows);
+        let caption = "Small runs are killed and repeated until they end. Every file under a final name is complete, and the final bytes are those of an uninterrupted run. 996 kills are in docs/robustness.md (`just kills 1000`).";
+        page::check("Kills at random moments", caption, &rows);
     }
 }

@@ -16,11 +16,11 @@ fn zmx(front: &str, glass: &str) -> String {
 
 const BK7: &str = "N-BK7 0 0 1.5168 64.17";
 
-struct Measured {
+struct LensFileReport {
     report: Value,
 }
 
-impl Measured {
+impl LensFileReport {
     fn number(&self, key: &str) -> f64 {
         self.report[key].as_f64().unwrap_or_else(|| panic!("no {key} in {}", self.report))
     }
@@ -32,9 +32,9 @@ impl Measured {
 
     /// Asserts a key's value to the last stated digit.
     #[track_caller]
-    fn is(&self, key: &str, right: f64, digit: f64) {
-        let found = self.number(key);
-        assert!((found - right).abs() <= 0.51 * digit, "{key}: {found} for {right}");
+    fn assert_value(&self, key: &str, right: f64, digit: f64) {
+        let actual = self.number(key);
+        assert!((actual - right).abs() <= 0.51 * digit, "{key}: {actual} for {right}");
     }
 }
 
@@ -46,18 +46,18 @@ fn arguments(name: &str, file: &str, further: &[&str]) -> (tempfile::TempDir, Ve
     (folder, words.into_iter().chain(further.iter().map(|word| (*word).to_owned())).collect())
 }
 
-fn measured(name: &str, file: &str) -> Measured {
+fn measure_lens(name: &str, file: &str) -> LensFileReport {
     let (_folder, words) = arguments(name, file, &["--json"]);
-    Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") }
+    LensFileReport { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") }
 }
 
 #[test]
 fn a_catalogue_glass_is_its_successor_and_not_what_is_left_over_on_its_line() {
-    measured("plain.zmx", &zmx("", BK7)).is("focal_length_mm", 49.043, 1e-3);
-    measured("today.zmx", &zmx("", "N-SK2 0 0 1.5 40")).is("focal_length_mm", 41.7920, 1e-4);
-    measured("sk2.zmx", &zmx("", "SK2 0 0 1.61765 5.514E+1")).is("focal_length_mm", 41.7920, 1e-4);
-    let ohara = measured("lah66.zmx", &zmx("", "LAH66 0 0 1.7762 4.94E+1"));
-    ohara.is("focal_length_mm", 32.9367, 1e-4);
+    measure_lens("plain.zmx", &zmx("", BK7)).assert_value("focal_length_mm", 49.043, 1e-3);
+    measure_lens("today.zmx", &zmx("", "N-SK2 0 0 1.5 40")).assert_value("focal_length_mm", 41.7920, 1e-4);
+    measure_lens("sk2.zmx", &zmx("", "SK2 0 0 1.61765 5.514E+1")).assert_value("focal_length_mm", 41.7920, 1e-4);
+    let ohara = measure_lens("lah66.zmx", &zmx("", "LAH66 0 0 1.7762 4.94E+1"));
+    ohara.assert_value("focal_length_mm", 32.9367, 1e-4);
     assert!(ohara.remarks().contains("its successor S-LAH66 is used, not n_d 1.7762"), "{}", ohara.remarks());
 }
 
@@ -67,23 +67,23 @@ fn an_aperture_on_a_plane_in_air_clips() {
         zmx(&format!("SURF 1\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 20\n  DIAM 2 1 0 0 1 \"\"\n{aperture}"), BK7)
     };
     // The drawing size of a plane is no aperture.
-    let drawn = measured("drawn.zmx", &plane(""));
-    drawn.is("f_number", 9.81, 1e-2);
+    let rendered_report = measure_lens("drawn.zmx", &plane(""));
+    rendered_report.assert_value("f_number", 9.81, 1e-2);
     for aperture in ["  CLAP 0 2 0\n", "  FLAP 0 2 0\n"] {
-        let clipped = measured("baffle.zmx", &plane(aperture));
-        clipped.is("f_number", 12.26, 1e-2);
-        clipped.is("focal_length_mm", 49.043, 1e-3);
-        clipped.is("entrance_pupil_diameter_mm", 4.0, 1e-6);
+        let clipped = measure_lens("baffle.zmx", &plane(aperture));
+        clipped.assert_value("f_number", 12.26, 1e-2);
+        clipped.assert_value("focal_length_mm", 49.043, 1e-3);
+        clipped.assert_value("entrance_pupil_diameter_mm", 4.0, 1e-6);
         let message = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
         assert!(clipped.remarks().contains(message), "{}", clipped.remarks());
     }
     // A larger aperture exists, and clips nothing on the axis.
-    let wide = measured("wide.zmx", &plane("  CLAP 0 4 0\n"));
-    wide.is("f_number", 9.81, 1e-2);
+    let wide = measure_lens("wide.zmx", &plane("  CLAP 0 4 0\n"));
+    wide.assert_value("f_number", 9.81, 1e-2);
     // The stop's own aperture also clips.
     let stop = zmx("", BK7).replacen("DIAM 6 1", "CLAP 0 2 0\n  DIAM 6 1", 1);
-    let stop = measured("stop.zmx", &stop);
-    stop.is("f_number", 12.26, 1e-2);
+    let stop = measure_lens("stop.zmx", &stop);
+    stop.assert_value("f_number", 12.26, 1e-2);
     assert!(
         stop.remarks().contains("limits the stop to 2.0000 mm; the lens would open it to 2.5000 mm"),
         "{}",
@@ -92,16 +92,16 @@ fn an_aperture_on_a_plane_in_air_clips() {
 }
 
 #[test]
-fn a_rim_smaller_than_the_bundle_clips_it() {
+fn a_clear_aperture_smaller_than_the_bundle_clips_it() {
     let file = zmx("", BK7).replace("ENPD 5", "ENPD 25").replacen("DIAM 6 ", "DIAM 12.5 ", 1).replacen(
         "DIAM 6 ",
         "DIAM 12.0 ",
         1,
     );
-    let lens = measured("rim.zmx", &file);
+    let lens = measure_lens("rim.zmx", &file);
     // The ray that meets the edge of the rear surface at 12 mm from the axis enters at 12.09 mm: it falls by 0.087 over the remaining 1 mm of glass.
-    lens.is("f_number", 2.03, 1e-2);
-    lens.is("entrance_pupil_diameter_mm", 24.18, 2e-2);
+    lens.assert_value("f_number", 2.03, 1e-2);
+    lens.assert_value("entrance_pupil_diameter_mm", 24.18, 2e-2);
     assert!(lens.remarks().contains("surface 2 (line 23), not the stop, limits"), "{}", lens.remarks());
 }
 
@@ -123,12 +123,12 @@ fn edits_of_codev_files_are_followed() {
         (seq(front, rear, "SCA 2.0"), 98.086),
         (seq("0 4 NBK7_SCHOTT\n CUY 0.02", "0 47\n CUY -0.02", ""), 49.043),
     ] {
-        measured("lens.seq", &file).is("focal_length_mm", right, 1e-3);
+        measure_lens("lens.seq", &file).assert_value("focal_length_mm", right, 1e-3);
     }
     // The term of r¹⁸ is 15 µm at the edge of the bundle, and moves its rays.
     let spot = |h: &str| {
         let front = format!("{front}\n ASP\n K 0.0\n A 0;B 0;C 0;D 0;E 0;F 0;G 0;H {h};J 0");
-        measured("lens.seq", &seq(&front, rear, "")).report["fields"][0]["spot_radius_mm"].as_f64().expect("a spot")
+        measure_lens("lens.seq", &seq(&front, rear, "")).report["fields"][0]["spot_radius_mm"].as_f64().expect("a spot")
     };
     assert!(spot("-1e-9") - spot("0") > 0.5, "{} for {}", spot("-1e-9"), spot("0"));
 }
@@ -147,9 +147,9 @@ fn first_order_figures_are_of_the_primary_wavelength() {
     };
     for (reference, nm) in [(1, 656.3), (2, 587.6), (3, 486.1)] {
         let file = seq(front, rear, "").replace("REF 2", &format!("REF {reference}"));
-        let lens = measured("lens.seq", &file);
-        lens.is("first_order_wavelength_nm", nm, 1e-9);
-        lens.is("focal_length_mm", focal(nm), 2e-8);
+        let lens = measure_lens("lens.seq", &file);
+        lens.assert_value("first_order_wavelength_nm", nm, 1e-9);
+        lens.assert_value("focal_length_mm", focal(nm), 2e-8);
         let (_folder, words) = arguments("lens.seq", &file, &[]);
         let message = etendue(words).ok().out;
         assert!(message.contains(&format!("first order at         {nm} nm (fields at 587.56 nm)")), "{message}");
@@ -157,14 +157,14 @@ fn first_order_figures_are_of_the_primary_wavelength() {
     let zemax = zmx("", BK7)
         .replace("WAVM 1 0.58756 1\nPWAV 1", "WAVM 1 0.58756 1\nWAVM 2 0.55 1\nPWAV 2")
         .replace("0 0 2 1 0 0 0", "0 0 2 2 0 0 0");
-    measured("lens.zmx", &zemax).is("focal_length_mm", focal(550.0), 2e-8);
+    measure_lens("lens.zmx", &zemax).assert_value("focal_length_mm", focal(550.0), 2e-8);
     // An f-number also refers to that wavelength.
-    let fast = measured("lens.zmx", &zemax.replace("ENPD 5", "FNUM 10 0"));
-    fast.is("entrance_pupil_diameter_mm", focal(550.0) / 10.0, 2e-8);
+    let fast = measure_lens("lens.zmx", &zemax.replace("ENPD 5", "FNUM 10 0"));
+    fast.assert_value("entrance_pupil_diameter_mm", focal(550.0) / 10.0, 2e-8);
     let (_folder, words) = arguments("lens.zmx", &zemax, &["--json", "--wavelength-nm", "486.1"]);
-    let asked = Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") };
-    asked.is("focal_length_mm", focal(486.1), 2e-8);
-    asked.is("first_order_wavelength_nm", 486.1, 1e-9);
+    let requested = LensFileReport { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") };
+    requested.assert_value("focal_length_mm", focal(486.1), 2e-8);
+    requested.assert_value("first_order_wavelength_nm", 486.1, 1e-9);
     let (_folder, words) = arguments("lens.zmx", &zemax.replace("PWAV 2", "PWAV 3"), &[]);
     etendue(words).refused(&["lens.zmx", "the primary wavelength has number 3; expected 1 to 2"]);
     let (_folder, words) = arguments("lens.zmx", &zemax, &["--wavelength-nm", "2000"]);
@@ -183,7 +183,7 @@ fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
 #[test]
 fn keywords_of_a_surface_that_are_not_read_are_noted() {
     let lens = zmx("", BK7).replace("  CURV", "  COMM front\n  COAT AR\n  CURV");
-    let remarks = measured("coated.zmx", &lens).remarks();
+    let remarks = measure_lens("coated.zmx", &lens).remarks();
     assert_eq!(remarks.matches("COAT of a surface is ignored").count(), 1, "{remarks}");
     assert!(!remarks.contains("COMM"), "{remarks}");
 }

@@ -3,7 +3,7 @@
 use crate::black_boxes::{irradiance, job, plan};
 use crate::support::{etendue, text};
 use etendue_core::maths::f64::{atan2, exp, tan};
-use etendue_io::exr::{Samples, read_exr};
+use etendue_io::exr::{ExrSamples, read_exr};
 use std::path::Path;
 
 const FOCAL_MM: f64 = 6.0;
@@ -20,14 +20,14 @@ fn radius_mm(theta: bool, angle: f64) -> f64 {
 /// An export of field curvature and distortion as written by OpticStudio: two wavelengths, the second without distortion.
 fn export(theta: bool, says_focal_length: bool) -> String {
     let kind = if theta { "F-Theta" } else { "F-Tan(Theta)" };
-    let table = |um: f64, share: f64, focal_mm: f64| {
+    let table = |um: f64, weight: f64, focal_mm: f64| {
         let focal_length =
             if says_focal_length { format!("Distortion focal length = {focal_mm:.6}\r\n") } else { String::new() };
         let row = |degrees: u32| {
             let degrees = f64::from(degrees);
             let angle = degrees.to_radians();
             let reference = FOCAL_MM * if theta { angle } else { tan(angle) };
-            let percent = 100.0 * share * distortion(theta, angle);
+            let percent = 100.0 * weight * distortion(theta, angle);
             let real = reference * (1.0 + 0.01 * percent);
             format!(" {degrees:.8}E+000  -1.0E-002  -2.0E-002  {real:.8}  {reference:.8}  {percent:.8} %\r\n")
         };
@@ -57,7 +57,7 @@ fn angles(folder: &Path, job: &str) -> Vec<(f64, f64)> {
     let file = read_exr(&out.join("eye/rays.exr")).expect("readable");
     let axis = |name: &str| {
         let channel = file.channels.iter().find(|channel| channel.name == name).expect("a direction");
-        let Samples::Float(samples) = &channel.samples else { panic!("not of 32-bit floats") };
+        let ExrSamples::Float(samples) = &channel.samples else { panic!("not of 32-bit floats") };
         samples[121..242].iter().map(|v| f64::from(*v)).collect::<Vec<_>>()
     };
     let [x, y, z] = ["direction.X", "direction.Y", "direction.Z"].map(axis);
@@ -75,10 +75,10 @@ fn pixels_look_where_zemax_s_distortion_says() {
             // Directions are 32-bit floats, which represent small angles from the axis by their components.
             assert!((place_mm - expected).abs() < 2e-5 * FOCAL_MM, "{angle}: {place_mm} for {expected}");
         }
-        let said = plan(folder.path(), &job).ok().out;
+        let output = plan(folder.path(), &job).ok().out;
         for phrase in ["d.txt", "distortion computed for 550 nm", "1 other wavelengths", "field curvature is not used"]
         {
-            assert!(said.contains(phrase), "no {phrase} in\n{said}");
+            assert!(output.contains(phrase), "no {phrase} in\n{output}");
         }
     }
     // The same table inline.
@@ -92,23 +92,23 @@ fn pixels_look_where_zemax_s_distortion_says() {
 }
 
 #[test]
-fn exports_of_distortion_that_cannot_be_used_are_told_with_their_line() {
+fn unusable_distortion_exports_are_reported_with_their_line() {
     let folder = tempfile::tempdir().expect("a folder");
-    let whole = export(false, true);
+    let export_text = export(false, true);
     let five = " 5.00000000E+000";
     for (listing, phrases) in [
         (
-            whole.replace("Distortion", "Astigmatism").replace("distortion", "astigmatism"),
+            export_text.replace("Distortion", "Astigmatism").replace("distortion", "astigmatism"),
             &["d.txt", "not a distortion export"][..],
         ),
-        (whole.replace("(deg)", "(mm)").replace("Degrees", "mm"), &["d.txt", "not angles"]),
-        (whole.replace(five, " 3.50000000E+000"), &["d.txt:63", "follows 4; expected increasing"]),
-        (whole.replace(" 0.00000000E+000", " 0.50000000E+000"), &["d.txt:58", "expected 0, the axis"]),
+        (export_text.replace("(deg)", "(mm)").replace("Degrees", "mm"), &["d.txt", "not angles"]),
+        (export_text.replace(five, " 3.50000000E+000"), &["d.txt:63", "follows 4; expected increasing"]),
+        (export_text.replace(" 0.00000000E+000", " 0.50000000E+000"), &["d.txt:58", "expected 0, the axis"]),
     ] {
         std::fs::write(folder.path().join("d.txt"), &listing).expect("written");
         plan(folder.path(), &job("", SENSOR, &calibrated("file = \"d.txt\""), 2)).refused(phrases);
     }
-    std::fs::write(folder.path().join("d.txt"), &whole).expect("written");
+    std::fs::write(folder.path().join("d.txt"), &export_text).expect("written");
     for (keys, phrases) in [
         ("file = \"d.txt\", radius_mm = [1, 2]", &["job.toml", "\"radius_mm\" has no effect here"][..]),
         ("angle_deg = [10, 20]", &["job.toml", "\"radius_mm\" is missing"]),
@@ -125,14 +125,14 @@ fn exports_of_distortion_that_cannot_be_used_are_told_with_their_line() {
 #[test]
 fn the_shipped_camera_is_measured_as_its_tables_say() {
     let camera = text(&crate::support::root().join("scenes/cameras/measured-lens.toml"));
-    let said = etendue(["measure", "lens", &camera]).ok().out;
-    let line = said.lines().find_map(|line| line.strip_prefix("calibrated camera,"));
-    let number = |word: &str| word.trim().parse::<f64>().unwrap_or_else(|_| panic!("{word}: {said}"));
-    let words: Vec<&str> = line.unwrap_or_else(|| panic!("{said}")).split(',').collect();
+    let output = etendue(["measure", "lens", &camera]).ok().out;
+    let line = output.lines().find_map(|line| line.strip_prefix("calibrated camera,"));
+    let number = |word: &str| word.trim().parse::<f64>().unwrap_or_else(|_| panic!("{word}: {output}"));
+    let words: Vec<&str> = line.unwrap_or_else(|| panic!("{output}")).split(',').collect();
     let (focal_mm, f_number) = (words[0].trim_end_matches("mm"), words[1].trim().trim_start_matches("f/"));
     // The table's focal length on the axis: that of the lens, whose radii have four digits.
-    assert!((number(focal_mm) - 6.0).abs() < 1e-3, "{said}");
-    assert_eq!(number(f_number), 2.0, "{said}");
+    assert!((number(focal_mm) - 6.0).abs() < 1e-3, "{output}");
+    assert_eq!(number(f_number), 2.0, "{output}");
 }
 
 const SIDE: usize = 40;
@@ -144,7 +144,7 @@ const SPREADS: [(f64, f64); 2] = [(0.7, 0.0055), (0.3, 0.012)];
 
 fn modulation(f: f64) -> f64 {
     let of = |sigma: f64| std::f64::consts::PI * sigma * f;
-    SPREADS.iter().map(|(share, sigma)| share * exp(-2.0 * of(*sigma) * of(*sigma))).sum()
+    SPREADS.iter().map(|(weight, sigma)| weight * exp(-2.0 * of(*sigma) * of(*sigma))).sum()
 }
 
 /// An export of modulation: the diffraction limit, the axis with tangential and sagittal 0.02 apart, and another field.
@@ -178,10 +178,10 @@ fn edge(folder: &Path, effects: &str) -> Vec<f64> {
     );
     let sensor = format!("width_px = {SIDE}, height_px = {SIDE}, pixel_pitch_um = 5");
     let lens = format!("type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n{effects}");
-    let [lit, whole] = [&black[..], ""].map(|objects| irradiance(folder, &job(objects, &sensor, &lens, 128)));
+    let [lit, unobstructed] = [&black[..], ""].map(|objects| irradiance(folder, &job(objects, &sensor, &lens, 128)));
     // Away from the sides, beyond which nothing is rendered. Displaced samples are noisy: the mean over columns.
     let mean = |of: &[f64], row: usize| of[row * SIDE + 8..(row + 1) * SIDE - 8].iter().sum::<f64>();
-    (0..SIDE).map(|row| mean(&lit, row) / mean(&whole, row)).collect()
+    (0..SIDE).map(|row| mean(&lit, row) / mean(&unobstructed, row)).collect()
 }
 
 #[test]
@@ -202,41 +202,41 @@ fn edges_have_the_modulation_of_the_table() {
     let expected = |row: usize| {
         let at = |part: usize| (row as f64 + (part as f64 + 0.5) / 20.0 - EDGE_PX) * PIXEL_MM;
         let light =
-            |x: f64| SPREADS.iter().map(|(share, sigma)| share * normal((x / sigma).clamp(-8.0, 8.0))).sum::<f64>();
+            |x: f64| SPREADS.iter().map(|(weight, sigma)| weight * normal((x / sigma).clamp(-8.0, 8.0))).sum::<f64>();
         (0..20).map(|part| light(at(part))).sum::<f64>() / 20.0
     };
     for keys in ["file = \"mtf.txt\"", &by_hand] {
-        let found = edge(folder.path(), &format!("[cameras.effects]\npsf = {{ mtf = {{ {keys} }} }}"));
-        for (row, found) in found.iter().enumerate() {
-            assert!((found - expected(row)).abs() < 0.01, "{keys}: row {row}: {found} for {}", expected(row));
+        let actual = edge(folder.path(), &format!("[cameras.effects]\npsf = {{ mtf = {{ {keys} }} }}"));
+        for (row, actual) in actual.iter().enumerate() {
+            assert!((actual - expected(row)).abs() < 0.01, "{keys}: row {row}: {actual} for {}", expected(row));
         }
     }
     let sharp = edge(folder.path(), "");
     assert!((sharp[19] - expected(19)).abs() > 0.05, "an edge without the table is another");
     let lens = "type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n[cameras.effects]\npsf = { mtf = { file = \"mtf.txt\" } }";
-    let said = plan(folder.path(), &job("", "width_px = 8, height_px = 8, pixel_pitch_um = 5", lens, 2)).ok().out;
+    let output = plan(folder.path(), &job("", "width_px = 8, height_px = 8, pixel_pitch_um = 5", lens, 2)).ok().out;
     for phrase in ["table of modulation", "modulation off by 0.00", "mean of tangential and sagittal", "1 other fields"]
     {
-        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+        assert!(output.contains(phrase), "no {phrase} in\n{output}");
     }
 }
 
 #[test]
-fn tables_of_modulation_that_cannot_be_used_are_told_with_their_line() {
+fn unusable_modulation_tables_are_reported_with_their_line() {
     let folder = tempfile::tempdir().expect("a folder");
-    let whole = mtf_export();
+    let export_text = mtf_export();
     let lens = |keys: &str| {
         format!("type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n[cameras.effects]\npsf = {{ {keys} }}")
     };
     let sensor = "width_px = 8, height_px = 8, pixel_pitch_um = 5";
     for (listing, phrases) in [
-        (whole.replace("cycles per mm", "cycles per mrad"), &["mtf.txt", "in cycles per mm"][..]),
-        (whole.replace("MTF", "spots"), &["mtf.txt", "not a table of modulation"]),
+        (export_text.replace("cycles per mm", "cycles per mrad"), &["mtf.txt", "in cycles per mm"][..]),
+        (export_text.replace("MTF", "spots"), &["mtf.txt", "not a table of modulation"]),
         (
-            whole.replace("0.00 (deg)", "diffraction limit").replace("14.00 (deg)", "diffraction limit"),
+            export_text.replace("0.00 (deg)", "diffraction limit").replace("14.00 (deg)", "diffraction limit"),
             &["only the diffraction limit"],
         ),
-        (whole.replace("  20.000000  0.", "  20.000000  1."), &["mtf.txt:28", "expected 0 … 1"]),
+        (export_text.replace("  20.000000  0.", "  20.000000  1."), &["mtf.txt:28", "expected 0 … 1"]),
     ] {
         std::fs::write(folder.path().join("mtf.txt"), &listing).expect("written");
         plan(folder.path(), &job("", sensor, &lens("mtf = { file = \"mtf.txt\" }"), 2)).refused(phrases);

@@ -1,8 +1,8 @@
 //! Lenses from files on disk, their results, and unusable lenses: each is reported with file, line and key.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::{contents, etendue, text};
-use etendue_io::exr::{ExrFile, Samples, read_exr};
+use etendue_io::exr::{ExrFile, ExrSamples, read_exr};
 use serde_json::Value;
 use std::path::Path;
 
@@ -31,19 +31,19 @@ fn calibrated(source: &str) -> String {
 }
 
 /// The small job with another lens, without a spectrum, which files of tests do not need.
-fn with_lens(lens: &str) -> Spoilt {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", THIN, lens);
+fn with_lens(lens: &str) -> ModifiedJob {
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", THIN, lens);
     for product in ["radiance", "irradiance", "variance"] {
-        spoilt.spoil("small.toml", &format!("{product} = true\n"), "");
+        job.replace_first("small.toml", &format!("{product} = true\n"), "");
     }
-    spoilt.spoil("small.toml", "band_width_nm = 50\n", "");
-    spoilt
+    job.replace_first("small.toml", "band_width_nm = 50\n", "");
+    job
 }
 
 /// The plan's line on a job's lens.
-fn lens_line(spoilt: &Spoilt) -> String {
-    let plan = etendue(["plan", &spoilt.job()]).ok().out;
+fn lens_line(job: &ModifiedJob) -> String {
+    let plan = etendue(["plan", &job.job()]).ok().out;
     plan.lines().find(|line| line.starts_with("  lens ")).expect("a lens").to_owned()
 }
 
@@ -53,10 +53,10 @@ fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
     assert!(in_place.contains("prescription, 19.") && in_place.contains(" at 587.56 nm"), "{in_place}");
     for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
         // The image distance of the file would otherwise apply.
-        let spoilt = with_lens(&prescription(&format!("file = \"{name}\"\ndefocus_mm = 0")));
-        spoilt.write(name, file);
+        let job = with_lens(&prescription(&format!("file = \"{name}\"\ndefocus_mm = 0")));
+        job.write(name, file);
         // The files state the d line to four decimals.
-        assert_eq!(lens_line(&spoilt).replace(" at 587.5618 nm", " at 587.56 nm"), in_place, "{name}");
+        assert_eq!(lens_line(&job).replace(" at 587.5618 nm", " at 587.56 nm"), in_place, "{name}");
     }
 }
 
@@ -68,9 +68,9 @@ const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 46, \"height\": 30, \"
 \"polynomial-type\": \"pixeldistance-to-angle\"}";
 
 /// Renders; returns the side-car and the folder.
-fn rendered(spoilt: &Spoilt) -> (Value, std::path::PathBuf) {
-    let out = spoilt.folder().join("rendered");
-    etendue(["render", &spoilt.job(), "-o", &text(&out)]).ok();
+fn rendered(job: &ModifiedJob) -> (Value, std::path::PathBuf) {
+    let out = job.folder().join("rendered");
+    etendue(["render", &job.job(), "-o", &text(&out)]).ok();
     let sidecar = contents(&out)["front/camera.json"].clone();
     (serde_json::from_slice(&sidecar).expect("JSON"), out.join("front"))
 }
@@ -79,26 +79,26 @@ fn rendered(spoilt: &Spoilt) -> (Value, std::path::PathBuf) {
 fn a_calibration_in_a_file_is_the_camera_of_its_numbers_and_the_side_car_says_them() {
     let in_place = lens_line(&with_lens(&calibrated(KANNALA)));
     for (name, format, file) in [("camera.yaml", "kalibr", KALIBR), ("cameras.txt", "colmap", COLMAP)] {
-        let spoilt = with_lens(&calibrated(&format!("calibration = {{ file = \"{name}\", format = \"{format}\" }}")));
-        spoilt.write(name, file);
-        assert_eq!(lens_line(&spoilt), in_place, "{name}");
-        let said = rendered(&spoilt).0["optics"]["calibration"].clone();
-        let projection = &said["projection"];
+        let job = with_lens(&calibrated(&format!("calibration = {{ file = \"{name}\", format = \"{format}\" }}")));
+        job.write(name, file);
+        assert_eq!(lens_line(&job), in_place, "{name}");
+        let calibration = rendered(&job).0["optics"]["calibration"].clone();
+        let projection = &calibration["projection"];
         assert_eq!((projection["type"].as_str(), projection["k"][1].as_f64()), (Some("kannala_brandt"), Some(0.002)));
         assert_eq!((projection["fy_px"].as_f64(), projection["cx_px"].as_f64()), (Some(26.0), Some(23.0)));
-        assert!(said["convention"].as_str().is_some_and(|text| text.contains("pixel centres at +0.5")));
+        assert!(calibration["convention"].as_str().is_some_and(|text| text.contains("pixel centres at +0.5")));
     }
-    let spoilt = with_lens(&calibrated("calibration = { file = \"rig.json\", format = \"f_theta\" }"));
-    spoilt.write("rig.json", F_THETA);
-    let said = lens_line(&spoilt);
-    assert!(said.contains("calibrated camera, 3 mm"), "25 px per rad of 120 µm: {said}");
+    let job = with_lens(&calibrated("calibration = { file = \"rig.json\", format = \"f_theta\" }"));
+    job.write("rig.json", F_THETA);
+    let line = lens_line(&job);
+    assert!(line.contains("calibrated camera, 3 mm"), "25 px per rad of 120 µm: {line}");
 }
 
 /// Three channels of a file, pixel by pixel.
 fn vectors(file: &ExrFile, names: [&str; 3]) -> Vec<[f64; 3]> {
     let channel = |name: &str| {
-        let found = file.channels.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no {name}"));
-        let Samples::Float(samples) = &found.samples else { panic!("{name} is not of 32-bit floats") };
+        let exr_channel = file.channels.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no {name}"));
+        let ExrSamples::Float(samples) = &exr_channel.samples else { panic!("{name} is not of 32-bit floats") };
         samples.iter().map(|v| f64::from(*v)).collect::<Vec<f64>>()
     };
     let [x, y, z] = names.map(channel);
@@ -106,7 +106,7 @@ fn vectors(file: &ExrFile, names: [&str; 3]) -> Vec<[f64; 3]> {
 }
 
 /// Converts every pixel to space by its ray and its distance; returns the number of pixels with a surface.
-fn put_back(folder: &Path, pose: &Value) -> usize {
+fn count_surface_points(folder: &Path, pose: &Value) -> usize {
     let (rays, truth) = (read_exr(&folder.join("rays.exr")), read_exr(&folder.join("ground_truth.exr")));
     let (rays, truth) = (rays.expect("readable"), truth.expect("readable"));
     let origins = vectors(&rays, ["origin.X", "origin.Y", "origin.Z"]);
@@ -131,14 +131,14 @@ fn put_back(folder: &Path, pose: &Value) -> usize {
 }
 
 #[test]
-fn rays_and_distances_put_every_pixel_back_and_so_do_the_undistorted_twin_s() {
+fn rays_and_distances_reproduce_every_pixel_also_of_the_rectified_camera() {
     for lens in [calibrated(KANNALA), prescription(SURFACES), THIN.to_owned()] {
-        let spoilt = with_lens(&lens);
-        spoilt.spoil("small.toml", "depth_png = true", "depth_png = true\nrays = true\nundistorted = true");
-        let (facts, folder) = rendered(&spoilt);
-        let of_lens = put_back(&folder, &facts["pose"]);
-        let of_twin = put_back(&folder.join("undistorted"), &facts["pose"]);
-        assert!(of_lens > 400 && of_twin > 400, "{of_lens} and {of_twin} pixels see a surface");
+        let job = with_lens(&lens);
+        job.replace_first("small.toml", "depth_png = true", "depth_png = true\nrays = true\nundistorted = true");
+        let (facts, folder) = rendered(&job);
+        let of_lens = count_surface_points(&folder, &facts["pose"]);
+        let rectified_points = count_surface_points(&folder.join("undistorted"), &facts["pose"]);
+        assert!(of_lens > 400 && rectified_points > 400, "{of_lens} and {rectified_points} pixels see a surface");
         let matrix = &facts["undistorted"]["camera_matrix"];
         let principal = facts["sensor"]["principal_point_px"].clone();
         assert_eq!((&matrix[0][2], &matrix[1][2]), (&principal[0], &principal[1]));
@@ -149,11 +149,11 @@ fn rays_and_distances_put_every_pixel_back_and_so_do_the_undistorted_twin_s() {
 /// Asserts that the job with such a lens is refused at the line of `key` in the job, with all of `phrases`.
 #[track_caller]
 fn refused(lens: &str, key: &str, phrases: &[&str]) {
-    let spoilt = with_lens(lens);
-    let place = spoilt.spoil("small.toml", key, key);
+    let job = with_lens(lens);
+    let place = job.replace_first("small.toml", key, key);
     let phrases: Vec<&str> =
         [place.as_str(), "cameras.front.lens"].into_iter().chain(phrases.iter().copied()).collect();
-    spoilt.render(&[]).refused(&phrases);
+    job.render(&[]).refused(&phrases);
 }
 
 #[test]
@@ -165,9 +165,9 @@ fn surfaces_that_overlap() {
 #[test]
 fn a_glass_that_no_catalogue_has() {
     refused(&prescription(&SURFACES.replace("N-BK7", "N-BK8")), "{ radius_mm = 20", &["glass", "N-BK8"]);
-    let spoilt = with_lens(&prescription("file = \"lens.zmx\""));
-    spoilt.write("lens.zmx", ZMX.replace("N-BK7", "N-BK8"));
-    spoilt.render(&[]).refused(&["lens.zmx", "N-BK8"]);
+    let job = with_lens(&prescription("file = \"lens.zmx\""));
+    job.write("lens.zmx", ZMX.replace("N-BK7", "N-BK8"));
+    job.render(&[]).refused(&["lens.zmx", "N-BK8"]);
 }
 
 #[test]
@@ -194,17 +194,17 @@ fn a_focus_distance_of_zero_where_infinity_is_legal() {
 fn a_polynomial_that_folds_inside_the_picture() {
     let folds = KANNALA.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]");
     refused(&calibrated(&folds), "[cameras.lens]", &["folds the image over at a radius of"]);
-    let spoilt = with_lens(&calibrated("calibration = { file = \"camera.yaml\", format = \"kalibr\" }"));
-    spoilt.write("camera.yaml", KALIBR.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]"));
-    spoilt.render(&[]).refused(&["small.toml:", "calibration.file", "folds the image over at a radius of"]);
+    let job = with_lens(&calibrated("calibration = { file = \"camera.yaml\", format = \"kalibr\" }"));
+    job.write("camera.yaml", KALIBR.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]"));
+    job.render(&[]).refused(&["small.toml:", "calibration.file", "folds the image over at a radius of"]);
 }
 
 #[test]
-fn an_undistorted_twin_that_cannot_be() {
+fn an_impossible_rectified_camera() {
     let with_output = |lens: &str, keys: &str| {
-        let spoilt = with_lens(lens);
-        spoilt.spoil("small.toml", "depth_png = true", keys);
-        spoilt.render(&[])
+        let job = with_lens(lens);
+        job.replace_first("small.toml", "depth_png = true", keys);
+        job.render(&[])
     };
     let wide = calibrated("projection = { type = \"equidistant\", fx_px = 12 }");
     with_output(&wide, "undistorted = true").refused(&["small.toml:", "output.undistorted", "85°"]);
@@ -212,7 +212,7 @@ fn an_undistorted_twin_that_cannot_be() {
 }
 
 /// The report of `measure lens` on a lens file, as JSON.
-fn measured(name: &str, file: &str, arguments: &[&str]) -> Value {
+fn measure_lens(name: &str, file: &str, arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
     std::fs::write(&path, file).expect("written");
@@ -227,16 +227,16 @@ fn remarks(report: &Value) -> String {
 }
 
 #[test]
-fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
+fn a_lens_file_s_image_aperture_and_glasses_are_used_and_reported() {
     for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
-        let report = measured(name, file, &[]);
+        let report = measure_lens(name, file, &[]);
         assert_eq!(report["sensor_from_last_vertex_mm"].as_f64(), Some(18.0), "{name}");
         assert!(
             remarks(&report).contains("18.0000 mm behind the last vertex, as the file states: -"),
             "{}",
             remarks(&report)
         );
-        let focused = measured(name, file, &["--set", "lens.defocus_mm=0"]);
+        let focused = measure_lens(name, file, &["--set", "lens.defocus_mm=0"]);
         let paraxial_mm = focused["back_focus_from_last_vertex_mm"].as_f64().expect("a number");
         let sensor_mm = focused["sensor_from_last_vertex_mm"].as_f64().expect("a number");
         assert!(
@@ -245,27 +245,27 @@ fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
     }
     // The entrance pupil opens the stop beyond the radius for drawing, and closes it.
     for (enpd, pupil_mm) in [("ENPD 2.4", 2.4), ("ENPD 1.0", 1.0), ("FLOA", 2.0)] {
-        let report = measured("lens.zmx", &ZMX.replace("ENPD 2.0", enpd), &[]);
-        let found = report["entrance_pupil_diameter_mm"].as_f64().expect("a number");
-        assert!((found - pupil_mm).abs() < 1e-9, "{enpd}: {found}");
+        let report = measure_lens("lens.zmx", &ZMX.replace("ENPD 2.0", enpd), &[]);
+        let actual = report["entrance_pupil_diameter_mm"].as_f64().expect("a number");
+        assert!((actual - pupil_mm).abs() < 1e-9, "{enpd}: {actual}");
         assert_eq!(remarks(&report).contains("its aperture opens the stop"), enpd != "FLOA", "{}", remarks(&report));
     }
-    let old = measured("lens.zmx", &ZMX.replace("N-BK7 0 0 1.5 4.0E+1", "SK16 0 0 1.62041 60.32"), &[]);
+    let old = measure_lens("lens.zmx", &ZMX.replace("N-BK7 0 0 1.5 4.0E+1", "SK16 0 0 1.62041 60.32"), &[]);
     assert!(
         remarks(&old).contains("SK16 is in no supported catalogue: its successor N-SK16 is used"),
         "{}",
         remarks(&old)
     );
-    let closed = measured("lens.zmx", ZMX, &["--f-number", "16"]);
+    let closed = measure_lens("lens.zmx", ZMX, &["--f-number", "16"]);
     assert!((closed["f_number"].as_f64().expect("a number") - 16.0).abs() < 1e-9);
     assert!(remarks(&closed).contains("f/16 of the description"), "{}", remarks(&closed));
 }
 
 #[test]
 fn only_a_file_says_what_is_in_focus() {
-    let spoilt = with_lens(&prescription("file = \"lens.zmx\"").replace("focus_distance_m = 2\n", ""));
-    spoilt.write("lens.zmx", ZMX);
-    let plan = etendue(["plan", &spoilt.job()]).ok().out;
+    let job = with_lens(&prescription("file = \"lens.zmx\"").replace("focus_distance_m = 2\n", ""));
+    job.write("lens.zmx", ZMX);
+    let plan = etendue(["plan", &job.job()]).ok().out;
     assert!(plan.contains("lens.zmx: the sensor is 18.0000 mm behind the last vertex, as the file states"), "{plan}");
     refused(
         &prescription(SURFACES).replace("focus_distance_m = 2\n", ""),

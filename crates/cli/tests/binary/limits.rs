@@ -1,6 +1,6 @@
 //! Limits of input files, and how to raise them.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::{etendue, root, text};
 use std::fs;
 
@@ -23,52 +23,52 @@ fn crc(bytes: &[u8]) -> u32 {
 
 #[test]
 fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
-    let spoilt = Spoilt::new();
-    spoilt.write("checker.png", png_head(50_000, 40_000));
-    spoilt.render(&[]).refused(&[
+    let job = ModifiedJob::new();
+    job.write("checker.png", png_head(50_000, 40_000));
+    job.render(&[]).refused(&[
         "checker.png: decompresses to 1908 MiB; at most 1024 MiB are allowed for a file of its size",
         "or raise the limit: --limit picture-mib=1908 (named at ",
         "small.toml:6",
     ]);
     // With the limit raised the file is read, and found to be damaged.
     let raised = ["--limit", "picture-mib=1908", "--limit", "texture-cache-mib=65536"];
-    spoilt.render(&raised).refused(&["checker.png: not a readable image"]);
-    spoilt.write("checker.png", png_head(3000, 3000));
-    spoilt.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
+    job.render(&raised).refused(&["checker.png: not a readable image"]);
+    job.write("checker.png", png_head(3000, 3000));
+    job.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
     // Measurements store images as floats.
-    let picture = text(&spoilt.folder().join("checker.png"));
-    etendue(["--limit", "picture-mib=34", "measure", "sfr", &picture]).refused(&["unpacks to 35 MiB"]);
-    etendue(["inspect", &picture, "--limit", "picture-mib=34"]).refused(&["unpacks to 35 MiB"]);
+    let image = text(&job.folder().join("checker.png"));
+    etendue(["--limit", "picture-mib=34", "measure", "sfr", &image]).refused(&["unpacks to 35 MiB"]);
+    etendue(["inspect", &image, "--limit", "picture-mib=34"]).refused(&["unpacks to 35 MiB"]);
 }
 
 #[test]
 fn a_long_description_is_refused_before_it_is_read() {
-    let spoilt = Spoilt::new();
-    let job = fs::read_to_string(spoilt.folder().join("small.toml")).expect("the job");
-    spoilt.write("small.toml", format!("{job}# {}\n", " ".repeat(1 << 20)));
-    let told =
+    let modified = ModifiedJob::new();
+    let job = fs::read_to_string(modified.folder().join("small.toml")).expect("the job");
+    modified.write("small.toml", format!("{job}# {}\n", " ".repeat(1 << 20)));
+    let phrases =
         ["small.toml", "the file has 2 MiB, and files of its kind are read up to 1 MiB", "--limit description-mib=2"];
-    spoilt.render(&["--limit", "description-mib=1"]).refused(&told);
-    etendue(["plan", &spoilt.job(), "--limit", "description-mib=2"]).ok();
-    spoilt.write("small.toml", &job);
-    spoilt.write("tower.mtl", format!("newmtl wall\n{}", "#\n".repeat(1 << 20)));
-    spoilt.render(&["--limit", "description-mib=1"]).refused(&["tower.mtl: the file has 3 MiB", "description-mib=3"]);
+    modified.render(&["--limit", "description-mib=1"]).refused(&phrases);
+    etendue(["plan", &modified.job(), "--limit", "description-mib=2"]).ok();
+    modified.write("small.toml", &job);
+    modified.write("tower.mtl", format!("newmtl wall\n{}", "#\n".repeat(1 << 20)));
+    modified.render(&["--limit", "description-mib=1"]).refused(&["tower.mtl: the file has 3 MiB", "description-mib=3"]);
 }
 
 #[test]
 fn corners_and_bases_are_counted() {
-    let spoilt = Spoilt::new();
-    spoilt.render(&["--limit", "mesh-corners=27"]).refused(&[
+    let modified = ModifiedJob::new();
+    modified.render(&["--limit", "mesh-corners=27"]).refused(&[
         "tower.obj:25",
         "more than 27 corners",
         "mesh-corners=54",
     ]);
-    etendue(["plan", &spoilt.job(), "--limit", "mesh-corners=28"]).ok();
+    etendue(["plan", &modified.job(), "--limit", "mesh-corners=28"]).ok();
     for i in 0..3 {
         let base = if i == 0 { "small.toml".to_owned() } else { format!("{}.toml", i - 1) };
-        spoilt.write(&format!("{i}.toml"), format!("format = 1\nbase = \"{base}\"\n"));
+        modified.write(&format!("{i}.toml"), format!("format = 1\nbase = \"{base}\"\n"));
     }
-    let job = text(&spoilt.folder().join("2.toml"));
+    let job = text(&modified.folder().join("2.toml"));
     etendue(["plan", &job]).ok();
     etendue(["plan", &job, "--limit", "bases=2"])
         .refused(&["more than 2 files are built one on the other", "--limit bases=4"]);
@@ -86,7 +86,7 @@ fn limits_that_are_none_are_refused() {
 fn their_page_lists_them() {
     let page = fs::read_to_string(root().join("docs/limits.md")).expect("the page");
     for limit in etendue_scene::limits::ALL {
-        let row = format!("| `{}` | {} | {} | {} |", limit.name, limit.default, limit.highest, limit.about);
+        let row = format!("| `{}` | {} | {} | {} |", limit.name, limit.default, limit.highest, limit.meaning);
         assert!(page.contains(&row), "docs/limits.md lacks:\n{row}");
     }
     let rows = page.lines().filter(|line| line.starts_with("| `")).count();

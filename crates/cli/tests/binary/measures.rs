@@ -132,10 +132,10 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     }
     let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
     etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera)]).refused(&["--pixel-pitch-um"]);
-    let again = ["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"];
-    etendue(again).refused(&["sensor.toml", "already there", "--overwrite"]);
+    let repeated = ["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"];
+    etendue(repeated).refused(&["sensor.toml", "already there", "--overwrite"]);
     assert_eq!(std::fs::read_to_string(&camera).expect("a file"), written);
-    etendue(again.into_iter().chain(["--overwrite"])).ok();
+    etendue(repeated.into_iter().chain(["--overwrite"])).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");
     assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
     // The green pixels of a mosaic extend as far as the image: 64 √2 px of 5 µm.
@@ -185,16 +185,16 @@ fn stars_and_textures_give_their_response() {
     let circles = report["tables"]["circles"].as_array().expect("circles");
     // With point samples nothing is lost.
     assert!(circles.iter().all(|c| (c["response"]["value"].as_f64().expect("a value") - 1.0).abs() < 0.01), "{report}");
-    let even = raw(folder.path(), "even.png", (128, 128), |_, _| 20_000.0);
-    etendue([&["measure", "star", even.as_str()], &places[..]].concat()).refused(&["star"]);
-    let beside = ["--centre-px", "67,61", "--cycles", "24", "--inner-px", "15", "--outer-px", "55"];
-    etendue([&["measure", "star", star.as_str()], &beside[..]].concat()).refused(&["star.png", "within two pixels"]);
+    let uniform = raw(folder.path(), "even.png", (128, 128), |_, _| 20_000.0);
+    etendue([&["measure", "star", uniform.as_str()], &places[..]].concat()).refused(&["star"]);
+    let options = ["--centre-px", "67,61", "--cycles", "24", "--inner-px", "15", "--outer-px", "55"];
+    etendue([&["measure", "star", star.as_str()], &options[..]].concat()).refused(&["star.png", "within two pixels"]);
     let clipped = [&["measure", "star", star.as_str()], &places[..], &["--full-scale", "28000"]].concat();
     etendue(clipped).refused(&["saturated"]);
     let leaves = raw(folder.path(), "leaves.png", (128, 128), |x, y| 20_000.0 + 9_000.0 * scatter(x, y, 1));
     let report = json(&["texture", &leaves, &leaves]);
     assert_eq!(report["tables"]["bands"][20]["coherence"].as_f64().map(|c| c > 0.999_999), Some(true));
-    etendue(["measure", "texture", &even, &leaves]).refused(&["no common texture"]);
+    etendue(["measure", "texture", &uniform, &leaves]).refused(&["no common texture"]);
 }
 
 #[test]
@@ -211,11 +211,11 @@ fn a_flat_field_gives_its_fall_off_and_a_saturated_one_none() {
     let report = json(&["vignetting", &flat, "--black", "200", "--plot", &plot, "--html", &page]);
     // Quantised noise of 17 counts in 30 000 over 10 800 pixels: the corner is known to about 1e-4.
     assert!((figure(&report, "corner_percent") - 70.0).abs() < 0.1, "{report}");
-    let drawn = std::fs::read_to_string(&plot).expect("a plot");
-    assert!(drawn.starts_with("<svg"));
+    let svg = std::fs::read_to_string(&plot).expect("a plot");
+    assert!(svg.starts_with("<svg"));
     // The page has the same curves, each result with its unit, and each row of each table.
     let page = std::fs::read_to_string(&page).expect("a page");
-    assert!(page.starts_with("<!doctype html>") && page.contains(&drawn));
+    assert!(page.starts_with("<!doctype html>") && page.contains(&svg));
     let figures = report["figures"].as_object().expect("figures").len();
     assert_eq!(page.matches("<tr><th scope=\"row\">").count(), figures, "{page}");
     let rows: usize =
@@ -249,17 +249,17 @@ fn a_slanted_edge_gives_its_response() {
     let truth = folder.path().join("truth.json");
     let ends = r#""chart":"slanted-edges","sizes":{},"seen":{"fills_the_field":true},"light":{"luminance_cd_m2":1,"xyz":[1,1,1]},"inks":[],"features":[{"kind":"edge"},{"kind":"edge"}],"cameras":[{"name":"a","dark":false,"picture_px":[64,64],"features_px":[[[26.8,0],[33.2,64]],[null,null]]}]"#;
     std::fs::write(&truth, format!("{{{ends}}}")).expect("a temporary file");
-    let told = json(&["sfr", &file, "--truth", &text(&truth)]);
+    let truth_report = json(&["sfr", &file, "--truth", &text(&truth)]);
     // Only the visible edge: 0.5 of its length across it, 0.6 along it, about its middle.
-    assert_eq!(told["tables"]["edges"].as_array().map(Vec::len), Some(1), "{told}");
-    assert_eq!(told["tables"]["edges"][0]["at_px"], "14,13", "{told}");
+    assert_eq!(truth_report["tables"]["edges"].as_array().map(Vec::len), Some(1), "{truth_report}");
+    assert_eq!(truth_report["tables"]["edges"][0]["at_px"], "14,13", "{truth_report}");
     // In a mosaic every other pixel is used.
     let mosaic = json(&["sfr", &file, "--truth", &text(&truth), "--cfa", "RGGB", "--channel", "R"]);
     assert_eq!(mosaic["tables"]["edges"][0]["at_px"], "14,13", "{mosaic}");
     // A second edge in the reference data that the image does not show is listed with the reason.
-    let told = std::fs::read_to_string(&truth).expect("a truth").replace("[null,null]", "[[50,2],[54,42]]");
+    let truth_text = std::fs::read_to_string(&truth).expect("a truth").replace("[null,null]", "[[50,2],[54,42]]");
     let two = folder.path().join("two.json");
-    std::fs::write(&two, told).expect("a temporary file");
+    std::fs::write(&two, truth_text).expect("a temporary file");
     let partly = json(&["sfr", &file, "--truth", &text(&two)]);
     assert_eq!(partly["tables"]["edges"].as_array().map(Vec::len), Some(1), "{partly}");
     let refused = partly["tables"]["refused"].as_array().expect("a table of refusals");
@@ -329,8 +329,8 @@ fn patches_give_noise_flare_and_contrast() {
     assert!((figure(&flare, "flare_percent") - 100.0 * 300.0 / 29_700.0).abs() < 0.15, "{flare}");
     let pair = ["--darker", "20,0,20,20", "--brighter", "40,0,20,20", "--contrast", "0.5"];
     let cdp = json(&[&["cdp", files[0].as_str()], &pair[..]].concat());
-    let found = cdp["tables"]["pairs"][0]["cdp"]["value"].as_f64().expect("a probability");
-    assert!(found > 0.99, "{cdp}");
+    let actual = cdp["tables"]["pairs"][0]["cdp"]["value"].as_f64().expect("a probability");
+    assert!(actual > 0.99, "{cdp}");
     etendue([&["measure"], &names[..], &["--region", "20,0,20,20", "--black", "25000"]].concat())
         .refused(&["not above black"]);
     etendue([&["measure"], &names[..], &["--region", "20,0,20,20", "--full-scale", "20000"]].concat())
@@ -373,11 +373,11 @@ fn flicker_names_frames_that_are_black_or_cut() {
     let level =
         |name: &str, level: f64| raw(folder.path(), name, (64, 48), |x, y| level * (1.0 + 0.01 * scatter(x, y, 1)));
     let frames = [level("a.png", 20_000.0), level("b.png", 0.0)];
-    let ran = etendue(["measure", "flicker", &frames[0], &frames[1], "--frame-rate-hz", "30"]).ok();
-    let told = ran.out + &ran.err;
+    let run = etendue(["measure", "flicker", &frames[0], &frames[1], "--frame-rate-hz", "30"]).ok();
+    let output = run.out + &run.err;
     let named =
-        |name: &str| told.lines().any(|line| line.contains(name) && line.contains("entirely black or saturated"));
-    assert!(named("b.png") && !named("a.png"), "{told}");
+        |name: &str| output.lines().any(|line| line.contains(name) && line.contains("entirely black or saturated"));
+    assert!(named("b.png") && !named("a.png"), "{output}");
 }
 
 #[test]

@@ -5,11 +5,11 @@ use std::path::Path;
 use std::process::Command;
 
 /// Runs the program with this much address space, KiB; returns its status (`None`: ended by a signal) and output.
-fn within(kib: u32, arguments: &[&str]) -> (Option<i32>, String) {
+fn with_address_space(kib: u32, arguments: &[&str]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("ulimit -c 0; ulimit -v {kib}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]);
-    let ran = shell.args(arguments).current_dir(root()).output().expect("a shell");
-    (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned())
+    let output = shell.args(arguments).current_dir(root()).output().expect("a shell");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 #[test]
@@ -18,7 +18,7 @@ fn a_film_without_enough_memory_is_refused_before_the_render() {
     let (job, out) = (small(), text(&place.path().join("out")));
     let size = ["--set", "cameras.front.sensor.width_px=16000", "--set", "cameras.front.sensor.height_px=16000"];
     let arguments = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
-    let (status, stderr) = within(1_500_000, &arguments);
+    let (status, stderr) = with_address_space(1_500_000, &arguments);
     assert_eq!(status, Some(2), "{stderr}");
     let parts = [
         "error[not-enough-memory]: the run needs ",
@@ -38,7 +38,7 @@ fn products_made_after_the_render_count_in_the_check_before_it() {
     let (job, out) = (place.path().join("job.toml"), place.path().join("out"));
     std::fs::write(&job, UNIFORM).expect("written");
     let (job, out) = (text(&job), text(&out));
-    let (status, stderr) = within(190_000, &["render", &job, "-o", &out, "--threads", "1"]);
+    let (status, stderr) = with_address_space(190_000, &["render", &job, "-o", &out, "--threads", "1"]);
     assert_eq!(status, Some(2), "{stderr}");
     assert!(stderr.contains("output.ground_truth = false") && stderr.contains("render.band_width_nm"), "{stderr}");
     assert!(!Path::new(&out).exists(), "nothing is written");
@@ -108,7 +108,7 @@ fn no_allocation_that_fails_leaves_half_a_file() {
     let mut ends = [0; 2];
     for kib in (20..=200).step_by(12).map(|mib| mib * 1024) {
         let (status, stderr) =
-            within(kib, &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"]);
+            with_address_space(kib, &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"]);
         ends[usize::from(status == Some(0))] += 1;
         // Failed small allocations end the process at once (SIGABRT), as in Rust's standard library; below some limit the system does not even start
         // it.

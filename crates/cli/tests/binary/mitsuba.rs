@@ -5,7 +5,7 @@
 
 use crate::support::{etendue, root, text};
 use etendue_io::mesh::read_mesh;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_scene::asset::ImagePixels;
 use serde_json::Value;
 use std::fs;
@@ -17,85 +17,85 @@ const CRITICAL: f64 = 6.71;
 const SEEDS: usize = 3;
 
 /// Means of linear sRGB over boxes, cd/m², and their standard errors.
-struct Boxes {
+struct BoxMeans {
     mean: Vec<[f64; 3]>,
     error: Vec<[f64; 3]>,
 }
 
-fn stored(name: &str) -> Boxes {
+fn stored(name: &str) -> BoxMeans {
     let figures = include_str!("../../../../tests/oracles/figures/mitsuba_scenes.json");
     let figures: Value = serde_json::from_str(figures).expect("JSON");
     let list = |key: &str| -> Vec<[f64; 3]> {
         serde_json::from_value(figures["scenes"][name][key].clone()).expect("rows of three numbers")
     };
-    Boxes { mean: list("mean"), error: list("standard_error") }
+    BoxMeans { mean: list("mean"), error: list("standard_error") }
 }
 
 /// Pixels of a radiance file by its preview, linear sRGB in cd/m².
 pub(crate) fn pixels(file: &Path) -> (usize, Vec<[f64; 3]>) {
-    let image = read_picture(file).expect("a picture");
+    let image = read_image(file).expect("a picture");
     let ImagePixels::Rgb32F(pixels) = image.pixels else { panic!("linear colours are expected") };
     (image.width as usize, pixels.iter().map(|p| p.map(f64::from)).collect())
 }
 
 /// Means over boxes of `side` pixels. Pixels are independent of each other: the variance of a box is the sum of those of its pixels, each known from
 /// `SEEDS` images.
-fn boxes(pictures: &[(usize, Vec<[f64; 3]>)], side: usize) -> Boxes {
-    let (width, first) = &pictures[0];
+fn boxes(images: &[(usize, Vec<[f64; 3]>)], side: usize) -> BoxMeans {
+    let (width, first) = &images[0];
     let (columns, rows) = (width / side, first.len() / width / side);
-    let (seeds, count) = (pictures.len() as f64, (side * side) as f64);
-    let mut found = Boxes { mean: Vec::new(), error: Vec::new() };
+    let (seeds, count) = (images.len() as f64, (side * side) as f64);
+    let mut means = BoxMeans { mean: Vec::new(), error: Vec::new() };
     for place in 0..columns * rows {
         let (mut mean, mut variance) = ([0.0; 3], [0.0; 3]);
         for pixel in 0..side * side {
             let (x, y) = (place % columns * side + pixel % side, place / columns * side + pixel / side);
             for channel in 0..3 {
-                let values = pictures.iter().map(|(_, pixels)| pixels[y * width + x][channel]);
+                let values = images.iter().map(|(_, pixels)| pixels[y * width + x][channel]);
                 let own = values.clone().sum::<f64>() / seeds;
                 mean[channel] += own / count;
                 let squares = values.map(|v| (v - own) * (v - own)).sum::<f64>();
                 variance[channel] += squares / (seeds - 1.0) / seeds / (count * count);
             }
         }
-        found.mean.push(mean);
-        found.error.push(variance.map(f64::sqrt));
+        means.mean.push(mean);
+        means.error.push(variance.map(f64::sqrt));
     }
-    found
+    means
 }
 
 /// Imports a scene and renders it.
-fn rendered(folder: &Path, file: &Path) -> Boxes {
-    let made = folder.join("made");
-    etendue(["import", &text(file), "-o", &text(&made)]).ok();
-    let job = fs::read_to_string(made.join("job.toml")).expect("a job");
+fn rendered(folder: &Path, file: &Path) -> BoxMeans {
+    let imported = folder.join("made");
+    etendue(["import", &text(file), "-o", &text(&imported)]).ok();
+    let job = fs::read_to_string(imported.join("job.toml")).expect("a job");
     let name = job.split("name = \"").nth(1).and_then(|rest| rest.split('"').next()).expect("a camera").to_owned();
-    let pictures: Vec<(usize, Vec<[f64; 3]>)> = (1..=SEEDS)
+    let images: Vec<(usize, Vec<[f64; 3]>)> = (1..=SEEDS)
         .map(|seed| {
             let out = folder.join(format!("out-{seed}"));
-            let job = text(&made.join("job.toml"));
+            let job = text(&imported.join("job.toml"));
             etendue(["render", &job, "-o", &text(&out), "--spp", "48", "--seed", &seed.to_string()]).ok();
             pixels(&out.join(&name).join("radiance.exr"))
         })
         .collect();
-    boxes(&pictures, 12)
+    boxes(&images, 12)
 }
 
 /// Difference between the models of two programs: a fraction of every box's luminance, and more in some boxes.
 #[derive(Clone, Copy)]
-struct Share {
-    plain: f64,
+struct ModelDifference {
+    overall: f64,
     /// Boxes by their numbers, row by row, and their fractions.
     boxes: &'static [(usize, f64)],
 }
 
 /// Equal models.
-const NONE: Share = Share { plain: 0.0, boxes: &[] };
+const NONE: ModelDifference = ModelDifference { overall: 0.0, boxes: &[] };
 
 /// Colours are converted to spectra by two rules, which agree under D65 and to 0.2 % after two bounces here. Spheres of rough plastic are brighter
 /// than Mitsuba's, whose rough interfaces lose light: at α = 0.3 the base retains 0.310 of 0.366 (blue, of which most comes from the base, by 14 % of
 /// the luminance). Gold is from two tables.
-const SHAPES: Share = Share {
-    plain: 0.002,
+const SHAPES: ModelDifference = ModelDifference {
+    overall: 0.002,
     boxes: &[
         (18, 0.02),
         (20, 0.15),
@@ -111,14 +111,14 @@ const SHAPES: Share = Share {
 
 /// Largest deviation of a mean from Mitsuba's beyond the allowed difference, in standard errors, and the relative difference of the whole images'
 /// luminances.
-fn apart(ours: &Boxes, theirs: &Boxes, share: Share) -> (f64, f64) {
+fn max_deviation(ours: &BoxMeans, theirs: &BoxMeans, model_difference: ModelDifference) -> (f64, f64) {
     let luminance = |rgb: &[f64; 3]| 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     let mut largest = 0.0_f64;
     assert_eq!(ours.mean.len(), theirs.mean.len());
     for i in 0..ours.mean.len() {
         for channel in 0..3 {
             let difference = (ours.mean[i][channel] - theirs.mean[i][channel]).abs();
-            let own = share.boxes.iter().find(|(place, _)| *place == i).map_or(share.plain, |(_, own)| *own);
+            let own = model_difference.boxes.iter().find(|(place, _)| *place == i).map_or(model_difference.overall, |(_, own)| *own);
             let allowed = own * luminance(&theirs.mean[i]);
             let (own, other) = (ours.error[i][channel], theirs.error[i][channel]);
             let error = (own * own + other * other).sqrt();
@@ -127,53 +127,53 @@ fn apart(ours: &Boxes, theirs: &Boxes, share: Share) -> (f64, f64) {
             largest = largest.max(beyond);
         }
     }
-    let sum = |boxes: &Boxes| boxes.mean.iter().map(luminance).sum::<f64>();
+    let sum = |boxes: &BoxMeans| boxes.mean.iter().map(luminance).sum::<f64>();
     (largest, sum(ours) / sum(theirs) - 1.0)
 }
 
 /// Compares a scene of scenes/import with Mitsuba's image, the whole image within `whole` of its luminance.
-fn agrees(file: &str, name: &str, share: Share, whole: f64) {
-    agrees_as(&root().join("scenes/import").join(file), name, share, whole);
+fn assert_agrees(file: &str, name: &str, model_difference: ModelDifference, overall: f64) {
+    assert_agrees_as(&root().join("scenes/import").join(file), name, model_difference, overall);
 }
 
-fn agrees_as(source: &Path, name: &str, share: Share, whole: f64) {
+fn assert_agrees_as(source: &Path, name: &str, model_difference: ModelDifference, overall: f64) {
     let file = source.display();
     let place = tempfile::tempdir().expect("a temporary folder");
     let (ours, theirs) = (rendered(place.path(), source), stored(name));
-    let (largest, mean) = apart(&ours, &theirs, share);
+    let (largest, mean) = max_deviation(&ours, &theirs, model_difference);
     let critical = CRITICAL;
     assert!(largest < critical, "{file}: {largest} standard errors, where {critical} are allowed");
-    assert!(mean.abs() < whole, "{file}: the whole picture is {mean} brighter");
+    assert!(mean.abs() < overall, "{file}: the whole picture is {mean} brighter");
     // The test must be able to fail: light changed by a twentieth, and the image mirrored.
-    let brighter = Boxes { mean: ours.mean.iter().map(|m| m.map(|v| 1.05 * v)).collect(), error: ours.error.clone() };
+    let brighter = BoxMeans { mean: ours.mean.iter().map(|m| m.map(|v| 1.05 * v)).collect(), error: ours.error.clone() };
     let mirrored = |list: &[[f64; 3]]| list.chunks(8).flat_map(|row| row.iter().rev().copied()).collect();
-    let mirrored = Boxes { mean: mirrored(&ours.mean), error: mirrored(&ours.error) };
-    assert!(apart(&brighter, &theirs, share).1.abs() > whole, "{file}: more light is found");
-    assert!(apart(&mirrored, &theirs, share).0 > critical, "{file}: a mirrored picture is found");
+    let mirrored = BoxMeans { mean: mirrored(&ours.mean), error: mirrored(&ours.error) };
+    assert!(max_deviation(&brighter, &theirs, model_difference).1.abs() > overall, "{file}: more light is found");
+    assert!(max_deviation(&mirrored, &theirs, model_difference).0 > critical, "{file}: a mirrored picture is found");
 }
 
 /// Spectra of surfaces and of the lamp, rotated and scaled cubes, parameters, an included file: without differences between the programs.
 #[test]
 fn a_box_of_measured_colours_is_mitsubas() {
-    agrees("cornell.xml", "cornell", NONE, 0.01);
+    assert_agrees("cornell.xml", "cornell", NONE, 0.01);
 }
 
 /// A lens, a rotated image of light, a point, a parallel light, a mirrored rectangle with an image, coats, metal, glass, a mask.
 #[test]
-fn glossy_clear_and_pierced_things_are_mitsubas() {
-    agrees("studio.xml", "studio", NONE, 0.01);
+fn glossy_clear_and_pierced_objects_agree_with_mitsuba() {
+    assert_agrees("studio.xml", "studio", NONE, 0.01);
 }
 
 #[test]
 fn shapes_of_pbrt_and_mitsuba_are_mitsubas() {
-    agrees("shapes.xml", "shapes", SHAPES, 0.01);
-    agrees("shapes.pbrt", "shapes", SHAPES, 0.01);
+    assert_agrees("shapes.xml", "shapes", SHAPES, 0.01);
+    assert_agrees("shapes.pbrt", "shapes", SHAPES, 0.01);
 }
 
 /// An orthographic camera, smoke, instances of a mesh; of pbrt's file without its spot, whose edge differs in Mitsuba.
 #[test]
 fn smoke_of_pbrt_and_mitsuba_is_mitsubas() {
-    agrees("smoke.xml", "smoke", NONE, 0.01);
+    assert_agrees("smoke.xml", "smoke", NONE, 0.01);
     let place = tempfile::tempdir().expect("a temporary folder");
     let folder = root().join("scenes/import");
     fs::copy(folder.join("post.ply"), place.path().join("post.ply")).expect("copied");
@@ -182,21 +182,21 @@ fn smoke_of_pbrt_and_mitsuba_is_mitsubas() {
     let (_, after) = after.split_once("LightSource \"point\"").expect("a point light behind it");
     let file = place.path().join("smoke.pbrt");
     fs::write(&file, format!("{before}LightSource \"point\"{after}")).expect("written");
-    agrees_as(&file, "smoke", NONE, 0.01);
+    assert_agrees_as(&file, "smoke", NONE, 0.01);
 }
 
 /// Writes a Mitsuba scene and imports it.
-fn imported(body: &str) -> (tempfile::TempDir, crate::support::Ran) {
+fn imported(body: &str) -> (tempfile::TempDir, crate::support::CommandOutput) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let file = place.path().join("a.xml");
     fs::write(&file, format!("<scene version=\"3.0.0\">\n{body}</scene>")).expect("written");
-    let ran = etendue(["import", &text(&file), "-o", &text(&place.path().join("made"))]);
-    (place, ran)
+    let output = etendue(["import", &text(&file), "-o", &text(&place.path().join("made"))]);
+    (place, output)
 }
 
 #[test]
-fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
-    let (place, ran) = imported(
+fn unsupported_content_is_reported_and_the_rest_is_a_scene() {
+    let (place, output) = imported(
         "<shape type=\"serialized\"><string name=\"filename\" value=\"a.serialized\"/></shape>\n\
          <shape type=\"sphere\"><bsdf type=\"hair\"/><float name=\"wobble\" value=\"2\"/></shape>\n\
          <emitter type=\"sunsky\"/><emitter type=\"constant\"/>\n\
@@ -206,7 +206,7 @@ fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
          <shape type=\"cube\"><bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>\n\
          <shape type=\"rectangle\"><bsdf type=\"conductor\"/></shape>\n",
     );
-    let told = ran.ok().err;
+    let messages = output.ok().err;
     for phrase in [
         "the shape \"serialized\" is left out: export its mesh as OBJ or PLY (a.xml:2)",
         "the surface \"hair\" is not supported: a diffuse grey of 0.5 is used instead (a.xml:3)",
@@ -215,9 +215,9 @@ fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
         "facets of a \"roughplastic\" after Beckmann are GGX's of the same α",
         "it has no supported camera",
     ] {
-        assert!(told.contains(phrase), "{phrase}: {told}");
+        assert!(messages.contains(phrase), "{phrase}: {messages}");
     }
-    assert!(!told.contains("<ref>"), "{told}");
+    assert!(!messages.contains("<ref>"), "{messages}");
     etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
 }
 
@@ -257,8 +257,8 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
             "cannot have another wrapper",
         ),
     ] {
-        let (place, ran) = imported(body);
-        ran.refused(&["a.xml:2: ", phrase]);
+        let (place, output) = imported(body);
+        output.refused(&["a.xml:2: ", phrase]);
         assert!(!place.path().join("made").exists(), "{phrase}: nothing is written");
     }
 }
@@ -275,14 +275,14 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     let blends: String = (0..40).map(blend).collect();
     let deep = format!("<bsdf type=\"diffuse\" id=\"w\"/>{blends}<shape type=\"disk\"><ref id=\"b39\"/></shape>");
     imported(&deep).1.refused(&["surfaces are nested more than"]);
-    let (place, ran) = imported(
+    let (place, output) = imported(
         "<shape type=\"sphere\"><emitter type=\"area\"/></shape>\n<shape type=\"disk\"><emitter type=\"area\"/></shape>\n\
          <shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></shape>\
          <shape type=\"sphere\"><bsdf type=\"null\"/>\
          <medium name=\"interior\" type=\"homogeneous\"><volume name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"0.25\"/></volume>\
          <float name=\"sigma_t\" value=\"2\"/></medium></shape>\n",
     );
-    ran.ok();
+    output.ok();
     let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
     assert_eq!(scene.matches("name = \"black\"").count(), 1, "{scene}");
     assert!(scene.contains("reflectance = 0\n") || scene.contains("reflectance = 0.0"), "{scene}");
@@ -294,7 +294,7 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
 #[test]
 fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let (file, made) = (place.path().join("a.xml"), text(&place.path().join("made")));
+    let (file, imported) = (place.path().join("a.xml"), text(&place.path().join("made")));
     fs::create_dir(place.path().join("store")).expect("made");
     let mesh = |size: f64| format!("v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nf 1 2 3\n");
     fs::write(place.path().join("m.obj"), mesh(1.0)).expect("written");
@@ -303,22 +303,22 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
         <shape type=\"sphere\"><float name=\"radius\" value=\"$r\"/></shape>\
         <shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>";
     fs::write(&file, format!("<scene version=\"3.0.0\">\n{body}</scene>")).expect("written");
-    for (given, radius) in [(&[][..], "2"), (&["-Dr=5"][..], "5"), (&["-D", "r=7"], "7"), (&["--define", "r=3"], "3")] {
-        etendue(["import", &text(&file), "-o", &made, "--overwrite"].iter().chain(given)).ok();
+    for (definitions, radius) in [(&[][..], "2"), (&["-Dr=5"][..], "5"), (&["-D", "r=7"], "7"), (&["--define", "r=3"], "3")] {
+        etendue(["import", &text(&file), "-o", &imported, "--overwrite"].iter().chain(definitions)).ok();
         let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
-        assert!(scene.contains(&format!("radius_m = {radius}")), "{given:?}: {scene}");
+        assert!(scene.contains(&format!("radius_m = {radius}")), "{definitions:?}: {scene}");
         let mesh = read_mesh(&place.path().join("made/meshes/mesh.ply")).expect("a mesh");
         let size = mesh.positions.iter().flatten().fold(0.0_f32, |size, c| size.max(c.abs()));
         assert_eq!(size, 9.0, "a <path> goes before what lies beside the scene");
     }
-    fs::remove_dir_all(&made).expect("removed");
-    let refused = |file: &Path, given: &[&str], phrases: &[&str]| {
-        etendue(["import", &text(file), "-o", &made].iter().chain(given)).refused(phrases);
-        assert!(!place.path().join("made").exists(), "{given:?}: nothing is written");
+    fs::remove_dir_all(&imported).expect("removed");
+    let assert_refused = |file: &Path, definitions: &[&str], phrases: &[&str]| {
+        etendue(["import", &text(file), "-o", &imported].iter().chain(definitions)).refused(phrases);
+        assert!(!place.path().join("made").exists(), "{definitions:?}: nothing is written");
     };
-    refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and no \"$q\" stands in the scene: it names $r"]);
-    refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
-    refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
-    refused(&file, &["-Dr"], &["NAME=VALUE"]);
-    refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only Mitsuba scenes"]);
+    assert_refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and no \"$q\" stands in the scene: it names $r"]);
+    assert_refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
+    assert_refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
+    assert_refused(&file, &["-Dr"], &["NAME=VALUE"]);
+    assert_refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only Mitsuba scenes"]);
 }

@@ -25,18 +25,18 @@ const MAPS: [(&str, [u8; 3]); 2] = [("right.png", [204, 128, 230]), ("top.png", 
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// Orientation of an image on the card: positions of the corners in it (to the right, upwards), and directions of its right and its top on the card.
-struct Lie {
+struct ImageOrientation {
     name: &'static str,
-    places: [[f64; 2]; 4],
+    corners: [[f64; 2]; 4],
     right: [f64; 2],
     top: [f64; 2],
 }
 
-const LIES: [Lie; 4] = [
-    Lie { name: "as it is", places: [[0., 0.], [1., 0.], [1., 1.], [0., 1.]], right: [1., 0.], top: [0., 1.] },
-    Lie { name: "mirrored", places: [[1., 0.], [0., 0.], [0., 1.], [1., 1.]], right: [-1., 0.], top: [0., 1.] },
-    Lie { name: "upside down", places: [[0., 1.], [1., 1.], [1., 0.], [0., 0.]], right: [1., 0.], top: [0., -1.] },
-    Lie { name: "turned by 90°", places: [[0., 1.], [0., 0.], [1., 0.], [1., 1.]], right: [0., 1.], top: [-1., 0.] },
+const ORIENTATIONS: [ImageOrientation; 4] = [
+    ImageOrientation { name: "as it is", corners: [[0., 0.], [1., 0.], [1., 1.], [0., 1.]], right: [1., 0.], top: [0., 1.] },
+    ImageOrientation { name: "mirrored", corners: [[1., 0.], [0., 0.], [0., 1.], [1., 1.]], right: [-1., 0.], top: [0., 1.] },
+    ImageOrientation { name: "upside down", corners: [[0., 1.], [1., 1.], [1., 0.], [0., 0.]], right: [1., 0.], top: [0., -1.] },
+    ImageOrientation { name: "turned by 90°", corners: [[0., 1.], [0., 0.], [1., 0.], [1., 1.]], right: [0., 1.], top: [-1., 0.] },
 ];
 
 fn maps_in(folder: &Path) {
@@ -67,25 +67,25 @@ fn luminance(job: &Path, camera: &str) -> f64 {
 
 /// Only wavelengths cause noise: 0.05 % of a mean of 96 pixels of 64 samples; six standard deviations are allowed.
 #[track_caller]
-fn same(found: f64, expected: f64, what: &str) {
-    assert!((found - expected).abs() <= 0.003 * expected, "{what}: {found} cd/m² for {expected}");
+fn assert_same(actual: f64, expected: f64, what: &str) {
+    assert!((actual - expected).abs() <= 0.003 * expected, "{what}: {actual} cd/m² for {expected}");
 }
 
 /// Makes the cameras of an imported job small.
-fn small(folder: &Path) -> std::path::PathBuf {
+fn shrink_cameras(folder: &Path) -> std::path::PathBuf {
     let job = folder.join("made/job.toml");
-    let told = fs::read_to_string(&job).expect("a job");
-    let made = told.replace(
+    let job_text = fs::read_to_string(&job).expect("a job");
+    let changed = job_text.replace(
         "width_px = 720, height_px = 480, pixel_pitch_um = 50",
         "width_px = 12, height_px = 8, pixel_pitch_um = 3000",
     );
-    fs::write(&job, made).expect("written");
+    fs::write(&job, changed).expect("written");
     job
 }
 
 #[test]
 fn our_own_maps_tilt_the_card() {
-    for Lie { name, places, right, top } in LIES {
+    for ImageOrientation { name, corners: places, right, top } in ORIENTATIONS {
         let place = tempfile::tempdir().expect("a temporary folder");
         maps_in(place.path());
         let mut card: String = CORNERS.iter().map(|[x, y]| format!("v 0 {x} {y}\n")).collect();
@@ -110,7 +110,7 @@ fn our_own_maps_tilt_the_card() {
                 );
                 fs::write(&job, message).expect("written");
                 let expected = expected(colour, right, top.map(|c| c * sign));
-                same(luminance(&job, "eye"), expected, &format!("{name}, {map}, green {green}"));
+                assert_same(luminance(&job, "eye"), expected, &format!("{name}, {map}, green {green}"));
             }
         }
     }
@@ -156,7 +156,7 @@ fn gltf(places: &[[f64; 2]; 4], map: &str, mirrored: bool) -> (Value, Vec<u8>) {
 /// For the last orientation a mirrored node replaces the mirrored image.
 #[test]
 fn maps_of_gltf_tilt_the_card() {
-    for Lie { name, places, right, top } in LIES {
+    for ImageOrientation { name, corners: places, right, top } in ORIENTATIONS {
         for (map, colour) in MAPS {
             for mirrored in [false, true] {
                 let place = tempfile::tempdir().expect("a temporary folder");
@@ -166,9 +166,9 @@ fn maps_of_gltf_tilt_the_card() {
                 fs::write(place.path().join("card.bin"), bytes).expect("written");
                 etendue(["import", &text(&place.path().join("card.gltf")), "-o", &text(&place.path().join("made"))])
                     .ok();
-                let seen = |[x, y]: [f64; 2]| if mirrored { [-x, y] } else { [x, y] };
-                let expected = expected(colour, seen(right), seen(top));
-                same(luminance(&small(place.path()), "eye"), expected, &format!("{name}, {map}, mirrored {mirrored}"));
+                let in_image = |[x, y]: [f64; 2]| if mirrored { [-x, y] } else { [x, y] };
+                let expected = expected(colour, in_image(right), in_image(top));
+                assert_same(luminance(&shrink_cameras(place.path()), "eye"), expected, &format!("{name}, {map}, mirrored {mirrored}"));
             }
         }
     }
@@ -194,7 +194,7 @@ fn maps_of_mitsuba_tilt_the_card() {
     let rectangle = ("<shape type=\"rectangle\"><ref id=\"bumps\"/></shape>".to_owned(), [1.0, 0.0]);
     let mesh = "<shape type=\"obj\"><string name=\"filename\" value=\"card.obj\"/><ref id=\"bumps\"/>TURN</shape>";
     let mirror = "<transform name=\"to_world\"><scale x=\"-1\"/></transform>";
-    for Lie { name, places, right, .. } in LIES {
+    for ImageOrientation { name, corners: places, right, .. } in ORIENTATIONS {
         let place = tempfile::tempdir().expect("a temporary folder");
         maps_in(place.path());
         let mut card: String = CORNERS.iter().map(|[x, y]| format!("v {x} {y} 0\n")).collect();
@@ -208,10 +208,10 @@ fn maps_of_mitsuba_tilt_the_card() {
         ];
         for ((shape, right), (map, colour)) in shapes.iter().flat_map(|shape| MAPS.map(|map| (shape, map))) {
             fs::write(place.path().join("card.xml"), mitsuba(shape, map)).expect("written");
-            let made = text(&place.path().join("made"));
-            etendue(["import", &text(&place.path().join("card.xml")), "-o", &made, "--overwrite"]).ok();
+            let imported = text(&place.path().join("made"));
+            etendue(["import", &text(&place.path().join("card.xml")), "-o", &imported, "--overwrite"]).ok();
             let expected = expected(colour, *right, across(*right));
-            same(luminance(&place.path().join("made/job.toml"), "eye"), expected, &format!("{name}, {map}, {shape}"));
+            assert_same(luminance(&place.path().join("made/job.toml"), "eye"), expected, &format!("{name}, {map}, {shape}"));
         }
     }
 }

@@ -59,9 +59,9 @@ pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("an array").iter().map(|number| number.as_f64().expect("a number")).collect()
 }
 
-pub(crate) fn assert_near(found: &[f64], expected: &[f64], about: &str) {
-    let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
-    assert!(found.len() == expected.len() && is_near, "{about}: {found:?}, expected {expected:?}");
+pub(crate) fn assert_near(actual: &[f64], expected: &[f64], case: &str) {
+    let is_near = actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
+    assert!(actual.len() == expected.len() && is_near, "{case}: {actual:?}, expected {expected:?}");
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn boxes_do_not_depend_on_the_axes_of_the_file() {
     for (forward, up) in AXES {
         for turn_deg in [0.0_f64, 40.0] {
             let place = tempfile::tempdir().expect("a folder");
-            let about = format!("forward {forward}, up {up}, turned by {turn_deg}°");
+            let case = format!("forward {forward}, up {up}, turned by {turn_deg}°");
             fs::write(place.path().join("car.obj"), obj(forward, up)).expect("written");
             let file = place.path().join("job.toml");
             fs::write(&file, job(forward, up, turn_deg)).expect("written");
@@ -77,17 +77,17 @@ fn boxes_do_not_depend_on_the_axes_of_the_file() {
             etendue(["dataset", &text(&file), "-o", &text(&out), "--format", "kitti", "--samples", "0..1"]).ok();
             // Height, width, length; the middle of the bottom, x right, y down, z forward; the rotation about y of the forward axis from x.
             let heading = (-90.0 - turn_deg).to_radians();
-            assert_near(&label(&out)[7..14], &[1.3, 1.5, 2.8, -2.0, 1.5, 10.0, heading], &about);
+            assert_near(&label(&out)[7..14], &[1.3, 1.5, 2.8, -2.0, 1.5, 10.0, heading], &case);
 
             let rendered = place.path().join("out");
             etendue(["render", &text(&file), "-o", &text(&rendered)]).ok();
             let boxes = fs::read(rendered.join("front/boxes.json")).expect("boxes");
             let boxes: Value = serde_json::from_slice(&boxes).expect("JSON");
             let solid = &boxes["objects"][0]["box_3d"];
-            assert_near(&numbers(&solid["size_m"]), &SIZE_M.to_array(), &about);
+            assert_near(&numbers(&solid["size_m"]), &SIZE_M.to_array(), &case);
             let (sin, cos) = sin_cos(turn_deg.to_radians() / 2.0);
             let expected = [cos, 0.0, 0.0, sin];
-            assert_near(&numbers(&solid["world"]["rotation_wxyz"]), &expected, &about);
+            assert_near(&numbers(&solid["world"]["rotation_wxyz"]), &expected, &case);
         }
     }
 }
@@ -116,6 +116,6 @@ fn a_car_beside_the_camera_is_cut_at_the_border_of_the_picture() {
     // image's left edge is that of the far end, 5.05 m ahead. Coordinates are those of pixel centres, and the last of the image are 199 and 119.
     let left = 100.0 + 200.0 * 1.7 / 5.05 - 0.5;
     let top = 60.0 - 200.0 * 0.3 / 3.4 - 0.5;
-    let found = &label(&out)[3..7];
-    assert!(found.iter().zip([left, top, 199.0, 119.0]).all(|(a, b)| (a - b).abs() < 0.0051), "{found:?}");
+    let actual = &label(&out)[3..7];
+    assert!(actual.iter().zip([left, top, 199.0, 119.0]).all(|(a, b)| (a - b).abs() < 0.0051), "{actual:?}");
 }

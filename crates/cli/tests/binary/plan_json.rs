@@ -6,17 +6,17 @@ use std::collections::BTreeSet;
 
 fn plan(arguments: &[&str]) -> Value {
     let all = [&["plan"], arguments, &["--json"]].concat();
-    let ran = etendue(all).ok();
-    serde_json::from_str(&ran.out).expect("one JSON document on stdout")
+    let output = etendue(all).ok();
+    serde_json::from_str(&output.out).expect("one JSON document on stdout")
 }
 
-fn keys(value: &Value, found: &mut BTreeSet<String>) {
+fn keys(value: &Value, keys_in_use: &mut BTreeSet<String>) {
     match value {
         Value::Object(map) => map.iter().for_each(|(key, value)| {
-            found.insert(key.clone());
-            keys(value, found);
+            keys_in_use.insert(key.clone());
+            keys(value, keys_in_use);
         }),
-        Value::Array(list) => list.iter().for_each(|value| keys(value, found)),
+        Value::Array(list) => list.iter().for_each(|value| keys(value, keys_in_use)),
         _ => {}
     }
 }
@@ -30,12 +30,12 @@ fn effect<'p>(plan: &'p Value, id: &str) -> &'p Value {
 #[test]
 fn every_key_is_in_the_documentation() {
     let page = std::fs::read_to_string(root().join("docs/plan.md")).expect("the page");
-    let mut found = BTreeSet::new();
+    let mut keys_in_use = BTreeSet::new();
     for job in [small().as_str(), "scenes/cornell/cornell.toml", "scenes/lenses/ghosts.toml"] {
-        keys(&plan(&[job]), &mut found);
+        keys(&plan(&[job]), &mut keys_in_use);
     }
-    assert!(found.len() > 60, "{found:?}");
-    let missing: Vec<_> = found.iter().filter(|key| !page.contains(&format!("`{key}`"))).collect();
+    assert!(keys_in_use.len() > 60, "{keys_in_use:?}");
+    let missing: Vec<_> = keys_in_use.iter().filter(|key| !page.contains(&format!("`{key}`"))).collect();
     assert!(missing.is_empty(), "docs/plan.md does not explain {missing:?}");
 }
 
@@ -57,8 +57,8 @@ fn the_document_says_what_the_text_says() {
     // The parts of a frame add up to the whole.
     let cost = &json["cameras"][0]["cost"];
     let parts: f64 = cost["film_parts"].as_array().expect("a list").iter().filter_map(|p| p["cpu_s"].as_f64()).sum();
-    let whole = cost["paths_cpu_s"].as_f64().expect("a number") + parts;
-    assert!((whole / cost["cpu_s"].as_f64().expect("a number") - 1.0).abs() < 1e-9);
+    let total = cost["paths_cpu_s"].as_f64().expect("a number") + parts;
+    assert!((total / cost["cpu_s"].as_f64().expect("a number") - 1.0).abs() < 1e-9);
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn what_the_keys_of_the_document_drop_is_skipped() {
 }
 
 #[test]
-fn equal_remarks_are_told_once_with_their_number() {
+fn equal_notes_are_reported_once_with_their_number() {
     let job = "scenes/street/street.toml";
     let json = plan(&[job]);
     let remarks = json["remarks"].as_array().expect("a list");

@@ -1,6 +1,6 @@
 //! The plan of every shipped job, word for word.
 
-use crate::support::{bless, etendue, root, tests, text, whole};
+use crate::support::{bless, etendue, root, tests, text, is_complete_run};
 use std::path::PathBuf;
 
 /// Every job below `scenes/`, `scenes/FOLDER/NAME.toml`, and its name.
@@ -55,12 +55,12 @@ fn every_job_takes_any_integrator_and_any_samples() {
     for (place, (job, _)) in jobs().into_iter().enumerate() {
         // Each integrator with a third of the jobs; with all of them in `just whole`.
         let settings = [("flat", "2"), ("direct", "3"), ("path", "1")];
-        let chosen = if whole() { &settings[..] } else { &settings[place % 3..][..1] };
+        let chosen = if is_complete_run() { &settings[..] } else { &settings[place % 3..][..1] };
         for (integrator, spp) in chosen {
-            let ran = etendue(["plan", &job, "--integrator", integrator, "--spp", spp]).ok();
-            let notes = ran.err.lines().filter(|line| line.starts_with("note: ")).count();
-            let of_flags = ran.err.lines().filter(|line| line.starts_with("note: --")).count();
-            assert!(notes == of_flags && notes <= 3, "{job}: {}", ran.err);
+            let output = etendue(["plan", &job, "--integrator", integrator, "--spp", spp]).ok();
+            let notes = output.err.lines().filter(|line| line.starts_with("note: ")).count();
+            let of_flags = output.err.lines().filter(|line| line.starts_with("note: --")).count();
+            assert!(notes == of_flags && notes <= 3, "{job}: {}", output.err);
         }
     }
     let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.integrator=direct", "--spp", "2"]).ok();

@@ -37,9 +37,9 @@ fn list(folder: &Path, name: &str, [about_x, about_y]: [f64; 2], fisheye: bool, 
         let r = etendue_core::maths::f64::hypot(x, y);
         let theta = etendue_core::maths::f64::atan2(r, z);
         let scale = if fisheye && r > 0.0 { 500.0 * theta / r } else { 500.0 / z };
-        let told = if skewed { column + row } else { column };
+        let value = if skewed { column + row } else { column };
         let at = [320.0 + scale * x + jitter(i, 1), 240.0 + scale * y + jitter(i, 2)];
-        writeln!(lines, "{told},{row},{},{},0.006", at[0], at[1]).expect("a string");
+        writeln!(lines, "{value},{row},{},{},0.006", at[0], at[1]).expect("a string");
     }
     let file = folder.join(name);
     std::fs::write(&file, lines).expect("written");
@@ -61,13 +61,13 @@ fn calibrate<'a>(views: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
 fn lists_of_points_give_cameras_and_distortion() {
     let folder = tempfile::tempdir().expect("a folder");
     let views = lists(folder.path(), false);
-    let found = json(&calibrate(&views, &[]));
+    let report = json(&calibrate(&views, &[]));
     for (key, want) in [("fx_px", 500.0), ("fy_px", 500.0), ("cx_px", 320.0), ("cy_px", 240.0), ("k1", 0.0)] {
-        let [value, u] = figure(&found, key);
+        let [value, u] = figure(&report, key);
         assert!((value - want).abs() < 4.0 * u && u < 1e-2 * (want + 1.0), "{key}: {value} ± {u}");
     }
-    let found = json(&["measure", "distortion", &views[0], "--size-px", SIZE]);
-    let [largest, u] = figure(&found, "local_largest_percent");
+    let report = json(&["measure", "distortion", &views[0], "--size-px", SIZE]);
+    let [largest, u] = figure(&report, "local_largest_percent");
     assert!(largest.abs() < 4.0 * u && u < 0.05, "{largest} ± {u}");
     etendue(["measure", "distortion", &views[0]]).refused(&["view0.csv", "--size-px"]);
     let bad = folder.path().join("bad.csv");
@@ -77,29 +77,29 @@ fn lists_of_points_give_cameras_and_distortion() {
 }
 
 #[test]
-fn a_view_that_is_numbered_wrongly_is_left_out_and_told() {
+fn a_wrongly_numbered_view_is_omitted_and_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut views = lists(folder.path(), false);
     views[2] = list(folder.path(), "skewed.csv", [-0.5, 0.1], false, true);
-    let found = json(&calibrate(&views, &[]));
-    assert!(found["notes"].to_string().contains("skewed.csv: omitted"), "{}", found["notes"]);
-    assert_eq!(found["tables"]["views"].as_array().expect("views").len(), 4);
-    let [value, u] = figure(&found, "fx_px");
+    let report = json(&calibrate(&views, &[]));
+    assert!(report["notes"].to_string().contains("skewed.csv: omitted"), "{}", report["notes"]);
+    assert_eq!(report["tables"]["views"].as_array().expect("views").len(), 4);
+    let [value, u] = figure(&report, "fx_px");
     assert!((value - 500.0).abs() < 4.0 * u && u < 2.0, "{value} ± {u}");
 }
 
 #[test]
-fn a_model_that_does_not_suit_is_told_with_one_that_does() {
+fn an_unsuitable_model_is_reported_with_a_suitable_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let views = lists(folder.path(), true);
-    let found = json(&calibrate(&views, &["--model", "pinhole"]));
-    let notes = found["notes"].to_string();
+    let report = json(&calibrate(&views, &["--model", "pinhole"]));
+    let notes = report["notes"].to_string();
     assert!(
         notes.contains("the model pinhole does not describe this camera") && notes.contains(" leaves 0.0"),
         "{notes}"
     );
-    let found = json(&calibrate(&views, &["--model", "kannala-brandt"]));
-    assert!(!found["notes"].to_string().contains("warning"), "{found}");
+    let report = json(&calibrate(&views, &["--model", "kannala-brandt"]));
+    assert!(!report["notes"].to_string().contains("warning"), "{report}");
 }
 
 /// One frontal view: 500 px at 600 mm, with a last digit of a millimetre.

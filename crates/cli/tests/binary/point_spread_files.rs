@@ -66,9 +66,9 @@ fn edge(folder: &Path, lens: &str, axis_row: f64) -> Vec<f64> {
     );
     let sensor =
         format!("width_px = {ROWS}, height_px = {ROWS}, pixel_pitch_um = 5, principal_point_px = [20, {axis_row:.1}]");
-    let [lit, whole] = [&black[..], ""].map(|objects| irradiance(folder, &job(objects, &sensor, lens, 128)));
+    let [lit, unobstructed] = [&black[..], ""].map(|objects| irradiance(folder, &job(objects, &sensor, lens, 128)));
     let mean = |of: &[f64], row: usize| of[row * ROWS + 16..row * ROWS + 24].iter().sum::<f64>();
-    (0..ROWS).map(|row| mean(&lit, row) / mean(&whole, row)).collect()
+    (0..ROWS).map(|row| mean(&lit, row) / mean(&unobstructed, row)).collect()
 }
 
 /// Fraction of a Gaussian below a position, in its widths.
@@ -86,21 +86,21 @@ fn edges_are_as_wide_as_the_files_say_of_their_place() {
         folder.path(),
         radii.map(|y_mm| {
             let [along_um, across_um] = widths_um(y_mm.abs());
-            listing(y_mm, "0.5500", |along, across| gaussian(along, along_um) * gaussian(across, across_um))
+            listing(y_mm, "0.5500", |sagittal, across| gaussian(sagittal, along_um) * gaussian(across, across_um))
         }),
     );
     let lens = format!("{LENS}{files}] }}");
     // Below the axis the edge is perpendicular to the radius; on it functions are narrower.
     for axis_row in [AXIS_ROW, EDGE_PX] {
-        let found = edge(folder.path(), &lens, axis_row);
+        let edge_widths = edge(folder.path(), &lens, axis_row);
         let width_um = |row: usize| widths_um((row as f64 + 0.5 - axis_row).abs() * PIXEL_MM)[0];
         let expected = |row: usize| {
             let at = |part: usize| (row as f64 + (part as f64 + 0.5) / 20.0 - EDGE_PX) * 1e3 * PIXEL_MM;
             (0..20).map(|part| normal(at(part) / width_um(row))).sum::<f64>() / 20.0
         };
-        for (row, found) in found.iter().enumerate().take(ROWS - 4).skip(4) {
-            let off = found - expected(row);
-            assert!(off.abs() < 0.01, "axis at {axis_row}, row {row}: {found} for {}", expected(row));
+        for (row, edge_widths) in edge_widths.iter().enumerate().take(ROWS - 4).skip(4) {
+            let off = edge_widths - expected(row);
+            assert!(off.abs() < 0.01, "axis at {axis_row}, row {row}: {edge_widths} for {}", expected(row));
         }
     }
 }
@@ -151,38 +151,38 @@ fn tails_of_lamps_point_away_from_the_axis_as_in_the_files() {
     let sharp = lamps(folder.path(), "type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4");
     // Stated above the axis and below it, with and without coordinates on the sensor.
     for (sign, coordinates) in [(1.0, true), (-1.0, true), (-1.0, false)] {
-        let made = (0..=6).map(|i| {
+        let listings = (0..=6).map(|i| {
             let radius_mm = 0.15 * f64::from(i);
             let blob = blob_um(radius_mm);
-            let made = listing(sign * radius_mm, "0.5500", |along, across| {
-                gaussian(across, 6.0) * (6.0 * gaussian(along, 6.0) + gaussian(along - blob, 6.0))
+            let listing_text = listing(sign * radius_mm, "0.5500", |sagittal, across| {
+                gaussian(across, 6.0) * (6.0 * gaussian(sagittal, 6.0) + gaussian(sagittal - blob, 6.0))
             });
-            if coordinates { made } else { made.replace("Center coordinates", "Kept to itself") }
+            if coordinates { listing_text } else { listing_text.replace("Center coordinates", "Kept to itself") }
         });
-        let files = write(folder.path(), made);
+        let files = write(folder.path(), listings);
         // Without a margin the film's samples are those of the image without effects.
         let lens = LENS.replace("psf", "margin = 0\npsf");
-        let found = lamps(folder.path(), &format!("{lens}{files}] }}"));
-        for ((lamp, before), after) in LAMPS.iter().zip(&sharp).zip(&found) {
+        let spots = lamps(folder.path(), &format!("{lens}{files}] }}"));
+        for ((lamp, before), after) in LAMPS.iter().zip(&sharp).zip(&spots) {
             let [x, y] = lamp.map(f64::from);
             let radius_px = (x * x + y * y).sqrt();
             let [e, n] = if radius_px > 0.0 { [x / radius_px, y / radius_px] } else { [1.0, 0.0] };
             let moved = [after.1[0] - before.1[0], after.1[1] - before.1[1]];
-            let (out, beside) = (moved[0] * e + moved[1] * n, moved[1] * e - moved[0] * n);
+            let (out, sideways) = (moved[0] * e + moved[1] * n, moved[1] * e - moved[0] * n);
             let expected = blob_um(radius_px * PIXEL_MM) / 7.0;
             assert!((after.0 / before.0 - 1.0).abs() < 0.01, "{lamp:?}: {} of {}", after.0, before.0);
             // 5 µm is a pixel; the widths are 7 µm.
             assert!(
-                (out - expected).abs() < 0.15 && beside.abs() < 0.05,
-                "{sign} {lamp:?}: {out} for {expected}, {beside}"
+                (out - expected).abs() < 0.15 && sideways.abs() < 0.05,
+                "{sign} {lamp:?}: {out} for {expected}, {sideways}"
             );
         }
     }
-    let said = plan(folder.path(), &job("", SMALL, &format!("{LENS}{}] }}", names(7)), 2)).ok().out;
+    let output = plan(folder.path(), &job("", SMALL, &format!("{LENS}{}] }}", names(7)), 2)).ok().out;
     for phrase in
         ["a table of 7 functions at 7 distances from the axis (0 to 0.9 mm)", "computed for 550 nm", "patches"]
     {
-        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+        assert!(output.contains(phrase), "no {phrase} in\n{output}");
     }
 }
 
@@ -193,46 +193,46 @@ fn names(count: usize) -> String {
 }
 
 #[test]
-fn files_that_make_no_table_are_told() {
+fn files_that_make_no_table_are_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let round = |y_mm: f64, um: &str| listing(y_mm, um, |a, b| gaussian(a, 6.0) * gaussian(b, 6.0));
-    let refused = |listings: &[String], keys: &str, phrases: &[&str]| {
+    let assert_refused = |listings: &[String], keys: &str, phrases: &[&str]| {
         let files = write(folder.path(), listings.to_owned());
         plan(folder.path(), &job("", SMALL, &format!("{LENS}{files}]{keys} }}"), 2)).refused(phrases);
     };
     let [axis, off] = [round(0.0, "0.5500"), round(0.5, "0.5500")];
     let polychromatic = round(0.5, "0.4861 to 0.6563");
-    refused(
+    assert_refused(
         &[axis.clone(), off.clone(), round(0.0, "0.4800")],
         "",
         &["effects.psf.files", "no file is for 480 nm at the field (0°, 3.5763°) of psf-1.txt"],
     );
-    refused(
+    assert_refused(
         &[axis.clone(), polychromatic],
         "",
         &["effects.psf.files", "486.1 to 656.3 nm", "polychromatic files of the same range"],
     );
-    refused(
+    assert_refused(
         &[axis.clone(), off.clone(), round(-0.5, "0.5500")],
         "",
         &["psf-2.txt has the same distance", "psf-1.txt", "remove one"],
     );
-    refused(&[axis.replace("2.000 µm", "5.100 µm")], "", &["effects.psf.files", "5.100 µm apart", "smaller spacing"]);
-    refused(&[axis.replace("Data spacing is 2.000 µm", "")], "", &["psf-0.txt", "does not state the sample spacing"]);
-    refused(&[axis.replace("PSF", "MTF")], "", &["psf-0.txt", "not a listing of a point-spread function"]);
-    refused(
+    assert_refused(&[axis.replace("2.000 µm", "5.100 µm")], "", &["effects.psf.files", "5.100 µm apart", "smaller spacing"]);
+    assert_refused(&[axis.replace("Data spacing is 2.000 µm", "")], "", &["psf-0.txt", "does not state the sample spacing"]);
+    assert_refused(&[axis.replace("PSF", "MTF")], "", &["psf-0.txt", "not a listing of a point-spread function"]);
+    assert_refused(
         &[axis.clone(), off.replace("Center coordinates", "X").replace("3.5763 (deg)", "95.0 (deg)")],
         "",
         &["effects.psf.files", "forms no image at the field (0°, 95°)"],
     );
-    refused(std::slice::from_ref(&axis), ", blades = 6", &["\"blades\" contradicts \"files\""]);
-    refused(std::slice::from_ref(&axis), ", reach_mm = 1", &["\"reach_mm\" contradicts \"files\""]);
-    refused(
+    assert_refused(std::slice::from_ref(&axis), ", blades = 6", &["\"blades\" contradicts \"files\""]);
+    assert_refused(std::slice::from_ref(&axis), ", reach_mm = 1", &["\"reach_mm\" contradicts \"files\""]);
+    assert_refused(
         std::slice::from_ref(&axis),
         ", image = \"a.png\", image_pitch_um = 1",
         &["\"files\" contradicts \"image\""],
     );
-    refused(
+    assert_refused(
         std::slice::from_ref(&axis),
         ", spread_by = \"samples\"",
         &["effects.psf.spread_by", "falls close enough for displaced"],
@@ -247,14 +247,14 @@ fn files_that_make_no_table_are_told() {
     let files = write(folder.path(), [axis, off, round(0.0, "0.4800"), round(0.5, "0.4800")]);
     let job = job("", SMALL, &format!("{LENS}{files}], patches = [3, 3] }}"), 2)
         .replace("[output]", "route = \"pupil\"\n[output]\nradiance = true");
-    let said = plan(folder.path(), &job).ok().out;
-    assert!(said.contains("2 wavelengths (480 to 550 nm), in 3 × 3 patches"), "{said}");
-    let [out, taken, camera] = ["out", "taken", "camera.toml"].map(|name| text(&folder.path().join(name)));
+    let output = plan(folder.path(), &job).ok().out;
+    assert!(output.contains("2 wavelengths (480 to 550 nm), in 3 × 3 patches"), "{output}");
+    let [out, exposed, camera] = ["out", "taken", "camera.toml"].map(|name| text(&folder.path().join(name)));
     etendue(["render", &text(&folder.path().join("job.toml")), "-o", &out]).ok();
     let lens = LENS.replace("[cameras.effects]", "[effects]");
     let body = format!("format = 1\nsensor = {{ {SMALL} }}\n[lens]\n{lens}{files}] }}\n");
     std::fs::write(&camera, body).expect("written");
-    etendue(["expose", &format!("{out}/eye/radiance.exr"), "--camera", &camera, "-o", &taken]).ok();
+    etendue(["expose", &format!("{out}/eye/radiance.exr"), "--camera", &camera, "-o", &exposed]).ok();
 }
 
 /// The shipped camera with listings renders its dots with all of them.
@@ -264,7 +264,7 @@ fn the_shipped_camera_has_its_point_spreads() {
     let chart = text(&folder.path().join("dots"));
     let camera = text(&root().join("scenes/cameras/zemax-point-spread.toml"));
     etendue(["chart", "dots", "--columns", "9", "--camera", &camera, "-o", &chart]).ok();
-    let said = etendue(["plan", &format!("{chart}/job.toml")]).ok().out;
-    let told = "a table of 3 functions at 3 distances from the axis (0, 11, 22 mm), computed for 550 nm, the same at all wavelengths";
-    assert!(said.contains(told) && !said.contains("the value at its border") && !said.contains("too fast"), "{said}");
+    let output = etendue(["plan", &format!("{chart}/job.toml")]).ok().out;
+    let expected = "a table of 3 functions at 3 distances from the axis (0, 11, 22 mm), computed for 550 nm, the same at all wavelengths";
+    assert!(output.contains(expected) && !output.contains("the value at its border") && !output.contains("too fast"), "{output}");
 }

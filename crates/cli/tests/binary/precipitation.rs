@@ -9,7 +9,7 @@ const RAIN: &str = "type = \"rain\", rate_mm_h = 100, smallest_px = 0.05";
 
 /// A job of a wall in weather; `falls` is the precipitation, or nothing.
 struct Weather {
-    place: TempDir,
+    folder: TempDir,
 }
 
 impl Weather {
@@ -29,16 +29,16 @@ impl Weather {
              [render]\nspp = 4\nmax_bounces = 2\ntile_px = 16\n[output]\nradiance = true\ndepth_png = true\n"
         );
         fs::write(place.path().join("job.toml"), job).expect("written");
-        Self { place }
+        Self { folder: place }
     }
 
     fn job(&self) -> String {
-        text(&self.place.path().join("job.toml"))
+        text(&self.folder.path().join("job.toml"))
     }
 
     fn render(&self, more: &[&str]) -> BTreeMap<String, Vec<u8>> {
         let name = format!("out{}", more.concat().replace('/', "-"));
-        let out = self.place.path().join(name);
+        let out = self.folder.path().join(name);
         etendue([&["render", &self.job(), "-o", &text(&out)], more].concat()).ok();
         contents(&out)
     }
@@ -60,18 +60,18 @@ fn a_frame_alone_has_the_drops_that_it_has_in_a_sequence() {
 #[test]
 fn shards_see_the_same_rain() {
     let weather = Weather::new(RAIN);
-    let whole = weather.render(&[]);
+    let full = weather.render(&[]);
     let shards: Vec<String> = (0..2)
         .map(|i| {
-            let out = text(&weather.place.path().join(format!("shard{i}")));
+            let out = text(&weather.folder.path().join(format!("shard{i}")));
             etendue(["render", &weather.job(), "-o", &out, "--shard", &format!("{i}/2")]).ok();
             out
         })
         .collect();
-    let merged = text(&weather.place.path().join("merged"));
+    let merged = text(&weather.folder.path().join("merged"));
     etendue(["merge", &shards[0], &shards[1], "-o", &merged]).ok();
-    let merged = contents(&weather.place.path().join("merged"));
-    assert!(whole["c/radiance.0000.exr"] == merged["c/radiance.0000.exr"]);
+    let merged = contents(&weather.folder.path().join("merged"));
+    assert!(full["c/radiance.0000.exr"] == merged["c/radiance.0000.exr"]);
 }
 
 /// Depth and identities are those of the same world without weather; light is not.
@@ -79,15 +79,15 @@ fn shards_see_the_same_rain() {
 fn ground_truth_does_not_see_rain() {
     let (dry, wet) = (Weather::new("").render(&[]), Weather::new(RAIN).render(&[]));
     let of = |files: &BTreeMap<String, Vec<u8>>, start: &str, end: &str| {
-        let found = files.iter().find(|(name, _)| name.starts_with(start) && name.ends_with(end));
-        found.unwrap_or_else(|| panic!("{start}: {:?}", files.keys())).1.clone()
+        let file = files.iter().find(|(name, _)| name.starts_with(start) && name.ends_with(end));
+        file.unwrap_or_else(|| panic!("{start}: {:?}", files.keys())).1.clone()
     };
     assert!(of(&dry, "c/depth", ".png") == of(&wet, "c/depth", ".png"));
     assert!(of(&dry, "c/radiance", ".exr") != of(&wet, "c/radiance", ".exr"));
 }
 
 #[test]
-fn the_plan_tells_what_falls_and_what_is_modelled() {
+fn the_plan_reports_precipitation_and_its_model() {
     let plan = Weather::new("type = \"rain\", rate_mm_h = 10").plan();
     for phrase in ["rain of 10 mm/h", "11.6 mm/h", "3165 drops a m³", "1.56 1/km", "drops"] {
         assert!(plan.contains(phrase), "{phrase}: {plan}");
@@ -99,19 +99,19 @@ fn the_plan_tells_what_falls_and_what_is_modelled() {
 
 #[test]
 fn what_does_not_fall() {
-    let refused = |falls: &str, phrases: &[&str]| {
+    let assert_refused = |falls: &str, phrases: &[&str]| {
         let phrases = [&["job.toml:5", "precipitation"], phrases].concat();
         etendue(["plan", &Weather::new(falls).job()]).refused(&phrases);
     };
-    refused("type = \"rain\", rate_mm_h = 0", &["rate_mm_h", "found 0", "above 0"]);
-    refused("type = \"rain\", rate_mm_h = -2", &["rate_mm_h", "found -2"]);
-    refused("type = \"rain\", rate_mm_h = 151", &["the rate is 151 mm/h", "0.1 to 150 mm/h"]);
-    refused("type = \"snow\", rate_mm_h = 4", &["the rate is 4 mm/h", "0.1 to 3 mm/h"]);
-    refused("type = \"hail\", rate_mm_h = 4", &["type", "\"rain\"", "\"snow\""]);
-    refused("type = \"rain\"", &["rate_mm_h"]);
-    refused("type = \"rain\", rate_mm_h = 4, crystals = \"rimed\"", &["crystals"]);
-    refused("type = \"snow\", rate_mm_h = 1, crystals = \"stars\"", &["crystals", "\"dendrites\""]);
-    refused("type = \"rain\", rate_mm_h = 4, clear_m = -1", &["clear_m", "found -1"]);
-    refused("type = \"rain\", rate_mm_h = 4, smallest_px = 0", &["smallest_px", "found 0"]);
-    refused("type = \"rain\", rate_mm_h = 4, wind_m_s = [1, 2]", &["wind_m_s"]);
+    assert_refused("type = \"rain\", rate_mm_h = 0", &["rate_mm_h", "found 0", "above 0"]);
+    assert_refused("type = \"rain\", rate_mm_h = -2", &["rate_mm_h", "found -2"]);
+    assert_refused("type = \"rain\", rate_mm_h = 151", &["the rate is 151 mm/h", "0.1 to 150 mm/h"]);
+    assert_refused("type = \"snow\", rate_mm_h = 4", &["the rate is 4 mm/h", "0.1 to 3 mm/h"]);
+    assert_refused("type = \"hail\", rate_mm_h = 4", &["type", "\"rain\"", "\"snow\""]);
+    assert_refused("type = \"rain\"", &["rate_mm_h"]);
+    assert_refused("type = \"rain\", rate_mm_h = 4, crystals = \"rimed\"", &["crystals"]);
+    assert_refused("type = \"snow\", rate_mm_h = 1, crystals = \"stars\"", &["crystals", "\"dendrites\""]);
+    assert_refused("type = \"rain\", rate_mm_h = 4, clear_m = -1", &["clear_m", "found -1"]);
+    assert_refused("type = \"rain\", rate_mm_h = 4, smallest_px = 0", &["smallest_px", "found 0"]);
+    assert_refused("type = \"rain\", rate_mm_h = 4, wind_m_s = [1, 2]", &["wind_m_s"]);
 }

@@ -1,8 +1,8 @@
 //! Light in passes: equal bits for any sequence of runs, also after a kill; and as many passes as a time allows.
 
-use crate::support::{Ran, assert_same, contents, etendue, rendered, root, small, tests, text};
-use etendue_io::exr::{Samples, read_exr};
-use etendue_io::picture::read_picture;
+use crate::support::{CommandOutput, assert_same, contents, etendue, rendered, root, small, tests, text};
+use etendue_io::exr::{ExrSamples, read_exr};
+use etendue_io::picture::read_image;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,20 +13,20 @@ fn moving() -> String {
     text(&tests().join("jobs/moving/moving.toml"))
 }
 
-fn render(job: &str, folder: &Path, options: &[&str]) -> Ran {
+fn render(job: &str, folder: &Path, options: &[&str]) -> CommandOutput {
     etendue(["render", job, "-o", &text(folder)].into_iter().chain(options.iter().copied()))
 }
 
 /// Columns and rows of a readable image.
 fn image_size(file: &Path) -> (u32, u32) {
-    let picture = read_picture(file).expect("a whole picture");
-    (picture.width as u32, picture.height as u32)
+    let image = read_image(file).expect("a whole picture");
+    (image.width as u32, image.height as u32)
 }
 
 /// Floats of the channels of an image, without the facts of the EXR.
 fn channels(file: &Path) -> BTreeMap<String, Vec<u32>> {
     let file = read_exr(file).expect("an EXR");
-    let bits = |samples: &Samples| samples.to_floats().iter().map(|value| value.to_bits()).collect();
+    let bits = |samples: &ExrSamples| samples.to_floats().iter().map(|value| value.to_bits()).collect();
     file.channels.iter().map(|channel| (channel.name.clone(), bits(&channel.samples))).collect()
 }
 
@@ -95,16 +95,16 @@ fn state(output: &Path) -> BTreeMap<String, Vec<u8>> {
 fn a_killed_run_resumes_to_the_bytes_of_one_that_was_not() {
     for (job, options) in [(small(), &["--spp", "40"][..]), (moving(), &["--spp", "24", "--frames", "0..2"])] {
         let place = tempfile::tempdir().expect("a temporary folder");
-        let (whole, out) = (place.path().join("whole"), place.path().join("out"));
+        let (uninterrupted, out) = (place.path().join("whole"), place.path().join("out"));
         let options = [options, &["--progressive"]].concat();
-        render(&job, &whole, &options).ok();
+        render(&job, &uninterrupted, &options).ok();
         let arguments = ["render", &job, "-o", &text(&out)].map(str::to_owned).into_iter();
         let mut arguments: Vec<String> = arguments.chain(options.iter().map(|option| (*option).to_owned())).collect();
         kill_after_a_pass(&arguments, &out);
         arguments.push("--resume".to_owned());
         (0..3).for_each(|_| kill_after_a_pass(&arguments, &out));
         render(&job, &out, &[&options[..], &["--resume"]].concat()).ok();
-        assert_same(&contents(&whole), &contents(&out), &job);
+        assert_same(&contents(&uninterrupted), &contents(&out), &job);
     }
 }
 
@@ -115,12 +115,12 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
     let options = ["--spp", "4000", "--progressive"];
     let (job, output) = (small(), text(&out));
     let arguments = ["render", &job, "-o", &output].into_iter().chain(options).map(str::to_owned);
-    let picture = out.join("front/picture.0000.png");
-    kill_when(&arguments.collect::<Vec<_>>(), || picture.exists());
+    let image = out.join("front/picture.0000.png");
+    kill_when(&arguments.collect::<Vec<_>>(), || image.exists());
     // The images of an early pass, and no side-car yet.
     let radiance = read_exr(&out.join("front/radiance.exr")).expect("a whole file");
     assert!(radiance.provenance().further["passes"].starts_with("[4, 4, 8,"), "{:?}", radiance.attributes);
-    assert!(image_size(&picture) == (radiance.width as u32, radiance.height as u32));
+    assert!(image_size(&image) == (radiance.width as u32, radiance.height as u32));
     assert!(!out.join("front/camera.json").exists() && !state(&out).is_empty());
     render(&small(), &out, &options).refused(&[".progress", "--resume", "--overwrite"]);
     render(&small(), &out, &["--spp", "4004", "--progressive", "--resume"]).refused(&["another plan", "--overwrite"]);
@@ -129,7 +129,7 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
 }
 
 /// Seconds and options reported by a timed run: "10.02 s of light (--time 10): …; --set … gives the same bytes".
-fn told(run: &Ran) -> (f64, Vec<String>) {
+fn time_and_options(run: &CommandOutput) -> (f64, Vec<String>) {
     let line = run.err.lines().find(|line| line.contains("s of light (--time")).expect("a note of the time");
     let (seconds, options) = line.strip_prefix("note: ").and_then(|line| line.split_once(" s of light")).expect("both");
     let options = options.rsplit_once("; ").expect("options").1.strip_suffix(" gives the same bytes").expect("an end");
@@ -146,12 +146,12 @@ fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     let size = ["--set", "cameras.front.sensor.width_px=48", "--set", "cameras.front.sensor.height_px=48"];
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
-    let kept = (0..3).find_map(|_| {
+    let completed = (0..3).find_map(|_| {
         let run = render(job, &out, &[&size[..], &["--time", "10", "--progressive", "--overwrite"]].concat()).ok();
-        let (seconds, options) = told(&run.says(&["--time supersedes", "spp"]));
+        let (seconds, options) = time_and_options(&run.says(&["--time supersedes", "spp"]));
         ((seconds / 10.0 - 1.0).abs() < 0.1).then_some(options)
     });
-    let options = kept.expect("10 s within a tenth");
+    let options = completed.expect("10 s within a tenth");
     let options: Vec<&str> = options.iter().map(String::as_str).chain(size).collect();
     assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");
 }
@@ -174,7 +174,7 @@ fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
     let begin = std::time::Instant::now();
     let run = etendue(&arguments).ok();
     let took_s = begin.elapsed().as_secs_f64();
-    let (seconds, options) = told(&run);
+    let (seconds, options) = time_and_options(&run);
     // The duration on a loaded machine is tested elsewhere.
     assert!(seconds > 9.0 && took_s < seconds + 5.0, "{took_s} s for {seconds} s");
     let options: Vec<&str> = options.iter().map(String::as_str).chain(size).collect();
@@ -183,18 +183,18 @@ fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
 
 #[test]
 fn what_cannot_be_done_is_refused() {
-    let refused = |options: &[&str], phrases: &[&str]| {
+    let assert_refused = |options: &[&str], phrases: &[&str]| {
         let place = tempfile::tempdir().expect("a temporary folder");
         render(&small(), &place.path().join("out"), options).refused(phrases);
     };
-    refused(&["--time", "9.9"], &["--time 9.9", "10 s or more"]);
-    refused(&["--time", "nan"], &["--time NaN", "10 s or more"]);
-    refused(&["--time", "10", "--spp", "8"], &["--time", "cannot be used with"]);
-    refused(&["--progressive", "--shard", "0/2"], &["--progressive", "cannot be used with"]);
-    refused(&["--progressive", "--set", "render.noise_threshold=0.5"], &["noise_threshold", "--progressive", "--spp"]);
-    refused(&["--set", "render.passes=[8, 6]", "--set", "render.replicates=4"], &["6 samples", "4 replicates"]);
-    refused(&["--set", "render.passes=[1.5]"], &["no pass samples all pixels"]);
-    refused(&["--set", "render.passes=[]"], &["render.passes", "a list of 1 or more"]);
-    refused(&["--set", "render.passes=[8]", "--set", "render.spp=8"], &["spp", "passes", "exclude each other"]);
-    refused(&["--spp", "8", "--noise", "0.5"], &["cannot be used with"]);
+    assert_refused(&["--time", "9.9"], &["--time 9.9", "10 s or more"]);
+    assert_refused(&["--time", "nan"], &["--time NaN", "10 s or more"]);
+    assert_refused(&["--time", "10", "--spp", "8"], &["--time", "cannot be used with"]);
+    assert_refused(&["--progressive", "--shard", "0/2"], &["--progressive", "cannot be used with"]);
+    assert_refused(&["--progressive", "--set", "render.noise_threshold=0.5"], &["noise_threshold", "--progressive", "--spp"]);
+    assert_refused(&["--set", "render.passes=[8, 6]", "--set", "render.replicates=4"], &["6 samples", "4 replicates"]);
+    assert_refused(&["--set", "render.passes=[1.5]"], &["no pass samples all pixels"]);
+    assert_refused(&["--set", "render.passes=[]"], &["render.passes", "a list of 1 or more"]);
+    assert_refused(&["--set", "render.passes=[8]", "--set", "render.spp=8"], &["spp", "passes", "exclude each other"]);
+    assert_refused(&["--spp", "8", "--noise", "0.5"], &["cannot be used with"]);
 }

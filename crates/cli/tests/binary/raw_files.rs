@@ -13,7 +13,7 @@ fn figures() -> Value {
 }
 
 /// The files of one camera of the chart.
-fn photographed(camera: &str, settings: &[&str]) -> BTreeMap<String, Vec<u8>> {
+fn captured_files(camera: &str, settings: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
     let settings = settings.iter().flat_map(|s| ["--set", s]);
@@ -54,17 +54,17 @@ fn numbers(file: &[u8]) -> Vec<u64> {
 fn a_raw_reader_shows_the_right_picture() {
     let figures = figures();
     for phase in PHASES {
-        let found = &figures["bayer"][phase];
-        assert_eq!(found["pattern"], phase);
-        assert_eq!(found["black"], json!([256, 256, 256, 256]), "{phase}");
+        let actual = &figures["bayer"][phase];
+        assert_eq!(actual["pattern"], phase);
+        assert_eq!(actual["black"], json!([256, 256, 256, 256]), "{phase}");
         // 30 000 e⁻ at 0.5 DN/e⁻ above black.
-        assert_eq!((&found["white"], &found["visible"]), (&json!(15_256), &json!([4, 6, 144, 96])), "{phase}");
-        assert_eq!(found["raw_is_tiff"], true, "{phase}");
-        let number = |key: &str| found[key].as_f64().expect("a number");
+        assert_eq!((&actual["white"], &actual["visible"]), (&json!(15_256), &json!([4, 6, 144, 96])), "{phase}");
+        assert_eq!(actual["raw_is_tiff"], true, "{phase}");
+        let number = |key: &str| actual[key].as_f64().expect("a number");
         // Two demosaicing methods and roundings of a noisy 8-bit image: a third of the visibility threshold.
-        assert!(number("delta_e_mean") < 0.25 && number("delta_e_worst") < 0.5, "{phase}: {found}");
+        assert!(number("delta_e_mean") < 0.25 && number("delta_e_worst") < 0.5, "{phase}: {actual}");
         // Means of 144 pixels with 1 % of noise, of a quarter of them for red and blue; no factor of brightness.
-        assert!(number("neutral_off") < 0.015 && (number("scale") - 1.0).abs() < 0.002, "{phase}: {found}");
+        assert!(number("neutral_off") < 0.015 && (number("scale") - 1.0).abs() < 0.002, "{phase}: {actual}");
     }
     let mono = &figures["mono"];
     assert_eq!((&mono["visible"], &mono["raw_is_tiff"]), (&json!([5, 3, 144, 96]), &json!(true)));
@@ -85,7 +85,7 @@ fn the_files_that_it_read_are_still_those() {
     let colour = |c: char| "rgb".find(c).expect("a colour") as u64;
     for phase in PHASES {
         let files =
-            photographed("camera", &[&format!("cameras.camera.sensor.cfa=\"{phase}\""), "output.picture=false"]);
+            captured_files("camera", &[&format!("cameras.camera.sensor.cfa=\"{phase}\""), "output.picture=false"]);
         let dng = &files["raw.0000.dng"];
         let (tags, numbers) = (tags(dng), numbers(dng));
         let sums = [numbers.iter().sum::<u64>(), numbers.iter().map(|n| n * n).sum()];
@@ -103,7 +103,7 @@ fn the_files_that_it_read_are_still_those() {
 
 #[test]
 fn odd_rows_and_columns_of_optical_black_stand_before_a_mono_picture() {
-    let dng = &photographed("mono", &[])["raw.0000.dng"];
+    let dng = &captured_files("mono", &[])["raw.0000.dng"];
     let tags = tags(dng);
     assert_eq!((longs(&tags[&256]), longs(&tags[&257])), (vec![149], vec![99]));
     assert_eq!(longs(&tags[&50_829]), [3, 5, 99, 149]);

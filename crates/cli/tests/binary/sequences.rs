@@ -1,7 +1,7 @@
 //! Frames with time-dependent light: equal bytes alone, in a sequence, in shards, and after an interrupted run.
 
 use crate::support::{contents, etendue, tests, text};
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_scene::asset::ImagePixels;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -26,9 +26,9 @@ fn rendered(options: &[&str]) -> Files {
 }
 
 #[track_caller]
-fn assert_same(expected: &Files, found: &Files, told: &str) {
-    assert_eq!(expected.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>(), "{told}");
-    expected.iter().for_each(|(name, bytes)| assert!(found[name] == *bytes, "{told}: {name}"));
+fn assert_same(expected: &Files, actual: &Files, what: &str) {
+    assert_eq!(expected.keys().collect::<Vec<_>>(), actual.keys().collect::<Vec<_>>(), "{what}");
+    expected.iter().for_each(|(name, bytes)| assert!(actual[name] == *bytes, "{what}: {name}"));
 }
 
 #[test]
@@ -68,8 +68,8 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
     let of = |frame: u64| {
         let tracks = tracks["tracks"].as_array().expect("a list").iter();
         let places = tracks.filter_map(move |track| {
-            let seen = track["frames"].as_array()?.iter().find(|seen| seen["frame"] == frame)?;
-            Some((track["id"].clone(), track["name"].clone(), seen.clone()))
+            let entry = track["frames"].as_array()?.iter().find(|entry| entry["frame"] == frame)?;
+            Some((track["id"].clone(), track["name"].clone(), entry.clone()))
         });
         places.collect::<Vec<_>>()
     };
@@ -77,10 +77,10 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
         let boxes = json(&format!("left/boxes.{frame:04}.json"));
         let objects = boxes["objects"].as_array().expect("a list");
         assert_eq!(objects.len(), of(frame).len(), "frame {frame}");
-        for (object, (id, name, seen)) in objects.iter().zip(of(frame)) {
-            assert_eq!((&object["id"], &object["name"], &boxes["time_s"]), (&id, &name, &seen["time_s"]));
+        for (object, (id, name, in_frame)) in objects.iter().zip(of(frame)) {
+            assert_eq!((&object["id"], &object["name"], &boxes["time_s"]), (&id, &name, &in_frame["time_s"]));
             for key in ["box_3d", "visible_box_px", "amodal_box_px", "visible_fraction", "is_cut"] {
-                assert_eq!(object[key], seen[key], "{key}");
+                assert_eq!(object[key], in_frame[key], "{key}");
             }
         }
     }
@@ -92,7 +92,7 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let file = place.path().join("picture.png");
     fs::write(&file, &all["left/picture.0002.png"]).expect("a file");
-    let ImagePixels::Rgb8(pixels) = read_picture(&file).expect("PNG").pixels else { panic!("8 bits") };
+    let ImagePixels::Rgb8(pixels) = read_image(&file).expect("PNG").pixels else { panic!("8 bits") };
     let [r, g, b] = pixels[0].map(f64::from);
     let luma = 16.0 + 219.0 / 255.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b);
     let first = head.len() + 2 * ("FRAME\n".len() + 3 * 40 * 24) + "FRAME\n".len();
@@ -103,8 +103,8 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
 fn a_rig_has_the_files_of_a_render_without_one() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
-    let told = etendue(["rig", &job(), "-o", &out, "--frames", "0..2"]).ok();
-    assert_eq!(told.out.lines().count(), 8, "{}", told.out);
+    let output = etendue(["rig", &job(), "-o", &out, "--frames", "0..2"]).ok();
+    assert_eq!(output.out.lines().count(), 8, "{}", output.out);
     let mut expected = rendered(&["--frames", "0..2"]);
     expected.retain(|name, _| name.starts_with("calibration/"));
     assert_same(&expected, &contents(Path::new(&out)), "rig");
@@ -114,18 +114,18 @@ fn a_rig_has_the_files_of_a_render_without_one() {
 #[test]
 fn what_needs_more_than_is_there_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let told = |set: &str, phrases: &[&str]| {
+    let refused = |set: &str, phrases: &[&str]| {
         let arguments = ["render", &job(), "-o", &text(&place.path().join("out")), "--set", set].map(str::to_owned);
         etendue(arguments).refused(phrases);
     };
-    told("cameras.left.output.boxes=false", &["\"tracks\" is requested", "boxes", "add boxes = true"]);
-    told("cameras.right.output={ video = \"y4m\" }", &["\"video\" is requested", "no [isp]"]);
-    told("cameras.left.output.picture=false", &["\"video\" is requested", "request \"picture\""]);
-    told("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is requested", "JPEG"]);
+    refused("cameras.left.output.boxes=false", &["\"tracks\" is requested", "boxes", "add boxes = true"]);
+    refused("cameras.right.output={ video = \"y4m\" }", &["\"video\" is requested", "no [isp]"]);
+    refused("cameras.left.output.picture=false", &["\"video\" is requested", "request \"picture\""]);
+    refused("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is requested", "JPEG"]);
     let late = ["cameras.right.sensor.shutter.exposure_s", "a row takes 0.2", "frame period is 0.05 s"];
-    told("cameras.right.sensor.shutter.exposure_s=0.2", &late);
+    refused("cameras.right.sensor.shutter.exposure_s=0.2", &late);
     let slow = ["cameras.left.sensor.shutter.row_time_us", "reading all rows takes", "read rows faster"];
-    told("cameras.left.sensor.shutter.row_time_us=20000", &slow);
+    refused("cameras.left.sensor.shutter.row_time_us=20000", &slow);
 }
 
 /// Two unconnected cameras are rectified at first, and the right one turns by 2° between keys.
@@ -166,11 +166,11 @@ fn a_run_that_was_interrupted_goes_on_to_the_same_bytes() {
     fs::remove_file(out.join("left/camera.json")).expect("it was written");
     fs::remove_file(out.join("right/camera.json")).expect("it was written");
     fs::write(out.join("left/raw.0002.png"), b"half").expect("a file");
-    let kept = fs::metadata(out.join("left/raw.0001.png")).and_then(|m| m.modified()).expect("a file");
+    let modified = fs::metadata(out.join("left/raw.0001.png")).and_then(|m| m.modified()).expect("a file");
     render(&out, &["--frames", "0..4", "--resume"]);
     assert_same(&expected, &contents(&out), "resumed");
     let now = fs::metadata(out.join("left/raw.0001.png")).and_then(|m| m.modified()).expect("a file");
-    assert_eq!(kept, now, "whole frames are not rendered again");
+    assert_eq!(modified, now, "whole frames are not rendered again");
 }
 
 /// A frame's file states the digests of all others: missing, truncated, changed or exchanged files are made again.
@@ -188,9 +188,9 @@ fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
         }
         change(&out.join(name));
         let arguments = ["render", &job(), "-o", &text(&out), "--frames", "0..3", "--resume"].map(str::to_owned);
-        let ran = etendue(arguments).ok();
+        let output = etendue(arguments).ok();
         assert_same(&expected, &contents(&out), what);
-        ran.err
+        output.err
     };
     let gone = |file: &Path| fs::remove_file(file).expect("it was there");
     let cut = |file: &Path| fs::write(file, b"").expect("written");
@@ -217,11 +217,11 @@ fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
         facts["exposure"]["start_s"] = 17.into();
         fs::write(file, serde_json::to_string_pretty(&facts).expect("JSON")).expect("written");
     };
-    let told = spoil("facts", "left/frame.0001.json", &sensor);
-    assert!(told.contains("frame.0001.json: it was changed after it was written"), "{told}");
+    let messages = spoil("facts", "left/frame.0001.json", &sensor);
+    assert!(messages.contains("frame.0001.json: it was changed after it was written"), "{messages}");
     let other = |file: &Path| _ = fs::copy(file.with_file_name("frame.0000.json"), file).expect("copied");
-    let told = spoil("exchanged", "left/frame.0001.json", &other);
-    assert!(told.contains("it is the file of another frame"), "{told}");
+    let messages = spoil("exchanged", "left/frame.0001.json", &other);
+    assert!(messages.contains("it is the file of another frame"), "{messages}");
     for name in ["left/tracks.json", "left/picture.y4m", "left/camera.json"] {
         spoil(name, name, &gone);
     }

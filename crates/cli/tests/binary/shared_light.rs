@@ -1,7 +1,7 @@
 //! Cameras of a job with the same light: rendered once, each with the result that it has alone.
 
 use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
-use etendue_io::exr::{Samples, read_exr};
+use etendue_io::exr::{ExrSamples, read_exr};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -70,20 +70,20 @@ fn the_plan_says_whose_light_a_camera_sees_and_why_not() {
     let plan = etendue(["plan", &job]).ok().out;
     assert!(block(&plan, "first").contains("shared with twin, long, other-look and longer"), "{plan}");
     for name in ["twin", "long", "other-look", "longer"] {
-        let told = block(&plan, name);
-        assert!(told.contains("light          that of camera first"), "{told}");
-        assert!(told.contains("cost           no separate paths: shares those of camera first"), "{told}");
+        let camera_block = block(&plan, name);
+        assert!(camera_block.contains("light          that of camera first"), "{camera_block}");
+        assert!(camera_block.contains("cost           no separate paths: shares those of camera first"), "{camera_block}");
     }
     let apart = |name: &str, why: &str| {
-        let told = block(&plan, name);
-        assert!(told.contains("its own: camera") && told.contains(why) && told.contains("million paths"), "{told}");
+        let camera_block = block(&plan, name);
+        assert!(camera_block.contains("its own: camera") && camera_block.contains(why) && camera_block.contains("million paths"), "{camera_block}");
     };
     apart("half", "differs in the spectral response of the pixels");
     apart("spectral", "differs in the stored spectrum");
     assert!(!block(&plan, "wide").contains("light      "), "another lens is another light, which nobody wonders at");
     let alone = etendue(["plan", &job, "--camera", "long"]).ok().out;
-    let told = block(&alone, "long");
-    assert!(told.contains("equal to that of camera first of the job") && told.contains("million paths"), "{told}");
+    let camera_block = block(&alone, "long");
+    assert!(camera_block.contains("equal to that of camera first of the job") && camera_block.contains("million paths"), "{camera_block}");
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn shared_light_has_one_error_and_each_sensor_its_own_noise() {
     let mean = |name: &str| {
         let file = read_exr(Path::new(&format!("{output}/{name}/electrons.exr"))).expect("electrons");
         ["electrons", "variance.electrons"].map(|channel| {
-            let Some(Samples::Float(values)) = file.channel(channel) else { panic!("{channel}") };
+            let Some(ExrSamples::Float(values)) = file.channel(channel) else { panic!("{channel}") };
             values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64
         })
     };

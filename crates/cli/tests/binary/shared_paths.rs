@@ -21,22 +21,22 @@ fn picture(folder: &Path, correlated_block_px: u32) -> String {
     let plane = Plane::<DigitalNumber>::from_samples(96, 48, samples).expect("a rectangle");
     let file = folder.join("picture.0000.png");
     std::fs::write(&file, encode_companded16(&plane).expect("a picture")).expect("written");
-    let said = format!(
+    let sidecar_text = format!(
         r#"{{"program": "etendue", "sampling": {{"correlated_block_px": {correlated_block_px}}}, "files": {{"picture.0000.png": {{"encoding": "linear"}}}}}}"#
     );
-    std::fs::write(folder.join("camera.json"), said).expect("written");
+    std::fs::write(folder.join("camera.json"), sidecar_text).expect("written");
     text(&file)
 }
 
-const TRAP: [&str; 4] = ["--trap", "2,2,12,12", "--white", "50,2,12,12"];
+const TRAP_OPTIONS: [&str; 4] = ["--trap", "2,2,12,12", "--white", "50,2,12,12"];
 
 #[test]
 fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
     let folder = tempfile::tempdir().expect("a folder");
     let flare = |correlated_block_px: u32| {
-        let picture = picture(folder.path(), correlated_block_px);
-        let ran = etendue(["measure", "flare", &picture, "--json"].into_iter().chain(TRAP)).ok();
-        let report: Value = serde_json::from_str(&ran.out).expect("JSON");
+        let image = picture(folder.path(), correlated_block_px);
+        let output = etendue(["measure", "flare", &image, "--json"].into_iter().chain(TRAP_OPTIONS)).ok();
+        let report: Value = serde_json::from_str(&output.out).expect("JSON");
         let figure = &report["figures"]["mean_flare_percent"];
         (figure["value"].as_f64().expect("a value"), figure["standard_uncertainty"].as_f64().expect("one"))
     };
@@ -44,29 +44,29 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
     // Nine blocks with a spread of 400/√12 each: ±38 of the 20 200 of the white.
     let truth = 100.0 * 38.0 / 20_200.0;
     assert!(shared.0 == alone.0 && shared.1 > truth && alone.1 < 0.9 * truth, "{shared:?} {alone:?} {truth}");
-    let picture = picture(folder.path(), 16);
+    let image = picture(folder.path(), 16);
     for verb in ["vignetting", "shading", "noise", "sfr"] {
-        let ran = etendue(["measure", verb, &picture]);
-        ran.refused(&["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"]);
+        let output = etendue(["measure", verb, &image]);
+        output.refused(&["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"]);
     }
 }
 
 #[test]
 fn textures_and_photon_transfer_refuse_shared_paths() {
     let folder = tempfile::tempdir().expect("a folder");
-    let picture = picture(folder.path(), 16);
-    let told = ["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"];
+    let image = picture(folder.path(), 16);
+    let phrases = ["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"];
     let alone = tempfile::tempdir().expect("a folder");
     let independent = self::picture(alone.path(), 1);
-    etendue(["measure", "texture", &picture, &independent]).refused(&told);
-    etendue(["measure", "texture", &independent, &picture]).refused(&told);
-    etendue(["measure", "texture", &independent, &independent, "--even", &picture]).refused(&told);
+    etendue(["measure", "texture", &image, &independent]).refused(&phrases);
+    etendue(["measure", "texture", &independent, &image]).refused(&phrases);
+    etendue(["measure", "texture", &independent, &independent, "--even", &image]).refused(&phrases);
     let level = |head: &str| format!("{head}\ni picture.0000.png\ni picture.0000.png\n");
     let descriptor = format!("v 4.0\nn 16 96 48\n{}{}", level("b 1000 10"), level("d 1000"));
     let file = folder.path().join("emva1288.txt");
     std::fs::write(&file, descriptor).expect("written");
     let file = text(&file);
-    etendue(["measure", "ptc", &file]).refused(&told);
+    etendue(["measure", "ptc", &file]).refused(&phrases);
     let at = |celsius: u32| format!("{celsius}:{file}");
-    etendue(["measure", "dark-current", &at(20), &at(30), &at(40)]).refused(&told);
+    etendue(["measure", "dark-current", &at(20), &at(30), &at(40)]).refused(&phrases);
 }

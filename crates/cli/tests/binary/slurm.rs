@@ -28,8 +28,8 @@ fn an_array_of_tasks_and_a_merge_give_the_bytes_of_one_run() {
     let (job, out) = (small(), text(&place.path().join("with blank/out")));
     // The second task is requeued.
     for index in [2, 1, 0, 1] {
-        let (status, said) = run(&[&job, &out, "--spp", "4", "--frames", "0..2"], Some((index, 3, 2)));
-        assert_eq!(status, 0, "{said}");
+        let (status, output) = run(&[&job, &out, "--spp", "4", "--frames", "0..2"], Some((index, 3, 2)));
+        assert_eq!(status, 0, "{output}");
     }
     assert_eq!(run(&[&job, &out], None).0, 0);
     let expected = rendered(&job, &["--spp", "4", "--frames", "0..2"]);
@@ -41,7 +41,7 @@ fn what_the_script_cannot_do_is_refused_with_status_2() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (small(), text(&place.path().join("out")));
     let first = Some((0, 2, 1));
-    for (arguments, task, told) in [
+    for (arguments, task, expected) in [
         (vec![], first, "expected JOB.toml OUT"),
         (vec!["no/job.toml", &out], first, "no/job.toml"),
         (vec![&job, "--spp"], first, "output folder"),
@@ -50,12 +50,12 @@ fn what_the_script_cannot_do_is_refused_with_status_2() {
         (vec![&job, &out], None, "no shards"),
         (vec![&job, &out, "--spp", "4"], None, "--spp"),
     ] {
-        let (status, said) = run(&arguments, task);
-        assert!(status == 2 && said.starts_with("error: ") && said.contains(told), "{arguments:?}: {status}, {said}");
+        let (status, output) = run(&arguments, task);
+        assert!(status == 2 && output.starts_with("error: ") && output.contains(expected), "{arguments:?}: {status}, {output}");
     }
     assert!(!Path::new(&out).exists());
     assert_eq!(run(&[&job, &out, "--spp", "4"], first).0, 0);
-    let (status, said) = run(&[&job, &out], None);
-    assert!(status == 2 && said.contains("1 of 2 shards"), "{said}");
+    let (status, output) = run(&[&job, &out], None);
+    assert!(status == 2 && output.contains("1 of 2 shards"), "{output}");
     assert!(Path::new(&out).join(".shards/0/shard.json").exists(), "what is there is kept");
 }

@@ -69,7 +69,7 @@ pub(crate) fn bless() -> bool {
 }
 
 /// True if studies are complete, of which CI runs a part (`just whole`).
-pub(crate) fn whole() -> bool {
+pub(crate) fn is_complete_run() -> bool {
     std::env::var_os("ETENDUE_WHOLE").is_some_and(|value| value == "1")
 }
 
@@ -90,13 +90,13 @@ pub(crate) fn text(path: &Path) -> String {
 
 /// Output and status of a run.
 #[derive(Debug)]
-pub(crate) struct Ran {
+pub(crate) struct CommandOutput {
     pub(crate) status: i32,
     pub(crate) out: String,
     pub(crate) err: String,
 }
 
-impl Ran {
+impl CommandOutput {
     /// Asserts success.
     #[track_caller]
     pub(crate) fn ok(self) -> Self {
@@ -115,14 +115,14 @@ impl Ran {
     /// Asserts that one line of stderr contains all of these.
     #[track_caller]
     pub(crate) fn says(self, phrases: &[&str]) -> Self {
-        let found = self.err.lines().any(|line| phrases.iter().all(|phrase| line.contains(phrase)));
-        assert!(found, "no line with all of {phrases:?} in:\n{}", self.err);
+        let is_said = self.err.lines().any(|line| phrases.iter().all(|phrase| line.contains(phrase)));
+        assert!(is_said, "no line with all of {phrases:?} in:\n{}", self.err);
         self
     }
 }
 
 /// Runs the binary from the repository's root.
-pub(crate) fn etendue<S: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<Item = S>) -> Ran {
+pub(crate) fn etendue<S: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<Item = S>) -> CommandOutput {
     etendue_with(arguments, &[])
 }
 
@@ -130,26 +130,26 @@ pub(crate) fn etendue<S: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<It
 pub(crate) fn etendue_with<S: AsRef<std::ffi::OsStr>>(
     arguments: impl IntoIterator<Item = S>,
     environment: &[(&str, &str)],
-) -> Ran {
+) -> CommandOutput {
     let mut command = Command::cargo_bin("etendue").expect("cargo builds the binary for its tests");
     command.current_dir(root()).env_remove("ETENDUE_SIMD").args(arguments);
     environment.iter().for_each(|(name, value)| {
         command.env(name, value);
     });
-    ran(command)
+    run(command)
 }
 
 /// Runs the binary in a folder.
-pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = S>) -> Ran {
+pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = S>) -> CommandOutput {
     let mut command = Command::cargo_bin("etendue").expect("cargo builds the binary for its tests");
     command.current_dir(folder).env_remove("ETENDUE_SIMD").args(arguments);
-    ran(command)
+    run(command)
 }
 
-fn ran(mut command: Command) -> Ran {
+fn run(mut command: Command) -> CommandOutput {
     let output = command.output().expect("the binary starts");
     let utf8 = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
-    Ran { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }
+    CommandOutput { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }
 }
 
 /// Returns all files below a folder with their bytes, by relative name.

@@ -48,11 +48,11 @@ sensor = { width_px = 48, height_px = 32, pixel_pitch_um = 150 }
 "#;
 
 /// A folder with the job, and images of 23 MB at all resolutions: 5.3 MB each of bytes, and 12.2 MB of the scaled numbers.
-struct Place {
+struct TextureJob {
     folder: tempfile::TempDir,
 }
 
-impl Place {
+impl TextureJob {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         fs::write(folder.path().join("job.toml"), JOB).expect("written");
@@ -84,32 +84,32 @@ fn picture(width: usize, height: usize, i: usize) -> Vec<u8> {
     let byte = |x: usize, y: usize, c: usize| (16 + (x * (3 + c) + y * (5 + i) + (x * y) / 64) % 200) as f32;
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let samples = places.map(|(x, y)| [0, 1, 2].map(|c| byte(x, y, c) / 255.0)).collect();
-    let picture = Plane::<Display>::from_samples(width, height, samples).expect("as many as it takes");
-    encode_display(&picture, &Encoding::Srgb).expect("encodable")
+    let image = Plane::<Display>::from_samples(width, height, samples).expect("as many as it takes");
+    encode_display(&image, &Encoding::Srgb).expect("encodable")
 }
 
 #[test]
 fn the_result_does_not_depend_on_the_memory_of_textures() {
-    let place = Place::new();
+    let place = TextureJob::new();
     let (job, cache) = (place.job(), text(&place.path("cache")));
-    let held = rendered(&job, &["--cache", &cache]);
+    let in_memory = rendered(&job, &["--cache", &cache]);
     assert!(!place.path("cache").exists(), "what fits needs no folder");
     let small = ["--texture-memory", "1", "--cache", &cache];
-    assert_same(&held, &rendered(&job, &small), "tiles that are made");
+    assert_same(&in_memory, &rendered(&job, &small), "tiles that are made");
     assert_eq!(place.tiles().len(), 3);
-    assert_same(&held, &rendered(&job, &[&small[..], &["--threads", "1"]].concat()), "tiles that are there");
+    assert_same(&in_memory, &rendered(&job, &[&small[..], &["--threads", "1"]].concat()), "tiles that are there");
     // Of three of 5.3 MB, as stated by their headers, one fits into half of it.
     let some = rendered(&job, &["--texture-memory", "11", "--cache", &cache]);
-    assert_same(&held, &some, "one picture in memory");
+    assert_same(&in_memory, &some, "one picture in memory");
     let plan = etendue(["plan", &job, "--texture-memory", "1", "--cache", &cache]).ok().out;
-    let told = "textures 3 in tiles on disk, 23 MB; at most 1 MB of them in memory";
-    assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
+    let expected = "textures 3 in tiles on disk, 23 MB; at most 1 MB of them in memory";
+    assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(expected), "{plan}");
 }
 
 /// Describing a job leaves nothing on disk, and a sandboxed job stores its tiles with its results.
 #[test]
 fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder() {
-    let place = Place::new();
+    let place = TextureJob::new();
     let (job, cache, out) = (place.job(), text(&place.path("cache")), place.path("out"));
     let user = [("XDG_CACHE_HOME", cache.as_str())];
     let small = ["--texture-memory", "1"];
@@ -122,23 +122,23 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
     assert!(!place.path("cache").exists());
     let tiles = fs::read_dir(out.join(".texture-cache")).expect("tiles").count();
     assert_eq!(tiles, 3);
-    let held = rendered(&job, &[]);
-    held.iter()
-        .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|found| found == *bytes), "{name}"));
+    let in_memory = rendered(&job, &[]);
+    in_memory.iter()
+        .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|stored| stored == *bytes), "{name}"));
     // The job itself needs more than the limit: refused before an image is unpacked.
     let limited = ["--limit", "texture-cache-mib=10"];
-    let told = ["scene.textures", "the texture cache is limited to 10 MiB", "--limit texture-cache-mib="];
-    etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&told);
+    let phrases = ["scene.textures", "the texture cache is limited to 10 MiB", "--limit texture-cache-mib="];
+    etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&phrases);
     etendue(
         ["render", &job, "-o", &text(&place.path("other")), "--cache", &cache].iter().chain(&small).chain(&limited),
     )
-    .refused(&told);
+    .refused(&phrases);
 }
 
 /// Python and programs open a job before they name an output folder: a sandboxed job then writes no tiles into the user's cache.
 #[test]
 fn a_sandboxed_job_without_an_output_folder_has_its_textures_in_memory() {
-    let place = Place::new();
+    let place = TextureJob::new();
     let textures = etendue::TextureMemory { limit_bytes: 1_000_000, ..etendue::TextureMemory::default() };
     let request = etendue::JobRequest { textures, sandbox: Some(Vec::new()), ..etendue::JobRequest::new(place.job()) };
     let summary = request.clone().open().unwrap_or_else(|error| panic!("{error}")).summary();
@@ -150,40 +150,40 @@ fn a_sandboxed_job_without_an_output_folder_has_its_textures_in_memory() {
 }
 
 #[test]
-fn damaged_tiles_are_made_anew() {
-    let place = Place::new();
+fn damaged_tiles_are_computed_again() {
+    let place = TextureJob::new();
     let (job, cache) = (place.job(), text(&place.path("cache")));
     let small = ["--texture-memory", "1", "--cache", &cache];
-    let held = rendered(&job, &[]);
+    let in_memory = rendered(&job, &[]);
     rendered(&job, &small);
     let files = place.tiles();
-    let [short, strange, damaged] = &files[..] else { panic!("{files:?}") };
+    let [short, unusual, damaged] = &files[..] else { panic!("{files:?}") };
     let shorten = |file: &Path| fs::File::options().write(true).open(file).and_then(|file| file.set_len(70_000));
     shorten(short).expect("shortened");
-    fs::write(strange, b"no tiles").expect("written");
-    assert_same(&held, &rendered(&job, &small), "files that are not whole");
+    fs::write(unusual, b"no tiles").expect("written");
+    assert_same(&in_memory, &rendered(&job, &small), "files that are not whole");
     // Changes the first byte of each tile, so that the first tile read differs from the written one.
     let mut bytes = fs::read(damaged).expect("tiles");
     let middle = bytes.len() / 3;
     bytes[middle..].iter_mut().for_each(|byte| *byte ^= 1);
     fs::write(damaged, bytes).expect("written");
     let output = text(&place.path("out"));
-    let ran = etendue(["render", &job, "-o", &output].into_iter().chain(small));
-    assert_eq!(ran.status, 1, "{ran:?}");
-    ran.says(&["error: ", "is damaged; the file was removed: run again to create it again"]);
+    let run = etendue(["render", &job, "-o", &output].into_iter().chain(small));
+    assert_eq!(run.status, 1, "{run:?}");
+    run.says(&["error: ", "is damaged; the file was removed: run again to create it again"]);
     assert!(!damaged.exists());
-    assert_same(&held, &rendered(&job, &small), "the next run");
+    assert_same(&in_memory, &rendered(&job, &small), "the next run");
 }
 
 #[test]
 fn without_a_folder_for_tiles_pictures_are_held_with_a_warning() {
-    let place = Place::new();
+    let place = TextureJob::new();
     let job = place.job();
     fs::write(place.path("file"), b"").expect("written");
     let cache = text(&place.path("file/cache"));
     let output = text(&place.path("out"));
-    let ran = etendue(["render", &job, "-o", &output, "--texture-memory", "1", "--cache", &cache]).ok();
-    ran.says(&[
+    let run = etendue(["render", &job, "-o", &output, "--texture-memory", "1", "--cache", &cache]).ok();
+    run.says(&[
         "a.png",
         "6 MB are stored in memory, above its limit, because the cache folder ",
         "file/cache cannot be written: ",
@@ -193,10 +193,10 @@ fn without_a_folder_for_tiles_pictures_are_held_with_a_warning() {
 
 #[test]
 fn a_broken_picture_is_refused_as_one_in_memory() {
-    let place = Place::new();
+    let place = TextureJob::new();
     let (job, cache) = (place.job(), text(&place.path("cache")));
-    let whole = fs::read(place.path("b.png")).expect("a picture");
-    fs::write(place.path("b.png"), &whole[..whole.len() / 2]).expect("written");
+    let bytes = fs::read(place.path("b.png")).expect("a picture");
+    fs::write(place.path("b.png"), &bytes[..bytes.len() / 2]).expect("written");
     let plan = |options: &[&str]| etendue(["plan", &job].iter().chain(options));
     let words = [
         "b.png: not a readable image (",

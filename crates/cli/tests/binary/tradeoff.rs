@@ -23,13 +23,13 @@ fn job(folder: &Path) -> String {
 }
 
 #[test]
-fn a_study_tells_times_and_errors_and_writes_jobs() {
+fn a_study_reports_times_and_errors_and_writes_jobs() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (job(place.path()), text(&place.path().join("out")));
-    let told = etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).ok().out;
+    let output = etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).ok().out;
     for phrase in ["as in the job: 32 samples", "bias, named:", "Pareto front", "draft: ", "standard: ", "reference: "]
     {
-        assert!(told.contains(phrase), "{phrase} is missing in:\n{told}");
+        assert!(output.contains(phrase), "{phrase} is missing in:\n{output}");
     }
     let files = contents(Path::new(&out));
     let names: Vec<_> = files.keys().map(String::as_str).collect();
@@ -40,22 +40,22 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
     );
     let study: serde_json::Value = serde_json::from_slice(&files["tradeoff.json"]).expect("JSON");
     assert_eq!(study["signal"], "electrons");
-    let ways = study["ways"].as_array().expect("ways");
-    assert_eq!((&ways[0]["way"]["integrator"], &ways[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
-    let of = |integrator: &str| ways.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
+    let configurations = study["ways"].as_array().expect("ways");
+    assert_eq!((&configurations[0]["way"]["integrator"], &configurations[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
+    let of = |integrator: &str| configurations.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
     // A white floor and ball without shadows or mutual illumination: about 8 % of the light, most of it in two or three of twelve tiles around the
     // ball (all tiles are examined, so that it is the same every time).
     let bias = &of("flat")["bias"]["squares"]["relative"];
     let (value, uncertainty) = (bias["value"].as_f64().expect("known"), bias["uncertainty"].as_f64().expect("known"));
     assert!(value > 1e-4 && value > 2.0 * uncertainty, "{bias}");
     // The replacement of all bounces is a small part of that, and there are no caustics to lose.
-    let caustics = ways.iter().find(|w| w["way"]["caustics"] == false && w["way"]["max_bounces"] == 64);
+    let caustics = configurations.iter().find(|w| w["way"]["caustics"] == false && w["way"]["max_bounces"] == 64);
     assert_eq!(caustics.expect("looked at")["bias"]["squares"]["relative"]["value"], 0.0);
     for (name, samples) in [("draft", 4), ("standard", 4), ("reference", 64)] {
         let file = text(&place.path().join(format!("out/{name}.toml")));
         let plan = etendue(["plan", &file]).ok().out;
-        let told = study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
-        let spp = told.expect("recommended")["point"]["spp"].as_u64().expect("a number");
+        let recommendation = study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
+        let spp = recommendation.expect("recommended")["point"]["spp"].as_u64().expect("a number");
         assert!(spp >= samples, "{name}: {spp}");
         assert!(plan.contains(&format!("{spp} samples a pixel")), "{name}: {spp} in {plan}");
     }
@@ -66,10 +66,10 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
 fn effects_are_left_out_one_after_the_other() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (job(place.path()), text(&place.path().join("out")));
-    let told = etendue(["tradeoff", &job, "-o", &out, "--time", "10", "--ablate", "--json"]).ok().out;
-    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
-    let dropped = found["dropped"].as_array().expect("a list");
-    let of = |name: &str| dropped.iter().find(|d| d["effect"] == name).unwrap_or_else(|| panic!("{name} in {told}"));
+    let output = etendue(["tradeoff", &job, "-o", &out, "--time", "10", "--ablate", "--json"]).ok().out;
+    let study: serde_json::Value = serde_json::from_str(&output).expect("JSON");
+    let dropped = study["dropped"].as_array().expect("a list");
+    let of = |name: &str| dropped.iter().find(|d| d["effect"] == name).unwrap_or_else(|| panic!("{name} in {output}"));
     // A white floor lights a white ball from below: without it a large part of the image is darker, and no ray takes another path.
     let indirect = of("indirect light");
     let light = indirect["light"]["value"].as_f64().expect("known");
@@ -95,23 +95,23 @@ fn keys_are_varied_one_after_the_other() {
         "--vary",
         "render.route=\"pupil\"",
     ];
-    let asked = ["tradeoff", &job, "-o", &out, "--time", "10", "--json"];
-    let told = etendue(asked.into_iter().chain(vary)).ok().out;
-    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
-    let varied = found["varied"].as_array().expect("a list");
+    let arguments = ["tradeoff", &job, "-o", &out, "--time", "10", "--json"];
+    let output = etendue(arguments.into_iter().chain(vary)).ok().out;
+    let study: serde_json::Value = serde_json::from_str(&output).expect("JSON");
+    let varied = study["varied"].as_array().expect("a list");
     let light = |i: usize| {
         let light = &varied[i]["light"];
         (light["value"].as_f64().expect("known"), light["uncertainty"].as_f64().expect("known"))
     };
     assert_eq!(varied[0]["set"], serde_json::json!(["render.wavelengths_per_path=1", "render.max_bounces=5"]));
     // One bounce less than the job's six has little effect; five less remove the light from the floor on the ball.
-    let (few, none) = (light(0), light(1));
-    assert!(few.0 < 0.02 + 3.0 * few.1 && none.0 > 0.02 && none.0 > 3.0 * none.1, "{few:?} {none:?}");
+    let (one_bounce, none) = (light(0), light(1));
+    assert!(one_bounce.0 < 0.02 + 3.0 * one_bounce.1 && none.0 > 0.02 && none.0 > 3.0 * none.1, "{one_bounce:?} {none:?}");
     // The ball is lit equally, however its light is stored; sharp edges are distributed differently between their pixels.
     assert!(light(2).0 < 0.5, "{:?}", light(2));
     // The route at the pupil stores a spectrum for every pixel.
     let memory = |value: &serde_json::Value| value["memory_bytes"].as_f64().expect("known");
-    assert!(memory(&varied[2]) > memory(&found), "{told}");
+    assert!(memory(&varied[2]) > memory(&study), "{output}");
     let files = contents(Path::new(&out));
     assert!(files.contains_key("variations.txt") && !files.contains_key("draft.toml"));
 }
@@ -119,7 +119,7 @@ fn keys_are_varied_one_after_the_other() {
 /// In focus only the pixel's aperture of width a blurs an edge, by sin(πaf)/(πaf), which is one half at af = 0.6034; a longer exposure changes no
 /// edge, corner or contrast.
 #[test]
-fn edges_and_corners_tell_of_a_change() {
+fn edges_and_corners_show_a_change() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (job(place.path()), text(&place.path().join("out")));
     let large = [
@@ -133,11 +133,11 @@ fn edges_and_corners_tell_of_a_change() {
     let small = std::fs::read_to_string(&job).expect("the job");
     std::fs::write(&job, large.into_iter().fold(small, |text, (from, to)| text.replace(from, to))).expect("a file");
     let vary = ["--vary", "cameras.front.sensor.fill_factor=0.49", "--vary", "cameras.front.sensor.exposure_s=1e-4"];
-    let asked = ["tradeoff", &job, "-o", &out, "--time", "10", "--mtf50", "--json"];
-    let told = etendue(asked.into_iter().chain(vary)).ok().out;
-    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let arguments = ["tradeoff", &job, "-o", &out, "--time", "10", "--mtf50", "--json"];
+    let output = etendue(arguments.into_iter().chain(vary)).ok().out;
+    let study: serde_json::Value = serde_json::from_str(&output).expect("JSON");
     let of = |change: usize, pointer: &str| {
-        let estimate = found["varied"][change].pointer(pointer).unwrap_or_else(|| panic!("{pointer} in {told}"));
+        let estimate = study["varied"][change].pointer(pointer).unwrap_or_else(|| panic!("{pointer} in {output}"));
         (estimate["value"].as_f64().expect("known"), estimate["uncertainty"].as_f64().expect("known"))
     };
     // 3 % for the measurement itself: edges of about twenty pixels.

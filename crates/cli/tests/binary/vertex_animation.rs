@@ -7,11 +7,11 @@ use tempfile::TempDir;
 const FIRST: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl cloth\nf 1 2 3 4\n";
 
 /// A job of a square that bends, and its files.
-struct Bending {
-    place: TempDir,
+struct BendingSquareJob {
+    folder: TempDir,
 }
 
-impl Bending {
+impl BendingSquareJob {
     fn new(animation: &str) -> Self {
         let place = tempfile::tempdir().expect("a temporary folder");
         let job = format!(
@@ -26,7 +26,7 @@ impl Bending {
              read_noise_e = 2\ndark_current_e_s = 5\ngain_dn_per_e = 0.2\nblack_level_dn = 64\nbits = 12\n\
              [render]\nspp = 4\nmax_bounces = 2\n[output]\nradiance = true\noptical_flow = \"exr\"\nboxes = true\n"
         );
-        let bending = Self { place };
+        let bending = Self { folder: place };
         bending.write("job.toml", &job);
         for (number, height) in [(0, "0"), (1, "0.7"), (2, "-0.5")] {
             bending.write(&format!("sheet-{number}.obj"), &FIRST.replace("v 1 1 0", &format!("v 1 1 {height}")));
@@ -35,15 +35,15 @@ impl Bending {
     }
 
     fn write(&self, name: &str, text: &str) {
-        fs::write(self.place.path().join(name), text).expect("written");
+        fs::write(self.folder.path().join(name), text).expect("written");
     }
 
     fn job(&self) -> String {
-        text(&self.place.path().join("job.toml"))
+        text(&self.folder.path().join("job.toml"))
     }
 
     fn render(&self, frames: &str) -> std::collections::BTreeMap<String, Vec<u8>> {
-        let out = self.place.path().join(frames);
+        let out = self.folder.path().join(frames);
         etendue(["render", &self.job(), "-o", &text(&out), "--frames", frames]).ok();
         contents(&out)
     }
@@ -60,7 +60,7 @@ const LOOP: &str = "files = \"sheet-%d.obj\", count = 3, rate_hz = 12, repeat = 
 
 #[test]
 fn a_frame_alone_has_the_bytes_that_it_has_in_a_sequence() {
-    let bending = Bending::new(LOOP);
+    let bending = BendingSquareJob::new(LOOP);
     let (all, alone) = (bending.render("0..3"), bending.render("2..3"));
     let of_frame: Vec<&String> = all.keys().filter(|name| name.contains(".0002.exr")).collect();
     assert!(of_frame.len() >= 2, "{:?}", all.keys());
@@ -70,8 +70,8 @@ fn a_frame_alone_has_the_bytes_that_it_has_in_a_sequence() {
 }
 
 #[test]
-fn the_plan_tells_moving_vertices_and_its_hash_knows_all_files() {
-    let bending = Bending::new(LOOP);
+fn the_plan_reports_moving_vertices_and_its_hash_covers_all_files() {
+    let bending = BendingSquareJob::new(LOOP);
     let plan = || etendue(["plan", &bending.job()]).ok().out;
     let before = plan();
     assert!(before.contains("the vertices of one instance move"), "{before}");
@@ -82,48 +82,48 @@ fn the_plan_tells_moving_vertices_and_its_hash_knows_all_files() {
 
 #[test]
 fn a_file_that_is_not_there() {
-    Bending::new("files = \"sheet-%d.obj\", count = 4, rate_hz = 12").refused(&["sheet-3.obj", "no such mesh file"]);
-    Bending::new("files = \"sheet-%02d.obj\", count = 3, rate_hz = 12").refused(&["sheet-00.obj", "no such mesh file"]);
+    BendingSquareJob::new("files = \"sheet-%d.obj\", count = 4, rate_hz = 12").refused(&["sheet-3.obj", "no such mesh file"]);
+    BendingSquareJob::new("files = \"sheet-%02d.obj\", count = 3, rate_hz = 12").refused(&["sheet-00.obj", "no such mesh file"]);
 }
 
 #[test]
 fn files_of_other_vertices_or_faces() {
-    let spoilt = |text: &str, phrases: &[&str]| {
-        let bending = Bending::new(LOOP);
+    let assert_refused = |text: &str, phrases: &[&str]| {
+        let bending = BendingSquareJob::new(LOOP);
         bending.write("sheet-1.obj", text);
         bending.refused(&[&["sheet-1.obj has", "sheet-0.obj has", "unchanged faces"], phrases].concat());
     };
-    spoilt(&FIRST.replace("v -1 1 0\n", "v -1 1 0\nv 0 0 0\n"), &["5 vertices", "4 vertices"]);
-    spoilt(&FIRST.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4"), &["2 faces", "1 faces"]);
-    spoilt(&FIRST.replace("f 1 2 3 4", "f 1 2 3"), &["face 1", "3 corners", "4 corners"]);
-    spoilt(&FIRST.replace("cloth", "silk"), &["material groups"]);
+    assert_refused(&FIRST.replace("v -1 1 0\n", "v -1 1 0\nv 0 0 0\n"), &["5 vertices", "4 vertices"]);
+    assert_refused(&FIRST.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4"), &["2 faces", "1 faces"]);
+    assert_refused(&FIRST.replace("f 1 2 3 4", "f 1 2 3"), &["face 1", "3 corners", "4 corners"]);
+    assert_refused(&FIRST.replace("cloth", "silk"), &["material groups"]);
 }
 
 #[test]
 fn animations_that_are_none() {
-    let refused = |animation: &str, phrases: &[&str]| Bending::new(animation).refused(phrases);
-    refused("files = \"sheet-%d.obj\", count = 1, rate_hz = 12", &["count", "found 1", "2"]);
-    refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 0", &["rate_hz", "found 0", "above 0"]);
-    refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "placeholder for the file number", "%03d"]);
-    refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
-    refused(
+    let assert_refused = |animation: &str, phrases: &[&str]| BendingSquareJob::new(animation).refused(phrases);
+    assert_refused("files = \"sheet-%d.obj\", count = 1, rate_hz = 12", &["count", "found 1", "2"]);
+    assert_refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 0", &["rate_hz", "found 0", "above 0"]);
+    assert_refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "placeholder for the file number", "%03d"]);
+    assert_refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
+    assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",
         &["times_s[2]", "0.2 s stands behind 0.3 s", "rising"],
     );
-    refused("files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1]", &["2 times for 3 files", "give 3 times"]);
-    refused(
+    assert_refused("files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1]", &["2 times for 3 files", "give 3 times"]);
+    assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1, 0.2], repeat = \"loop\"",
         &["3 times for a loop of 3 files", "give 4 times"],
     );
-    refused(
+    assert_refused(
         "files = \"sheet-%d.obj\", count = 3, rate_hz = 5, repeat = \"bounce\"",
         &["repeat", "\"hold\"", "\"loop\""],
     );
 }
 
 #[test]
-fn a_mesh_that_glows_keeps_its_shape() {
-    let bending = Bending::new(LOOP);
+fn an_emissive_mesh_keeps_its_shape() {
+    let bending = BendingSquareJob::new(LOOP);
     let job = fs::read_to_string(bending.job()).expect("a text");
     let glowing = job.replace(
         "type = \"diffuse\"\nreflectance = 0.5",

@@ -1,6 +1,6 @@
 //! Fog in scenes and over stored radiance.
 
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::support::{contents, etendue, small};
 use etendue_core::SpectralCube;
 use etendue_core::maths::f64::{exp, ln};
@@ -15,9 +15,9 @@ const SUN: &str = "[[scene.lights]]\ntype = \"sun\"";
 #[track_caller]
 fn refused(from: &str, to: &str, phrases: &[&str]) {
     assert!(FOG.contains(from));
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", SUN, &FOG.replacen(from, to, 1));
-    spoilt.render(&[]).refused(&[&["small.toml:", "scene.media.fog"], phrases].concat());
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", SUN, &FOG.replacen(from, to, 1));
+    job.render(&[]).refused(&[&["small.toml:", "scene.media.fog"], phrases].concat());
 }
 
 #[test]
@@ -58,8 +58,8 @@ fn fog_over_stored_radiance() {
     let stored = path(&format!("clear/{name}"));
     let (file, fog) = (path("fog.toml"), path("fog"));
     let weather = ["weather", &stored, "--weather", &file, "-o", &fog];
-    let ran = etendue(weather).ok();
-    assert!(["radiance.exr", "transmittance.exr", "airlight.exr"].iter().all(|file| ran.out.contains(file)), "{ran:?}");
+    let output = etendue(weather).ok();
+    assert!(["radiance.exr", "transmittance.exr", "airlight.exr"].iter().all(|file| output.out.contains(file)), "{output:?}");
     let read = |file: &str| read_spectral(folder.path().join(file).as_path()).expect("readable");
     let (before, after, added) = (read(&format!("clear/{name}")), read("fog/radiance.exr"), read("fog/airlight.exr"));
     let cube = |image| match image {
@@ -113,14 +113,14 @@ fn streaks_over_stored_radiance() {
     let distance = |file: &std::path::Path| read_spectral(file).expect("readable").distance.expect("distances");
     let far = |of: &std::path::Path| distance(of).samples().iter().map(|m| m.to_bits()).collect::<Vec<_>>();
     assert_eq!(far(&folder.path().join("one/radiance.exr")), far(&folder.path().join(format!("clear/{name}"))));
-    let refused = |text: &str, phrases: &[&str]| run(text, "none").refused(phrases);
-    refused(&RAIN.replace("exposure_s = 0.01\n", ""), &["weather.toml:6", "precipitation", "exposure_s"]);
-    refused(&RAIN.replace("0.01\n[a", "-1\n[a"), &["weather.toml:2", "exposure_s", "-1"]);
-    refused(&RAIN.replace("= 100", "= 400"), &["weather.toml:9", "400 mm/h", "0.1 to 150"]);
-    refused(&RAIN.replace("smallest_px = 0.05", "crystals = \"rimed\""), &["weather.toml:10", "crystals"]);
+    let assert_refused = |text: &str, phrases: &[&str]| run(text, "none").refused(phrases);
+    assert_refused(&RAIN.replace("exposure_s = 0.01\n", ""), &["weather.toml:6", "precipitation", "exposure_s"]);
+    assert_refused(&RAIN.replace("0.01\n[a", "-1\n[a"), &["weather.toml:2", "exposure_s", "-1"]);
+    assert_refused(&RAIN.replace("= 100", "= 400"), &["weather.toml:9", "400 mm/h", "0.1 to 150"]);
+    assert_refused(&RAIN.replace("smallest_px = 0.05", "crystals = \"rimed\""), &["weather.toml:10", "crystals"]);
     let (head, _) = RAIN.split_once("[precipitation]").expect("it has one");
-    refused(head, &["weather.toml:2", "\"exposure_s\" has no effect", "precipitation"]);
-    refused(&head.replace("exposure_s = 0.01\n", ""), &["weather.toml", "no weather", "fog"]);
+    assert_refused(head, &["weather.toml:2", "\"exposure_s\" has no effect", "precipitation"]);
+    assert_refused(&head.replace("exposure_s = 0.01\n", ""), &["weather.toml", "no weather", "fog"]);
     assert!(!folder.path().join("none").exists());
 }
 
@@ -128,12 +128,12 @@ fn streaks_over_stored_radiance() {
 #[test]
 fn open_meshes_and_layers_of_nothing() {
     let shape = "shape = { type = \"layer\", top_m = 60 }";
-    let spoilt = Spoilt::new();
+    let job = ModifiedJob::new();
     let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
-    spoilt.write("open.obj", mesh);
-    spoilt.spoil("small.toml", SUN, &FOG.replacen(shape, "shape = { type = \"mesh\", file = \"open.obj\" }", 1));
-    spoilt.render(&[]).refused(&["small.toml:", "shape.file", "open", "3 of its 6 edges", "close its holes"]);
-    let clear = Spoilt::new();
+    job.write("open.obj", mesh);
+    job.replace_first("small.toml", SUN, &FOG.replacen(shape, "shape = { type = \"mesh\", file = \"open.obj\" }", 1));
+    job.render(&[]).refused(&["small.toml:", "shape.file", "open", "3 of its 6 edges", "close its holes"]);
+    let clear = ModifiedJob::new();
     clear
         .render(&["--set", "output.weather=true"])
         .refused(&["output.weather", "neither [[media]] nor [precipitation]"]);

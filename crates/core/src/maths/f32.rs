@@ -21,7 +21,7 @@ fn special(f: impl Fn(f64) -> f64, x: f32) -> f32 {
 }
 
 /// Largest angle reduced here; libm reduces larger ones.
-const LARGEST: f32 = 1.0e6;
+const MAX_REDUCED_ANGLE: f32 = 1.0e6;
 /// π/2 to 33 bits, so that its products with the turns of an angle up to [`LARGEST`] are exact.
 const HALF_PI_HIGH: f64 = f64::from_bits(0x3ff9_21fb_5440_0000);
 /// Low part of π/2.
@@ -58,7 +58,7 @@ fn sin_cos_wide(x: f32) -> (f64, f64) {
 /// Returns true if an angle is within the range of the reduction.
 #[inline]
 fn moderate(x: f32) -> bool {
-    x.abs() <= LARGEST
+    x.abs() <= MAX_REDUCED_ANGLE
 }
 
 /// Sine of an angle in radians. NaN for ±∞.
@@ -173,9 +173,9 @@ fn exp_m1_reduced(r: f64) -> f64 {
 /// 2^x in double precision, for |x| ≤ 1000.
 #[inline]
 fn exp2_wide(x: f64) -> f64 {
-    let (whole, k) = nearest(x);
+    let (integer, k) = nearest(x);
     let scale = power_of_two(k);
-    scale + scale * exp_m1_reduced((x - whole) * LN_2)
+    scale + scale * exp_m1_reduced((x - integer) * LN_2)
 }
 
 /// e to the power of x.
@@ -200,9 +200,9 @@ pub fn exp_m1(x: f32) -> f32 {
         return special(libm::expm1, x);
     }
     let x = f64::from(x);
-    let (whole, k) = nearest(x * LOG2_E);
+    let (integer, k) = nearest(x * LOG2_E);
     let scale = power_of_two(k);
-    ((scale - 1.0) + scale * exp_m1_reduced(x - whole * LN_2)) as f32
+    ((scale - 1.0) + scale * exp_m1_reduced(x - integer * LN_2)) as f32
 }
 
 /// Returns true if the logarithm is finite and the argument normal.

@@ -11,7 +11,7 @@ use super::kernel::{
 };
 
 /// Largest angle reduced here; libm reduces larger ones.
-const LARGEST: f64 = 16_384.0;
+const MAX_REDUCED_ANGLE: f64 = 16_384.0;
 /// π/2 in three parts of 39, 39 and 53 bits (Cody & Waite), so that the first two have exact products with the turns
 /// of an angle up to [`LARGEST`].
 const HALF_PI: [f64; 3] = [
@@ -56,7 +56,7 @@ fn series(r: f64, low: f64) -> (f64, f64) {
 #[must_use]
 #[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() > LARGEST || x.is_nan() {
+    if x.abs() > MAX_REDUCED_ANGLE || x.is_nan() {
         return libm::sincos(x);
     }
     let (r, low, quadrant) = reduced(x);
@@ -154,8 +154,8 @@ pub fn exp(x: f64) -> f64 {
     if x.is_nan() || x.abs() > 750.0 {
         return libm::exp(x);
     }
-    let (whole, k) = nearest(x * LOG2_E);
-    scaled(exp_reduced(x - whole * LN_2_HIGH, whole * LN_2_LOW), k)
+    let (integer, k) = nearest(x * LOG2_E);
+    scaled(exp_reduced(x - integer * LN_2_HIGH, integer * LN_2_LOW), k)
 }
 
 /// Natural logarithm; −∞ of zero, NaN of a negative number.
@@ -265,13 +265,13 @@ mod tests {
     }
 
     #[track_caller]
-    fn close(got: f64, exact: f64, bound: u64, x: DVec2) {
+    fn close(actual: f64, exact: f64, bound: u64, x: DVec2) {
         if exact.is_nan() {
-            return assert!(got.is_nan(), "{x:?}: {got}, not NaN");
+            return assert!(actual.is_nan(), "{x:?}: {actual}, not NaN");
         }
-        assert_eq!(got.is_sign_negative(), exact.is_sign_negative(), "{x:?}: {got} against {exact}");
-        let steps = got.abs().to_bits().abs_diff(exact.abs().to_bits());
-        assert!(steps <= bound, "{x:?}: {got} against {exact}, {steps} units");
+        assert_eq!(actual.is_sign_negative(), exact.is_sign_negative(), "{x:?}: {actual} against {exact}");
+        let steps = actual.abs().to_bits().abs_diff(exact.abs().to_bits());
+        assert!(steps <= bound, "{x:?}: {actual} against {exact}, {steps} units");
     }
 
     fn compare(f: fn(f64) -> f64, exact: fn(f64) -> f64, arguments: impl Iterator<Item = f64>) {
@@ -319,8 +319,8 @@ mod tests {
     /// Expected values from a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
     #[test]
     fn bits_are_pinned() {
-        let got = [sin(1.0), cos(2.5), atan2(-1.5, -2.5), exp(-4.2), exp2(0.3), ln(7.3)];
-        assert_eq!(got.map(f64::to_bits), PINNED, "changed bits change every picture: is it meant?");
+        let actual = [sin(1.0), cos(2.5), atan2(-1.5, -2.5), exp(-4.2), exp2(0.3), ln(7.3)];
+        assert_eq!(actual.map(f64::to_bits), PINNED, "changed bits change every picture: is it meant?");
     }
 
     const PINNED: [u64; 6] = [

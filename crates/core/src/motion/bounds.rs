@@ -9,16 +9,16 @@ use core::f64::consts::PI;
 
 use glam::{BVec3, DVec3};
 
-use super::{Links, Motion, is_similarity};
+use super::{MotionChain, Motion, is_similarity};
 use crate::TimeInterval;
-use crate::track::{Bend, Track};
+use crate::track::{CurvatureBounds, Track};
 
 /// Tolerance for rounding of each track, relative to the sum: at most some sixty operations of 1.1e-16 each.
 const ROUNDING: f64 = 2e-14;
 /// Rounding of a time, and of the elapsed fraction of a span, relative to the time.
 const TIME_ROUNDING: f64 = 1e-15;
 /// Maximum rotation within a part, rad.
-const TURN: f64 = 0.1;
+const MAX_PART_TURN_RAD: f64 = 0.1;
 /// Minimum and maximum number of parts of a piece.
 const PARTS: (f64, f64) = (16.0, 1024.0);
 
@@ -27,7 +27,7 @@ impl Motion {
     /// including the rounding of [`Motion::at`].
     #[must_use]
     pub fn bounds_over(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
-        if let Links::One(track) = &self.0 {
+        if let MotionChain::One(track) = &self.0 {
             return track.bounds_over(interval, (low, high));
         }
         let corner = |i: u32| DVec3::select(BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
@@ -37,7 +37,7 @@ impl Motion {
     /// Returns the same for a ball.
     #[must_use]
     pub fn bounds_of_ball(&self, interval: TimeInterval, centre: DVec3, radius: f64) -> (DVec3, DVec3) {
-        if let Links::One(track) = &self.0 {
+        if let MotionChain::One(track) = &self.0 {
             return track.bounds_of_ball(interval, centre, radius);
         }
         let (low, high) = self.bounds_of_points(interval, &[centre]);
@@ -104,7 +104,7 @@ impl Motion {
                 let after = self.at(to_s);
                 for point in points {
                     let (a, b) = (before.transform_point3(*point), after.transform_point3(*point));
-                    let stray = DVec3::splat(self.stray(from_s, to_s, *point));
+                    let stray = DVec3::splat(self.chord_deviation(from_s, to_s, *point));
                     low = low.min(a.min(b) - stray);
                     high = high.max(a.max(b) + stray);
                 }
@@ -134,15 +134,15 @@ impl Motion {
 
     fn parts(&self, start_s: f64, end_s: f64) -> u32 {
         let rate: f64 = self.links().iter().map(|link| link.turning_rate(start_s, end_s)).sum();
-        if start_s == end_s { 1 } else { (rate * (end_s - start_s) / TURN).ceil().max(PARTS.0).min(PARTS.1) as u32 }
+        if start_s == end_s { 1 } else { (rate * (end_s - start_s) / MAX_PART_TURN_RAD).ceil().max(PARTS.0).min(PARTS.1) as u32 }
     }
 
     /// Maximum deviation of a point's path from the chord between its places at two times without a key between them, including the rounding of places and of
     /// times.
-    fn stray(&self, start_s: f64, end_s: f64, point: DVec3) -> f64 {
-        let own = Bend { distance: point.length(), ..Bend::default() };
+    fn chord_deviation(&self, start_s: f64, end_s: f64, point: DVec3) -> f64 {
+        let own = CurvatureBounds { distance: point.length(), ..CurvatureBounds::default() };
         let links = self.links();
-        let bend = links.iter().rev().fold(own, |inner, link| link.bend(start_s, end_s, &inner));
+        let bend = links.iter().rev().fold(own, |inner, link| link.curvature_bounds(start_s, end_s, &inner));
         let step_s = end_s - start_s;
         let timing = bend.speed * TIME_ROUNDING * (start_s.abs().max(end_s.abs()) + step_s);
         bend.acceleration * (step_s * step_s / 8.0) + bend.distance * ROUNDING * links.len() as f64 + timing

@@ -38,7 +38,7 @@ impl Random {
 
     fn shift(&mut self) -> Motion {
         let sheared = DMat3::from_cols(self.cube() + DVec3::X * 2.0, self.cube() + DVec3::Y * 2.0, DVec3::Z);
-        Motion::still(DAffine3::from_mat3_translation(sheared, self.cube() * 10.0))
+        Motion::constant(DAffine3::from_mat3_translation(sheared, self.cube() * 10.0))
     }
 }
 
@@ -71,7 +71,7 @@ fn bounds_hold_what_is_carried() {
         let (low, high) = motion.bounds_over(interval, (centre - half, centre + half));
         let ball = motion.bounds_of_ball(interval, centre, half.x);
         let rough = motion.rough_bounds(interval, (centre.abs() + half).length());
-        let (least, most) = motion.stretch_over(interval);
+        let (minimum, maximum) = motion.stretch_over(interval);
         let reach = motion.local_reach(interval, (low, high));
         let turning = motion.turning_over(interval);
         let normal = random.cube();
@@ -84,10 +84,10 @@ fn bounds_hold_what_is_carried() {
             assert!(low.cmple(corner).all() && corner.cmple(high).all(), "{corner} {low} {high}");
             assert!(rough.0.cmple(corner).all() && corner.cmple(rough.1).all());
             let direction = random.cube().normalize();
-            let rim = to_world.transform_point3(centre + direction * half.x * (1.0 - 1e-12));
-            assert!(ball.0.cmple(rim).all() && rim.cmple(ball.1).all());
+            let edge_point = to_world.transform_point3(centre + direction * half.x * (1.0 - 1e-12));
+            assert!(ball.0.cmple(edge_point).all() && edge_point.cmple(ball.1).all());
             let length = to_world.transform_vector3(direction).length();
-            assert!(length >= least * (1.0 - 1e-12) && length <= most * (1.0 + 1e-12));
+            assert!(length >= minimum * (1.0 - 1e-12) && length <= maximum * (1.0 + 1e-12));
             let back = to_world.inverse().transform_point3(low + (high - low) * (random.cube() * 0.5 + 0.5));
             assert!(back.abs().max_element() <= reach * (1.0 + 1e-9));
             let end = turned(to_world);
@@ -104,7 +104,7 @@ fn one_track_answers_as_it_does_by_itself() {
     let mut random = Random(9000);
     for _ in 0..300 {
         let track = random.track(true);
-        let motion = Motion::still(DAffine3::IDENTITY).carrying(&track.clone().into());
+        let motion = Motion::constant(DAffine3::IDENTITY).carrying(&track.clone().into());
         assert_eq!(motion, track.clone().into());
         let interval = over(random.unit() * 4.0, random.unit() * 4.0);
         let corners = (-random.cube().abs(), random.cube().abs());
@@ -113,7 +113,7 @@ fn one_track_answers_as_it_does_by_itself() {
         assert_eq!(motion.stretch_over(interval), track.stretch_over(interval));
         assert_eq!(motion.local_reach(interval, corners), track.local_reach(interval, corners));
         assert_eq!(motion.turning_over(interval), track.turning_over(interval));
-        assert_eq!(motion.still_over(interval), track.still_over(interval));
+        assert_eq!(motion.constant_over(interval), track.constant_over(interval));
         assert_eq!(motion.at(1.5), track.at(1.5));
     }
 }
@@ -122,17 +122,17 @@ fn one_track_answers_as_it_does_by_itself() {
 fn what_stands_still_in_a_moving_frame_is_part_of_its_track() {
     let car = linear(&[key(0.0, DVec3::ZERO, 0.0), key(2.0, DVec3::X * 30.0, FRAC_PI_2)]);
     let mirror = DAffine3::from_translation(DVec3::new(1.0, 0.9, 1.1));
-    let mounted = car.carrying(&Motion::still(mirror)).carrying(&Motion::still(mirror));
+    let mounted = car.carrying(&Motion::constant(mirror)).carrying(&Motion::constant(mirror));
     assert_eq!(mounted, car.after(&mirror).after(&mirror));
-    assert_eq!(Motion::still(mirror).carrying(&Motion::still(mirror)), Motion::still(mirror * mirror));
-    assert_eq!(mounted.moves_during(), Some(over(0.0, 2.0)));
-    assert_eq!(Motion::still(mirror).moves_during(), None);
+    assert_eq!(Motion::constant(mirror).carrying(&Motion::constant(mirror)), Motion::constant(mirror * mirror));
+    assert_eq!(mounted.motion_interval(), Some(over(0.0, 2.0)));
+    assert_eq!(Motion::constant(mirror).motion_interval(), None);
     let arm = linear(&[key(1.0, DVec3::ZERO, 0.0), key(3.0, DVec3::Y, 0.0)]);
     let carried = car.carrying(&arm);
     assert_eq!(carried.at(1.7), car.at(1.7) * arm.at(1.7));
-    assert_eq!(carried.moves_during(), Some(over(0.0, 3.0)));
-    assert_eq!(carried.still_over(over(3.0, 9.0)), Some(carried.at(9.0)));
-    assert!(carried.still_over(over(2.5, 2.6)).is_none() && carried.as_still().is_none());
+    assert_eq!(carried.motion_interval(), Some(over(0.0, 3.0)));
+    assert_eq!(carried.constant_over(over(3.0, 9.0)), Some(carried.at(9.0)));
+    assert!(carried.constant_over(over(2.5, 2.6)).is_none() && carried.as_constant().is_none());
 }
 
 /// A wheel of 0.3 m on a car at 15 m/s, over a shutter of 30 ms: the car goes 0.45 m and the wheel turns by 1.5 rad. A mesh's box of half side 0.3 stays within
@@ -140,15 +140,15 @@ fn what_stands_still_in_a_moving_frame_is_part_of_its_track() {
 #[test]
 fn a_wheel_has_the_box_of_its_way_and_no_more() {
     let car = linear(&[key(0.0, DVec3::ZERO, 0.0), key(10.0, DVec3::X * 150.0, 0.3)]);
-    let hub = car.carrying(&Motion::still(DAffine3::from_translation(DVec3::new(1.4, 0.8, 0.3))));
+    let hub = car.carrying(&Motion::constant(DAffine3::from_translation(DVec3::new(1.4, 0.8, 0.3))));
     let wheel = hub.carrying(&hub.rolling(0.3).expect("it moves"));
     let half = DVec3::new(0.3, 0.1, 0.3);
     let (low, high) = wheel.bounds_over(over(2.0, 2.03), (-half, half));
     let circle = 0.3 * 2.0_f64.sqrt();
     // The hub yaws by 0.061 rad in all until then: x and y of the box are mixed by its sine, 0.061.
     let mixed = 0.061 * (circle + 0.1 + 0.45);
-    let most = DVec3::new(0.45 + 2.0 * circle + 2.0 * mixed, 0.2 + 2.0 * mixed, 2.0 * circle) * 1.01;
-    assert!((high - low).cmple(most).all() && high.x - low.x > 0.45 + 0.6, "{}", high - low);
+    let maximum = DVec3::new(0.45 + 2.0 * circle + 2.0 * mixed, 0.2 + 2.0 * mixed, 2.0 * circle) * 1.01;
+    assert!((high - low).cmple(maximum).all() && high.x - low.x > 0.45 + 0.6, "{}", high - low);
 }
 
 fn angle_about_y(of: &Motion, hub: &Motion, time_s: f64) -> f64 {
@@ -171,8 +171,8 @@ fn wheels_turn_by_the_way_that_they_go() {
         let wheel = hub.carrying(&hub.rolling(r).expect("it moves"));
         for i in 0..=100_u8 {
             let time_s = 0.04 * f64::from(i);
-            let found = angle_about_y(&wheel, hub, time_s);
-            assert!(off(found, exact(time_s)).abs() <= tolerance, "{time_s} {found} {}", exact(time_s));
+            let actual = angle_about_y(&wheel, hub, time_s);
+            assert!(off(actual, exact(time_s)).abs() <= tolerance, "{time_s} {actual} {}", exact(time_s));
         }
     };
     let even = linear(&[key(0.0, DVec3::ZERO, 0.0), key(4.0, DVec3::X * 60.0, 0.0)]);
@@ -184,13 +184,13 @@ fn wheels_turn_by_the_way_that_they_go() {
     check(&accelerated, &|t| 1.5 * t * t / r, 1e-6);
     // The car turns to the left on the spot; the right wheel travels forward on a circle of 0.8 m.
     let spot = linear(&[key(0.0, DVec3::ZERO, 0.0), key(4.0, DVec3::ZERO, 3.0)]);
-    let right = spot.carrying(&Motion::still(DAffine3::from_translation(DVec3::new(0.0, -0.8, r))));
+    let right = spot.carrying(&Motion::constant(DAffine3::from_translation(DVec3::new(0.0, -0.8, r))));
     check(&right, &|t| 0.75 * 0.8 * t / r, 1e-12);
     let skids = linear(&[key(0.0, DVec3::ZERO, 0.0), key(4.0, DVec3::X * 40.0, 2.0)]);
     check(&skids, &|t| 10.0 / (r * 0.5) * crate::maths::f64::sin(0.5 * t), 1e-6);
     let parked = linear(&[key(1.0, DVec3::ZERO, 0.0), key(3.0, DVec3::X * 2.0, 0.0)]);
     check(&parked, &|t| (t - 1.0).clamp(0.0, 2.0) / r, 1e-12);
-    assert_eq!(Motion::still(DAffine3::IDENTITY).rolling(r), Err(RollingError::Still));
+    assert_eq!(Motion::constant(DAffine3::IDENTITY).rolling(r), Err(RollingError::Still));
 }
 
 /// Rates from which wheels are integrated, compared with finite differences of positions: a fourth-order formula with h = 0.1 ms, whose error is h⁴/30 of the
@@ -200,7 +200,7 @@ fn velocities_are_those_of_the_places() {
     let mut random = Random(77_000);
     for _ in 0..300 {
         let motion = Motion::from(random.track(true)).carrying(&random.track(true).into());
-        let moves = motion.moves_during().expect("it moves");
+        let moves = motion.motion_interval().expect("it moves");
         let time_s = moves.start_s() + moves.length_s() * random.unit();
         let h = 1e-4;
         let times_s = motion.times_s();

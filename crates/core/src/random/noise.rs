@@ -68,9 +68,9 @@ pub struct NoiseKey([u32; 2]);
 impl NoiseKey {
     /// Returns the key of a purpose.
     #[must_use]
-    pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, draw: NoiseDraw) -> Self {
+    pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, purpose: NoiseDraw) -> Self {
         let key = mix(mix(seed) ^ (u64::from(camera) | u64::from(frame) << 32));
-        let key = mix(key ^ (u64::from(capture) | u64::from(draw as u32) << 32));
+        let key = mix(key ^ (u64::from(capture) | u64::from(purpose as u32) << 32));
         Self([key as u32, (key >> 32) as u32])
     }
 
@@ -96,12 +96,12 @@ pub struct NoiseStream {
 impl NoiseStream {
     /// Returns the stream of one purpose for one pixel.
     #[must_use]
-    pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, pixel: Pixel, draw: NoiseDraw) -> Self {
-        NoiseKey::new(seed, camera, frame, capture, draw).stream(pixel)
+    pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, pixel: Pixel, purpose: NoiseDraw) -> Self {
+        NoiseKey::new(seed, camera, frame, capture, purpose).stream(pixel)
     }
 
     /// Returns the stream `number` of a 64-bit key, distinct from those of all pixels: no image has such a row.
-    fn of_key(key: u64, number: u32) -> Self {
+    fn from_key(key: u64, number: u32) -> Self {
         Self { key: [key as u32, (key >> 32) as u32], counter: [0, 0, number, u32::MAX], words: [0; 4], used: 4 }
     }
 
@@ -174,7 +174,7 @@ pub fn number_of_name(name: &str) -> f64 {
 /// Returns a stream of independent words that depends on a name, a seed and a number: for repeated independent variations.
 #[must_use]
 pub fn stream_of_name(seed: u64, name: &str, number: u32) -> NoiseStream {
-    NoiseStream::of_key(mix(mix(seed ^ 0x6a09_e667_f3bc_c908) ^ mix(hash(name))), number)
+    NoiseStream::from_key(mix(mix(seed ^ 0x6a09_e667_f3bc_c908) ^ mix(hash(name))), number)
 }
 
 #[cfg(test)]

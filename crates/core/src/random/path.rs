@@ -49,8 +49,8 @@ impl PathStream {
     /// Returns a number in [0, 1) for `draw`; `sub` distinguishes vertices and repetitions.
     #[inline]
     #[must_use]
-    pub fn one(&self, draw: Draw, sub: u32) -> f32 {
-        let key = self.draw_key(draw, sub);
+    pub fn one(&self, purpose: Draw, sub: u32) -> f32 {
+        let key = self.draw_key(purpose, sub);
         let index = shuffle_mirrored(self.mirrored, key as u32);
         unit_f32(scrambled_0(index, (key >> 32) as u32))
     }
@@ -58,16 +58,16 @@ impl PathStream {
     /// Returns a point of the unit square for `draw`. It shares numbers with [`PathStream::one`] of the same draw: each draw uses only one of the two.
     #[inline]
     #[must_use]
-    pub fn two(&self, draw: Draw, sub: u32) -> Vec2 {
-        let key = self.draw_key(draw, sub);
+    pub fn two(&self, purpose: Draw, sub: u32) -> Vec2 {
+        let key = self.draw_key(purpose, sub);
         let index = shuffle_mirrored(self.mirrored, key as u32);
         let (x, y) = scrambled_pair(index, (key >> 32) as u32, mix(key) as u32);
         Vec2::new(unit_f32(x), unit_f32(y))
     }
 
     #[inline]
-    fn draw_key(&self, draw: Draw, sub: u32) -> u64 {
-        mix(self.key ^ (u64::from(draw as u32) << 32 | u64::from(sub)).wrapping_mul(0xd6e8_feb8_6659_fd93))
+    fn draw_key(&self, purpose: Draw, sub: u32) -> u64 {
+        mix(self.key ^ (u64::from(purpose as u32) << 32 | u64::from(sub)).wrapping_mul(0xd6e8_feb8_6659_fd93))
     }
 }
 
@@ -88,9 +88,9 @@ mod tests {
     #[test]
     fn values_are_pinned() {
         let stream = PathStream::new(&address(), 11);
-        let got = [stream.one(Draw::Wavelength, 0), stream.one(Draw::Roulette, 4)].map(f32::to_bits);
+        let actual = [stream.one(Draw::Wavelength, 0), stream.one(Draw::Roulette, 4)].map(f32::to_bits);
         let pair = stream.two(Draw::Pupil, 0).to_array().map(f32::to_bits);
-        assert_eq!((address().key(), got, pair), PINNED, "a changed stream changes every picture: is it meant?");
+        assert_eq!((address().key(), actual, pair), PINNED, "a changed stream changes every picture: is it meant?");
     }
 
     const PINNED: (u64, [u32; 2], [u32; 2]) =

@@ -162,16 +162,16 @@ mod tests {
     fn scrambled_points_fill_every_elementary_interval() {
         for seed in [0, 1, 0xdead_beef, 77] {
             for (a, b) in [(4_u32, 4_u32), (8, 0), (0, 8), (2, 6), (5, 3)] {
-                let mut seen = [false; 256];
+                let mut is_used = [false; 256];
                 for i in 0..256 {
                     let index = shuffle_mirrored(u32::reverse_bits(i), seed ^ 0x55);
                     let (x, y) = scrambled_pair(index, seed, seed.wrapping_mul(31) ^ 0x1234_5678);
                     assert_eq!(x, scrambled_0(index, seed));
                     let column = if a == 0 { 0 } else { x >> (32 - a) };
                     let row = if b == 0 { 0 } else { y >> (32 - b) };
-                    seen[(column << b | row) as usize] = true;
+                    is_used[(column << b | row) as usize] = true;
                 }
-                assert!(seen.iter().all(|s| *s), "seed {seed}, 2^-{a} × 2^-{b}");
+                assert!(is_used.iter().all(|s| *s), "seed {seed}, 2^-{a} × 2^-{b}");
             }
         }
     }
@@ -212,9 +212,9 @@ mod tests {
     #[test]
     fn every_step_holds_one_number() {
         for count in [1, 2, 3, 12, 16, 48, 100, 1000, 1024] {
-            let mut seen = vec![0; count as usize];
-            numbers(3, count).iter().for_each(|u| seen[(u * f64::from(count)) as usize] += 1);
-            assert!(seen.iter().all(|n| *n == 1), "{count}");
+            let mut is_used = vec![0; count as usize];
+            numbers(3, count).iter().for_each(|u| is_used[(u * f64::from(count)) as usize] += 1);
+            assert!(is_used.iter().all(|n| *n == 1), "{count}");
         }
     }
 

@@ -8,13 +8,13 @@ use core::f64::consts::PI;
 
 use glam::{BVec3, DAffine3, DMat3, DVec3};
 
-use super::{Keyed, Kind, Track, span::Span};
+use super::{KeyedTrack, TrackState, Track, span::Span};
 use crate::TimeInterval;
 
 /// Tolerance for rounding, relative to the sum: at most some thirty operations of 1.1e-16 each.
 const ROUNDING: f64 = 1e-14;
 /// Smallest scale of a moving object, relative to its largest along the same axis. Smaller scales count as flattened.
-const FLAT: f64 = 1e-12;
+const MIN_SCALE_RATIO: f64 = 1e-12;
 
 impl Track {
     /// Returns the minimum and maximum coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of an interval,
@@ -39,13 +39,13 @@ impl Track {
     #[must_use]
     pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
         let (first, (low, high)) = match &self.0 {
-            Kind::Still(transform) => (None, (transform.translation, transform.translation)),
-            Kind::Moving(keyed) => (Some(&keyed.first), keyed.origin_over(interval)),
+            TrackState::Static(transform) => (None, (transform.translation, transform.translation)),
+            TrackState::Moving(keyed) => (Some(&keyed.first), keyed.origin_over(interval)),
         };
-        let inner = first.map_or(radius, |first| most_stretch(&first.matrix3) * radius + first.translation.length());
+        let inner = first.map_or(radius, |first| max_stretch(&first.matrix3) * radius + first.translation.length());
         let stretch = match &self.0 {
-            Kind::Still(transform) => most_stretch(&transform.matrix3),
-            Kind::Moving(keyed) => keyed.scales_over(interval).1.max_element(),
+            TrackState::Static(transform) => max_stretch(&transform.matrix3),
+            TrackState::Moving(keyed) => keyed.scales_over(interval).1.max_element(),
         };
         let reach = DVec3::splat(inner * stretch);
         let room = (low.abs().max(high.abs()) + reach) * ROUNDING;
@@ -56,13 +56,13 @@ impl Track {
     /// no transform is applied before.
     #[must_use]
     pub fn stretch_over(&self, interval: TimeInterval) -> (f64, f64) {
-        let of_matrix = |m: &DMat3| (1.0 / most_stretch(&m.inverse()), most_stretch(m));
+        let of_matrix = |m: &DMat3| (1.0 / max_stretch(&m.inverse()), max_stretch(m));
         match &self.0 {
-            Kind::Still(transform) => of_matrix(&transform.matrix3),
-            Kind::Moving(keyed) => {
-                let (least, most) = keyed.scales_over(interval);
+            TrackState::Static(transform) => of_matrix(&transform.matrix3),
+            TrackState::Moving(keyed) => {
+                let (minimum, maximum) = keyed.scales_over(interval);
                 let first = of_matrix(&keyed.first.matrix3);
-                (least.min_element() * first.0, most.max_element() * first.1)
+                (minimum.min_element() * first.0, maximum.max_element() * first.1)
             }
         }
     }
@@ -70,17 +70,17 @@ impl Track {
     /// Returns a bound, during an interval, of the largest coordinate in the moved frame of points in the box from `low` to `high` of the parent frame.
     #[must_use]
     pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
-        let ((origin_low, origin_high), least) = match &self.0 {
-            Kind::Still(transform) => {
-                ((transform.translation, transform.translation), 1.0 / most_stretch(&transform.matrix3.inverse()))
+        let ((origin_low, origin_high), minimum) = match &self.0 {
+            TrackState::Static(transform) => {
+                ((transform.translation, transform.translation), 1.0 / max_stretch(&transform.matrix3.inverse()))
             }
-            Kind::Moving(keyed) => (keyed.origin_over(interval), keyed.scales_over(interval).0.min_element()),
+            TrackState::Moving(keyed) => (keyed.origin_over(interval), keyed.scales_over(interval).0.min_element()),
         };
         let away = (high - origin_low).abs().max((origin_high - low).abs()).length();
-        let reach = away * (1.0 + ROUNDING) / least;
+        let reach = away * (1.0 + ROUNDING) / minimum;
         match &self.0 {
-            Kind::Still(_) => reach,
-            Kind::Moving(keyed) => {
+            TrackState::Static(_) => reach,
+            TrackState::Moving(keyed) => {
                 let back = keyed.first.inverse();
                 (back.translation.abs() + row_lengths(&back.matrix3) * reach).max_element()
             }
@@ -91,11 +91,11 @@ impl Track {
     #[must_use]
     pub fn turning_over(&self, interval: TimeInterval) -> f64 {
         let of_span = |(span, (u0, u1)): (&Span, (f64, f64))| {
-            if span.scale.is_constant() { span.turn.most_rates(u0, u1).0 * (u1 - u0) } else { PI }
+            if span.scale.is_constant() { span.turn.max_rates(u0, u1).0 * (u1 - u0) } else { PI }
         };
         match &self.0 {
-            Kind::Still(_) => 0.0,
-            Kind::Moving(keyed) => keyed.during(interval).map(of_span).sum::<f64>().min(PI),
+            TrackState::Static(_) => 0.0,
+            TrackState::Moving(keyed) => keyed.during(interval).map(of_span).sum::<f64>().min(PI),
         }
     }
 
@@ -103,8 +103,8 @@ impl Track {
     #[must_use]
     pub fn keeps_scale(&self) -> bool {
         match &self.0 {
-            Kind::Still(_) => true,
-            Kind::Moving(keyed) => keyed.spans.iter().all(|span| span.scale.is_constant()),
+            TrackState::Static(_) => true,
+            TrackState::Moving(keyed) => keyed.spans.iter().all(|span| span.scale.is_constant()),
         }
     }
 
@@ -112,28 +112,28 @@ impl Track {
     #[must_use]
     pub fn is_invertible(&self) -> bool {
         match &self.0 {
-            Kind::Still(transform) => has_inverse(transform),
-            Kind::Moving(keyed) => keyed.is_invertible(),
+            TrackState::Static(transform) => has_inverse(transform),
+            TrackState::Moving(keyed) => keyed.is_invertible(),
         }
     }
 
     fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
         match &self.0 {
-            Kind::Still(transform) => {
+            TrackState::Static(transform) => {
                 let moved = points.iter().map(|point| transform.transform_point3(*point));
                 let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
                 let (low, high) = moved.fold(none, |(low, high), p| (low.min(p), high.max(p)));
-                let room = most_of(transform, points) * ROUNDING;
+                let room = max_of(transform, points) * ROUNDING;
                 (low - room, high + room)
             }
-            Kind::Moving(keyed) => keyed.bounds_of_points(interval, points),
+            TrackState::Moving(keyed) => keyed.bounds_of_points(interval, points),
         }
     }
 }
 
-impl Keyed {
+impl KeyedTrack {
     fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
-        let most = most_of(&self.first, points);
+        let maximum = max_of(&self.first, points);
         let points: Vec<DVec3> = points.iter().map(|point| self.first.transform_point3(*point)).collect();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut room = DVec3::ZERO;
@@ -141,14 +141,14 @@ impl Keyed {
         let mut is_held = true;
         for (span, (u0, u1)) in self.during(interval) {
             span.each_box(&points, u0, u1, &mut hold);
-            room = room.max(span.magnitude(most));
+            room = room.max(span.magnitude(maximum));
             is_held = false;
         }
         if is_held {
             let pose = self.pose(interval.start_s());
             let transform = pose.transform();
             points.iter().map(|point| transform.transform_point3(*point)).for_each(|p| hold(p, p));
-            room = pose.position.abs() + DVec3::splat((pose.scale.abs() * most).length());
+            room = pose.position.abs() + DVec3::splat((pose.scale.abs() * maximum).length());
         }
         (low - room * ROUNDING, high + room * ROUNDING)
     }
@@ -174,12 +174,12 @@ impl Keyed {
 
     fn is_invertible(&self) -> bool {
         let ranges = self.spans.iter().map(|span| span.scale.range(0.0, 1.0));
-        let whole = ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let Some((low, high)) = whole else { return false };
-        let (least, most) = magnitudes(low, high);
+        let range = ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((low, high)) = range else { return false };
+        let (minimum, maximum) = magnitudes(low, high);
         let keeps_sides = (low.cmpgt(DVec3::ZERO) | high.cmplt(DVec3::ZERO)).all();
-        let ends = [least, most].map(|scale| DAffine3::from_scale(scale) * self.first);
-        keeps_sides && least.cmpgt(most * FLAT).all() && ends.iter().all(has_inverse)
+        let ends = [minimum, maximum].map(|scale| DAffine3::from_scale(scale) * self.first);
+        keeps_sides && minimum.cmpgt(maximum * MIN_SCALE_RATIO).all() && ends.iter().all(has_inverse)
     }
 }
 
@@ -193,7 +193,7 @@ fn has_inverse(transform: &DAffine3) -> bool {
 }
 
 /// Bound of the largest factor by which a matrix changes lengths: the smaller of two upper norms.
-pub(super) fn most_stretch(m: &DMat3) -> f64 {
+pub(super) fn max_stretch(m: &DMat3) -> f64 {
     let sums =
         |m: &DMat3| [m.x_axis, m.y_axis, m.z_axis].map(|c| c.abs().element_sum()).into_iter().fold(0.0, f64::max);
     let squares: f64 = m.to_cols_array().iter().map(|x| x * x).sum();
@@ -206,9 +206,9 @@ fn row_lengths(m: &DMat3) -> DVec3 {
 }
 
 /// Bounds, by axis, of the terms that are summed when `points` are transformed.
-fn most_of(transform: &DAffine3, points: &[DVec3]) -> DVec3 {
-    let most = points.iter().fold(DVec3::ZERO, |most, point| most.max(point.abs()));
+fn max_of(transform: &DAffine3, points: &[DVec3]) -> DVec3 {
+    let maximum = points.iter().fold(DVec3::ZERO, |maximum, point| maximum.max(point.abs()));
     let m = &transform.matrix3;
     let rows = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
-    rows * most + transform.translation.abs()
+    rows * maximum + transform.translation.abs()
 }

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Keyed, Kind, Track, bounds::most_stretch, span::Span};
+use super::{KeyedTrack, TrackState, Track, bounds::max_stretch, span::Span};
 
 /// Transform and its time derivative.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub(crate) struct Moving {
 
 impl Moving {
     /// Returns a constant transform.
-    pub(crate) fn still(at: DAffine3) -> Self {
+    pub(crate) fn constant(at: DAffine3) -> Self {
         Self { at, turning: DMat3::ZERO, velocity: DVec3::ZERO }
     }
 
@@ -33,16 +33,16 @@ impl Moving {
 /// Bounds of a point's motion: its distance from the frame's origin, m, and the magnitudes of its velocity, m/s, and its
 /// acceleration, m/s².
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Bend {
+pub(crate) struct CurvatureBounds {
     pub(crate) distance: f64,
     pub(crate) speed: f64,
     pub(crate) acceleration: f64,
 }
 
-impl Bend {
+impl CurvatureBounds {
     /// Returns the bounds seen through a transform, by the product rule. `matrix` bounds the norms of its matrix and of its first and second derivative;
     /// `place` does the same for its translation.
-    fn through(&self, matrix: [f64; 3], place: [f64; 3]) -> Self {
+    fn composed_with(&self, matrix: [f64; 3], place: [f64; 3]) -> Self {
         Self {
             distance: matrix[0] * self.distance + place[0],
             speed: matrix[1] * self.distance + matrix[0] * self.speed + place[1],
@@ -54,7 +54,7 @@ impl Bend {
     }
 
     fn moved(&self, transform: &DAffine3) -> Self {
-        self.through([most_stretch(&transform.matrix3), 0.0, 0.0], [transform.translation.length(), 0.0, 0.0])
+        self.composed_with([max_stretch(&transform.matrix3), 0.0, 0.0], [transform.translation.length(), 0.0, 0.0])
     }
 }
 
@@ -62,30 +62,30 @@ impl Track {
     /// Times of the keys, s; none if the track is constant.
     pub(crate) fn times_s(&self) -> &[f64] {
         match &self.0 {
-            Kind::Still(_) => &[],
-            Kind::Moving(keyed) => &keyed.times_s,
+            TrackState::Static(_) => &[],
+            TrackState::Moving(keyed) => &keyed.times_s,
         }
     }
 
     /// Returns the transform at `time_s` and its rate of change there, for the span that contains `within_s`: velocities may jump at a key.
     pub(crate) fn moving_at(&self, time_s: f64, within_s: f64) -> Moving {
         match &self.0 {
-            Kind::Still(transform) => Moving::still(*transform),
-            Kind::Moving(keyed) => match keyed.span_at(within_s) {
+            TrackState::Static(transform) => Moving::constant(*transform),
+            TrackState::Moving(keyed) => match keyed.span_at(within_s) {
                 Some(span) => keyed.moving_in(span, time_s),
-                None => Moving::still(keyed.at(time_s)),
+                None => Moving::constant(keyed.at(time_s)),
             },
         }
     }
 
     /// Returns bounds from `start_s` to `end_s`, without a key between them, for a point whose motion in the moved frame has the bounds `inner`.
-    pub(crate) fn bend(&self, start_s: f64, end_s: f64, inner: &Bend) -> Bend {
+    pub(crate) fn curvature_bounds(&self, start_s: f64, end_s: f64, inner: &CurvatureBounds) -> CurvatureBounds {
         match &self.0 {
-            Kind::Still(transform) => inner.moved(transform),
-            Kind::Moving(keyed) => {
+            TrackState::Static(transform) => inner.moved(transform),
+            TrackState::Moving(keyed) => {
                 let inner = inner.moved(&keyed.first);
                 match keyed.part_of(start_s, end_s) {
-                    Some((span, (u0, u1), length_s)) => span.bend(u0, u1, length_s, &inner),
+                    Some((span, (u0, u1), length_s)) => span.curvature_bounds(u0, u1, length_s, &inner),
                     None => inner.moved(&keyed.pose(start_s).transform()),
                 }
             }
@@ -94,14 +94,14 @@ impl Track {
 
     /// Returns a bound of the rotation rate, rad/s, from `start_s` to `end_s`, without a key between them.
     pub(crate) fn turning_rate(&self, start_s: f64, end_s: f64) -> f64 {
-        let Kind::Moving(keyed) = &self.0 else { return 0.0 };
+        let TrackState::Moving(keyed) = &self.0 else { return 0.0 };
         keyed
             .part_of(start_s, end_s)
-            .map_or(0.0, |(span, (u0, u1), length_s)| span.turn.most_rates(u0, u1).0 / length_s)
+            .map_or(0.0, |(span, (u0, u1), length_s)| span.turn.max_rates(u0, u1).0 / length_s)
     }
 }
 
-impl Keyed {
+impl KeyedTrack {
     /// Returns the span that contains a time.
     fn span_at(&self, time_s: f64) -> Option<usize> {
         let passed = self.times_s.partition_point(|key_s| *key_s <= time_s);
@@ -127,29 +127,29 @@ impl Keyed {
             turning: (turning + growing) * (1.0 / length_s),
             velocity: span.position.slope(u) / length_s,
         };
-        keyed.carrying(&Moving::still(self.first))
+        keyed.carrying(&Moving::constant(self.first))
     }
 }
 
 impl Span {
     /// Bounds from u0 to u1 of a span of `length_s` seconds. With R the rotation and S the scale, |d(R S)/du| ≤ |Ṙ| |S| + |Ṡ| and
     /// |d²(R S)/du²| ≤ |R̈| |S| + 2 |Ṙ| |Ṡ| + |S̈|.
-    fn bend(&self, u0: f64, u1: f64, length_s: f64, inner: &Bend) -> Bend {
-        let most = |range: (DVec3, DVec3)| range.0.abs().max(range.1.abs());
-        let (rate, second) = self.turn.most_rates(u0, u1);
+    fn curvature_bounds(&self, u0: f64, u1: f64, length_s: f64, inner: &CurvatureBounds) -> CurvatureBounds {
+        let maximum = |range: (DVec3, DVec3)| range.0.abs().max(range.1.abs());
+        let (rate, second) = self.turn.max_rates(u0, u1);
         let scale = [
-            most(self.scale.range(u0, u1)).max_element(),
-            self.scale.most_slope(u0, u1).max_element(),
-            self.scale.most_curvature(u0, u1).max_element(),
+            maximum(self.scale.range(u0, u1)).max_element(),
+            self.scale.max_slope(u0, u1).max_element(),
+            self.scale.max_curvature(u0, u1).max_element(),
         ];
         let matrix = [scale[0], rate * scale[0] + scale[1], second * scale[0] + 2.0 * rate * scale[1] + scale[2]];
         let place = [
-            most(self.position.range(u0, u1)).length(),
-            self.position.most_slope(u0, u1).length(),
-            self.position.most_curvature(u0, u1).length(),
+            maximum(self.position.range(u0, u1)).length(),
+            self.position.max_slope(u0, u1).length(),
+            self.position.max_curvature(u0, u1).length(),
         ];
         let by_time = |[own, first, second]: [f64; 3]| [own, first / length_s, second / (length_s * length_s)];
-        inner.through(by_time(matrix), by_time(place))
+        inner.composed_with(by_time(matrix), by_time(place))
     }
 }
 

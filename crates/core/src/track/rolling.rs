@@ -12,12 +12,12 @@ use glam::{DAffine3, DVec3};
 
 use super::span::{Cubic, Pose, Span};
 use super::turn::{Turn, rolled};
-use super::{Keyed, Kind, Track};
+use super::{KeyedTrack, TrackState, Track};
 
 /// Maximum error of φ at the quarters of a polynomial, rad.
 const TOLERANCE_RAD: f64 = 1e-6;
 /// Maximum number of polynomials of equal length between two keys; beyond it they are halved where needed.
-const MOST: u32 = 4096;
+const MAX_UNIFORM_PIECES: u32 = 4096;
 /// Largest angle that can be followed, rad. The tolerance requires ten thousands of polynomials there. At an angle of 1e16 rad rounding is 1 rad, and no number
 /// of polynomials would meet the tolerance.
 const MAX_TURN_RAD: f64 = 1e12;
@@ -55,11 +55,11 @@ impl Track {
             check_turn(angle)?;
         }
         if spans.iter().all(Span::is_constant) {
-            return Ok(Self::still(DAffine3::IDENTITY));
+            return Ok(Self::constant(DAffine3::IDENTITY));
         }
         knots_s.extend(times_s.last());
         let last = Pose { position: DVec3::ZERO, rotation: rolled(angle), scale: DVec3::ONE };
-        Ok(Self(Kind::Moving(Arc::new(Keyed { times_s: knots_s, spans, last, first: DAffine3::IDENTITY }))))
+        Ok(Self(TrackState::Moving(Arc::new(KeyedTrack { times_s: knots_s, spans, last, first: DAffine3::IDENTITY }))))
     }
 }
 
@@ -72,7 +72,7 @@ fn check_turn(turned_rad: f64) -> Result<(), RollingError> {
 }
 
 /// Refuses pieces whose summed angles, to and fro, are too large.
-fn check_pieces(pieces: &[Piece]) -> Result<(), RollingError> {
+fn check_pieces(pieces: &[RollingPiece]) -> Result<(), RollingError> {
     check_turn(pieces.iter().map(|piece| piece.turns.abs()).sum())
 }
 
@@ -82,7 +82,7 @@ fn turning(angle: [f64; 4]) -> Span {
 }
 
 /// Rotation during a time.
-struct Piece {
+struct RollingPiece {
     start_s: f64,
     /// Total angle, rad.
     turns: f64,
@@ -92,7 +92,7 @@ struct Piece {
     quarters: [f64; 2],
 }
 
-impl Piece {
+impl RollingPiece {
     fn new(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Self {
         let length_s = end_s - start_s;
         let at = |u: f64| start_s + u * length_s;
@@ -121,42 +121,42 @@ impl Piece {
 }
 
 /// Returns the smallest number of pieces of equal length that meets the tolerance. If that is too large, only the pieces that miss it are halved.
-fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
-    let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
-    check_pieces(&made)?;
-    while !made.iter().all(Piece::is_met) {
-        let count = 2 * made.len() as u32;
+fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<RollingPiece>, RollingError> {
+    let mut finished = vec![RollingPiece::new(start_s, end_s, rate_rad_s)];
+    check_pieces(&finished)?;
+    while !finished.iter().all(RollingPiece::is_met) {
+        let count = 2 * finished.len() as u32;
         let end_of = |i: u32| start_s + (end_s - start_s) * (f64::from(i) / f64::from(count));
         let ends_s: Vec<f64> = (0..count).map(end_of).chain([end_s]).collect();
-        if count > MOST || ends_s.windows(2).any(|pair| pair[0] >= pair[1]) {
-            return halved(made, end_s, rate_rad_s);
+        if count > MAX_UNIFORM_PIECES || ends_s.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return halved(finished, end_s, rate_rad_s);
         }
-        made = ends_s.windows(2).map(|pair| Piece::new(pair[0], pair[1], rate_rad_s)).collect();
-        check_pieces(&made)?;
+        finished = ends_s.windows(2).map(|pair| RollingPiece::new(pair[0], pair[1], rate_rad_s)).collect();
+        check_pieces(&finished)?;
     }
-    Ok(made)
+    Ok(finished)
 }
 
 /// Halves the pieces that miss the tolerance, as long as the times of their ends can be distinguished.
-fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
+fn halved(pieces: Vec<RollingPiece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<RollingPiece>, RollingError> {
     let mut ends_s: Vec<f64> = pieces.iter().skip(1).map(|piece| piece.start_s).chain([end_s]).collect();
     ends_s.reverse();
-    let (mut waiting, mut made) = (pieces, Vec::new());
+    let (mut waiting, mut finished) = (pieces, Vec::new());
     waiting.reverse();
     while let Some((piece, end_s)) = waiting.pop().zip(ends_s.pop()) {
-        if made.len() + waiting.len() >= MAX_PIECES {
-            let turned_rad = made.iter().chain(&waiting).map(|piece| piece.turns.abs()).sum();
+        if finished.len() + waiting.len() >= MAX_PIECES {
+            let turned_rad = finished.iter().chain(&waiting).map(|piece| piece.turns.abs()).sum();
             return Err(RollingError::TooFar { turned_rad });
         }
         let middle_s = piece.start_s + 0.5 * (end_s - piece.start_s);
         if piece.is_met() || middle_s <= piece.start_s || middle_s >= end_s {
-            made.push(piece);
+            finished.push(piece);
             continue;
         }
-        waiting.extend([Piece::new(middle_s, end_s, rate_rad_s), Piece::new(piece.start_s, middle_s, rate_rad_s)]);
+        waiting.extend([RollingPiece::new(middle_s, end_s, rate_rad_s), RollingPiece::new(piece.start_s, middle_s, rate_rad_s)]);
         ends_s.extend([end_s, middle_s]);
     }
-    Ok(made)
+    Ok(finished)
 }
 
 /// Integral from `a` to `b` by five points: exact for polynomials of degree nine.
@@ -181,11 +181,11 @@ mod tests {
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
         let turns_of_pieces = pieces(0.0, 1.0, &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
         assert!(
-            turns_of_pieces.len() > MOST as usize && turns_of_pieces.len() < 2 * MOST as usize,
+            turns_of_pieces.len() > MAX_UNIFORM_PIECES as usize && turns_of_pieces.len() < 2 * MAX_UNIFORM_PIECES as usize,
             "{}",
             turns_of_pieces.len()
         );
-        assert!(turns_of_pieces.iter().all(Piece::is_met));
+        assert!(turns_of_pieces.iter().all(RollingPiece::is_met));
         assert!(turns_of_pieces.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
         let turned: f64 = turns_of_pieces.iter().map(|piece| piece.turns).sum();
         // Rounding of some 7 000 sums of up to 2·10¹⁰ rad, half of 4·10⁻⁶ each.
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
         let turn = |amplitude: f64| pieces(0.0, 1.0, &|time_s| amplitude * time_s * (1.0 - time_s));
-        assert!(turn(5.9e12).is_ok_and(|found| found.len() <= MAX_PIECES));
+        assert!(turn(5.9e12).is_ok_and(|pieces| pieces.len() <= MAX_PIECES));
         for amplitude in [1e14, 1e30, 1e300, f64::INFINITY, f64::NAN] {
             assert!(matches!(turn(amplitude), Err(RollingError::TooFar { .. })), "{amplitude}");
         }

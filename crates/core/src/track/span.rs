@@ -56,7 +56,7 @@ impl Span {
             let after = self.at(to).transform();
             for point in points {
                 let (a, b) = (before.transform_point3(*point), after.transform_point3(*point));
-                let stray = self.stray(*point, from, to);
+                let stray = self.chord_deviation(*point, from, to);
                 hold(a.min(b) - stray, a.max(b) + stray);
             }
             before = after;
@@ -64,8 +64,8 @@ impl Span {
     }
 
     /// Bounds, by axis, of the terms that are summed for the images of points with coordinates up to `most`.
-    pub(super) fn magnitude(&self, most: DVec3) -> DVec3 {
-        self.position.magnitude() + DVec3::splat((self.scale.magnitude() * most).length())
+    pub(super) fn magnitude(&self, maximum: DVec3) -> DVec3 {
+        self.position.magnitude() + DVec3::splat((self.scale.magnitude() * maximum).length())
     }
 
     /// Maximum deviation, by axis, of a point's path from the chord between its places at u0 and u1. A component deviates from linear interpolation over a step
@@ -73,24 +73,24 @@ impl Span {
     ///
     /// The point is p = T + R y with y = S q: |p̈| ≤ |T̈| + |R̈ y| + 2 |Ṙ ẏ| + |ÿ|. For a uniform rotation about the axis n by ω per u,
     /// |Ṙ y| = ω |n × y| and |R̈ y| = ω² |n × y|, and as y is linear in u there, |n × y| is greatest at an end.
-    fn stray(&self, q: DVec3, u0: f64, u1: f64) -> DVec3 {
+    fn chord_deviation(&self, q: DVec3, u0: f64, u1: f64) -> DVec3 {
         let bend = match self.turn {
             Turn::Even { vector, .. } if self.scale.is_straight() => {
                 let across = |y: DVec3| vector.cross(y).length();
-                let most = across(self.scale.at(u0) * q).max(across(self.scale.at(u1) * q));
-                vector.length() * most + 2.0 * across(self.scale.slope(u0) * q)
+                let maximum = across(self.scale.at(u0) * q).max(across(self.scale.at(u1) * q));
+                vector.length() * maximum + 2.0 * across(self.scale.slope(u0) * q)
             }
             _ => {
                 let (low, high) = self.scale.range(u0, u1);
-                let (rate, second) = self.turn.most_rates(u0, u1);
-                let length = |most: DVec3| (most * q).length();
+                let (rate, second) = self.turn.max_rates(u0, u1);
+                let length = |maximum: DVec3| (maximum * q).length();
                 second * length(low.abs().max(high.abs()))
-                    + 2.0 * rate * length(self.scale.most_slope(u0, u1))
-                    + length(self.scale.most_curvature(u0, u1))
+                    + 2.0 * rate * length(self.scale.max_slope(u0, u1))
+                    + length(self.scale.max_curvature(u0, u1))
             }
         };
         let step = u1 - u0;
-        (self.position.most_curvature(u0, u1) + DVec3::splat(bend)) * (step * step / 8.0)
+        (self.position.max_curvature(u0, u1) + DVec3::splat(bend)) * (step * step / 8.0)
     }
 }
 
@@ -106,11 +106,11 @@ impl Cubic {
 
     /// Returns the Hermite curve from `start` to `end` with the derivatives `leaves` at u = 0 and `arrives` at u = 1.
     pub(super) fn hermite(start: DVec3, end: DVec3, leaves: DVec3, arrives: DVec3) -> Self {
-        let way = end - start;
-        if leaves == way && arrives == way {
+        let displacement = end - start;
+        if leaves == displacement && arrives == displacement {
             return Self::straight(start, end);
         }
-        Self([start, leaves, way * 3.0 - leaves * 2.0 - arrives, leaves + arrives - way * 2.0])
+        Self([start, leaves, displacement * 3.0 - leaves * 2.0 - arrives, leaves + arrives - displacement * 2.0])
     }
 
     pub(super) fn at(&self, u: f64) -> DVec3 {
@@ -143,13 +143,13 @@ impl Cubic {
     }
 
     /// Maximum magnitude of the second derivative within [u0, u1], by axis: it is linear.
-    pub(super) fn most_curvature(&self, u0: f64, u1: f64) -> DVec3 {
+    pub(super) fn max_curvature(&self, u0: f64, u1: f64) -> DVec3 {
         self.second(u0).abs().max(self.second(u1).abs())
     }
 
     /// Bounds of the magnitude of the first derivative, by axis: no place is farther than half the length from an end.
-    pub(super) fn most_slope(&self, u0: f64, u1: f64) -> DVec3 {
-        self.slope(u0).abs().max(self.slope(u1).abs()) + self.most_curvature(u0, u1) * (0.5 * (u1 - u0))
+    pub(super) fn max_slope(&self, u0: f64, u1: f64) -> DVec3 {
+        self.slope(u0).abs().max(self.slope(u1).abs()) + self.max_curvature(u0, u1) * (0.5 * (u1 - u0))
     }
 
     /// Minimum and maximum values within [u0, u1], by axis: at an end or at a zero of the derivative.
@@ -198,8 +198,8 @@ mod tests {
         let cubic =
             Cubic([DVec3::ZERO, DVec3::new(1.0, -1.0, 2.0), DVec3::new(-1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)]);
         let (low, high) = cubic.range(0.0, 1.0);
-        let least = -2.0 / (3.0 * 3.0_f64.sqrt());
-        assert!((low - DVec3::new(0.0, least, 0.0)).length() < 1e-15, "{low}");
+        let minimum = -2.0 / (3.0 * 3.0_f64.sqrt());
+        assert!((low - DVec3::new(0.0, minimum, 0.0)).length() < 1e-15, "{low}");
         assert!((high - DVec3::new(0.25, 0.0, 2.0)).length() < 1e-15, "{high}");
         let (low, high) = cubic.range(0.75, 1.0);
         assert_eq!((low.x, high.x, low.y), (0.0, 0.1875, 0.75 * 0.75 * 0.75 - 0.75));

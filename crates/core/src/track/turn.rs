@@ -94,7 +94,7 @@ impl Turn {
     ///
     /// With R = R₀ A₁ A₂ A₃, Aᵢ = exp(βᵢ (ωᵢ×)): Ȧᵢ = β̇ᵢ Aᵢ (ωᵢ×) has the norm aᵢ = |β̇ᵢ| |ωᵢ|, and Äᵢ one of at most aᵢ² + |β̈ᵢ| |ωᵢ|. The product rule gives
     /// |Ṙ| ≤ Σ aᵢ and |R̈| ≤ (Σ aᵢ)² + Σ |β̈ᵢ| |ωᵢ|.
-    pub(super) fn most_rates(&self, u0: f64, u1: f64) -> (f64, f64) {
+    pub(super) fn max_rates(&self, u0: f64, u1: f64) -> (f64, f64) {
         match self {
             Self::Even { vector, .. } => (vector.length(), vector.length_squared()),
             Self::Smooth { vectors, .. } => {

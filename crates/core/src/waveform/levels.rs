@@ -22,7 +22,7 @@ impl Piece {
         0.5 * (self.at(from_s) + self.at(to_s)) * (to_s - from_s)
     }
 
-    fn greatest(&self, from_s: f64, to_s: f64) -> f64 {
+    fn max_over(&self, from_s: f64, to_s: f64) -> f64 {
         self.at(from_s).max(self.at(to_s))
     }
 }
@@ -44,12 +44,12 @@ pub(super) struct Levels {
 
 impl Levels {
     /// Returns the segments of a period, from `start_s` on, repeated.
-    pub(super) fn recurring(start_s: f64, pieces: &[Piece], period_s: f64) -> Self {
+    pub(super) fn periodic(start_s: f64, pieces: &[Piece], period_s: f64) -> Self {
         Self::new(start_s, pieces, Some(period_s))
     }
 
     /// Returns segments from `start_s` on, once: the first one's level holds before them, the level `last` after them.
-    pub(super) fn once(start_s: f64, pieces: &[Piece], last: f64) -> Self {
+    pub(super) fn one_shot(start_s: f64, pieces: &[Piece], last: f64) -> Self {
         let held = Piece { length_s: f64::INFINITY, from: last, to: last };
         Self::new(start_s, &[pieces, &[held]].concat(), None)
     }
@@ -126,29 +126,29 @@ impl Levels {
         self.period_s
     }
 
-    pub(super) fn greatest_level(&self) -> f64 {
+    pub(super) fn max_level(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.from.max(piece.to)).fold(0.0, f64::max)
     }
 
-    pub(super) fn greatest(&self, over: TimeInterval) -> f64 {
+    pub(super) fn max_over(&self, over: TimeInterval) -> f64 {
         let from_s = self.local(over.start_s());
         let to_s = from_s + over.length_s();
         match self.period_s {
-            Some(period_s) if over.length_s() >= period_s => self.greatest_level(),
+            Some(period_s) if over.length_s() >= period_s => self.max_level(),
             Some(period_s) if to_s >= period_s => {
-                self.greatest_inside(from_s, period_s).max(self.greatest_inside(0.0, to_s - period_s))
+                self.max_inside(from_s, period_s).max(self.max_inside(0.0, to_s - period_s))
             }
-            _ => self.greatest_inside(from_s, to_s),
+            _ => self.max_inside(from_s, to_s),
         }
     }
 
-    fn greatest_inside(&self, from_s: f64, to_s: f64) -> f64 {
+    fn max_inside(&self, from_s: f64, to_s: f64) -> f64 {
         let ((first, from_s), (last, to_s)) = (self.find(from_s), self.find(to_s));
         if first == last {
-            return self.pieces[first].greatest(from_s, to_s);
+            return self.pieces[first].max_over(from_s, to_s);
         }
         let between = self.pieces[first + 1..last].iter().map(|piece| piece.from.max(piece.to)).fold(0.0, f64::max);
-        let first = self.pieces[first].greatest(from_s, self.pieces[first].length_s);
-        first.max(between).max(self.pieces[last].greatest(0.0, to_s))
+        let first = self.pieces[first].max_over(from_s, self.pieces[first].length_s);
+        first.max(between).max(self.pieces[last].max_over(0.0, to_s))
     }
 }

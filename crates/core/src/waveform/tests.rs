@@ -34,9 +34,9 @@ fn the_flicker_of_pulses_is_that_of_the_closed_form() {
         (90.0, 0.3, 15e-3, 1.0 / 3.0),
         (100.0, 0.5, 10e-3, 0.0),
     ] {
-        let found = flicker_index(&pwm(frequency_hz, duty), 1.0 / frequency_hz, exposure_s);
+        let actual = flicker_index(&pwm(frequency_hz, duty), 1.0 / frequency_hz, exposure_s);
         // The extremes lie between 20 000 phases: the error is 1/20 000 of the duty, in both.
-        assert!((found - expected).abs() < 1e-3, "{frequency_hz} Hz, {duty}, {exposure_s} s: {found} {expected}");
+        assert!((actual - expected).abs() < 1e-3, "{frequency_hz} Hz, {duty}, {exposure_s} s: {actual} {expected}");
     }
 }
 
@@ -46,9 +46,9 @@ fn an_exposure_damps_mains_light_by_the_sinc() {
         let x = PI * 100.0 * exposure_s;
         let expected = 0.4 * (sin(x) / x).abs();
         let waveform = Waveform::mains(50.0, 0.4).expect("legal");
-        let found = flicker_index(&waveform, 0.01, exposure_s);
+        let actual = flicker_index(&waveform, 0.01, exposure_s);
         // The peak of a cosine lies between 20 000 phases: 1.2e-8 of it.
-        assert!((found - expected).abs() < 1e-7, "{exposure_s}: {found} {expected}");
+        assert!((actual - expected).abs() < 1e-7, "{exposure_s}: {actual} {expected}");
     }
 }
 
@@ -82,11 +82,11 @@ fn random_waveforms(seed: u64) -> Vec<Waveform> {
     let all = [
         Waveform::pulses(&Pulses { frequency_hz, duty, edges_s, peak: 2.0 }),
         Waveform::mains(frequency_hz, next()),
-        table(Between::Linear, None),
-        table(Between::Steps, None),
-        table(Between::Linear, Some(length_s + next())),
-        table(Between::Linear, Some(length_s)),
-        table(Between::Steps, Some(length_s + 0.1 + next())),
+        table(TableInterpolation::Linear, None),
+        table(TableInterpolation::Steps, None),
+        table(TableInterpolation::Linear, Some(length_s + next())),
+        table(TableInterpolation::Linear, Some(length_s)),
+        table(TableInterpolation::Steps, Some(length_s + 0.1 + next())),
         Waveform::programme(&steps, true),
         Waveform::programme(&steps, false),
     ];
@@ -117,27 +117,27 @@ fn means_and_greatest_levels_are_those_of_the_moments() {
                 let (mean, sum) = (waveform.mean(over), summed(&waveform, over, steps));
                 assert!((mean - sum).abs() <= allowed, "{mean} {sum}: {waveform:?} {over:?}");
                 let moment = |i: u32| over.start_s() + over.length_s() * f64::from(i) / f64::from(steps);
-                let greatest = (0..=steps).map(|i| waveform.at(moment(i))).fold(0.0, f64::max);
-                let told = waveform.greatest(over);
-                assert!(told >= greatest * (1.0 - 1e-12) && told <= waveform.greatest_level() * (1.0 + 1e-15));
+                let maximum = (0..=steps).map(|i| waveform.at(moment(i))).fold(0.0, f64::max);
+                let reported = waveform.max_over(over);
+                assert!(reported >= maximum * (1.0 - 1e-12) && reported <= waveform.max_level() * (1.0 + 1e-15));
                 // The steepest straight line falls from its top by 60 levels in 0.01 s. Edges of pulses fall by 2 in as short a time as is sampled.
-                let is_reached = told <= greatest + 6000.0 * length_s / f64::from(steps) + 1e-9;
-                assert!(is_reached, "{told} {greatest}: {waveform:?} {over:?}");
+                let is_reached = reported <= maximum + 6000.0 * length_s / f64::from(steps) + 1e-9;
+                assert!(is_reached, "{reported} {maximum}: {waveform:?} {over:?}");
             }
         }
     }
 }
 
 #[test]
-fn what_recurs_is_the_same_after_whole_periods_and_its_mean_is_told() {
+fn what_recurs_is_the_same_after_whole_periods_and_its_mean_is_reported() {
     for seed in 0..40 {
         for waveform in random_waveforms(seed) {
             let Some(period_s) = waveform.period_s() else {
                 assert!(waveform.mean_level().is_none());
                 continue;
             };
-            let whole = waveform.mean(over(0.37, 5.0 * period_s));
-            assert!((whole - waveform.mean_level().expect("recurs")).abs() < 1e-12);
+            let mean_level = waveform.mean(over(0.37, 5.0 * period_s));
+            assert!((mean_level - waveform.mean_level().expect("recurs")).abs() < 1e-12);
             for part in [0.0, 0.31, 0.77] {
                 let interval = over(period_s * part, 0.21 * period_s);
                 let later = waveform.mean(interval.later(7.0 * period_s));
@@ -185,8 +185,8 @@ fn a_programme_steps_at_its_durations_and_a_table_holds_its_ends() {
     );
     assert_eq!([-9.0, 1.0, 21.5, 24.5, 1e9].map(|t| once.at(t)), [1.0, 1.0, 0.0, 0.5, 0.5]);
     assert_eq!(again.mean(over(20.0, 3.0)), 0.0);
-    assert_eq!(again.greatest(over(20.5, 2.0)), 0.0);
-    let ramp = Waveform::table(&[(1.0, 0.0), (3.0, 4.0)], Between::Linear, None).expect("legal");
+    assert_eq!(again.max_over(over(20.5, 2.0)), 0.0);
+    let ramp = Waveform::table(&[(1.0, 0.0), (3.0, 4.0)], TableInterpolation::Linear, None).expect("legal");
     assert_eq!([0.0, 1.0, 2.5, 9.0].map(|t| ramp.at(t)), [0.0, 0.0, 3.0, 4.0]);
     assert_eq!(ramp.mean(over(0.0, 4.0)), 2.0);
     assert_eq!(ramp.mean(over(-7.0, 1.0)), 0.0);
@@ -218,13 +218,13 @@ fn what_is_no_waveform_is_refused() {
     assert!(bad.iter().all(|pulses| Waveform::pulses(pulses).is_err()));
     assert_eq!(Waveform::mains(50.0, 1.1), Err(WaveformError::Depth { depth: 1.1 }));
     let table = |rows: &[(f64, f64)], between, period_s| Waveform::table(rows, between, period_s).err();
-    let linear = Between::Linear;
+    let linear = TableInterpolation::Linear;
     assert_eq!(table(&[], linear, None), Some(WaveformError::Empty));
     assert_eq!(table(&[(0.0, 0.0)], linear, None), Some(WaveformError::Dark));
     assert!(matches!(table(&[(0.0, 1.0), (0.0, 2.0)], linear, None), Some(WaveformError::Unordered { .. })));
     assert!(matches!(table(&[(f64::NAN, 1.0)], linear, None), Some(WaveformError::Unordered { .. })));
     assert!(matches!(table(&[(0.0, 1.0), (1.0, -2.0)], linear, None), Some(WaveformError::Level { .. })));
     let rows = [(0.0, 1.0), (1.0, 2.0)];
-    assert!(table(&rows, linear, Some(1.0)).is_none() && table(&rows, Between::Steps, Some(1.0)).is_some());
+    assert!(table(&rows, linear, Some(1.0)).is_none() && table(&rows, TableInterpolation::Steps, Some(1.0)).is_some());
     assert!(Waveform::programme(&[(0.0, 1.0)], true).is_err() && Waveform::programme(&[(1.0, 0.0)], true).is_err());
 }

@@ -20,25 +20,25 @@ use etendue_io::png::{encode_depth16, encode_grey8, stored_depth};
 use glam::{DMat3, DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use crate::record::{ObjectRecord, PictureRecord, SampleRecord};
-use crate::records::{Records, Writer, write};
-use crate::{draw::Split, picture::Picture, set::Set};
+use crate::record::{ObjectRecord, ImageRecord, SampleRecord};
+use crate::records::{Records, FormatWriter, write};
+use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Bop {
     depth_unit_mm: f64,
     /// `scene_gt_info` of the current sample, by camera and frame.
     counted: RefCell<BTreeMap<(String, u32), Vec<Value>>>,
     /// Models of the complete samples and of those rendered since; `None` before the first of a run.
-    models: RefCell<Option<Models>>,
+    models: RefCell<Option<ObjectModels>>,
 }
 
 /// Names and sizes of objects, mm, by identity.
 #[derive(Default)]
-struct Models(BTreeMap<u32, (String, DVec3)>);
+struct ObjectModels(BTreeMap<u32, (String, DVec3)>);
 
-impl Models {
+impl ObjectModels {
     /// Models of all records except one, whose sample is rendered again.
-    fn of(records: &Records, without: Option<u32>) -> Result<Self, Error> {
+    fn new(records: &Records, without: Option<u32>) -> Result<Self, Error> {
         let mut models = Self::default();
         for record in records.each() {
             let record = record.map_err(Error::run)?;
@@ -63,7 +63,7 @@ impl Models {
 }
 
 impl Bop {
-    pub(super) fn of(set: &Set) -> Self {
+    pub(super) fn new(set: &Set) -> Self {
         let unit = set.variations.as_ref().and_then(|variations| variations.bop_depth_unit_mm.as_ref());
         Self {
             depth_unit_mm: unit.map_or(1.0, |unit| unit.value),
@@ -83,32 +83,32 @@ fn scene(set: &Set, sample: u32, split: Split, camera: &str) -> String {
 }
 
 /// Objects of an image that BOP includes.
-fn objects(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
-    picture.objects.iter().filter(|object| object.class.is_some())
+fn objects(image: &ImageRecord) -> impl Iterator<Item = &ObjectRecord> {
+    image.objects.iter().filter(|object| object.class.is_some())
 }
 
-impl Writer for Bop {
-    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (record, truth) = (&picture.record, picture.truth);
-        let (scene, number) = (scene(set, picture.sample.0, picture.sample.1, &record.camera), record.frame);
-        write(folder, &format!("{scene}/rgb/{number:06}.{}", record.extension), &picture.bytes)?;
+impl FormatWriter for Bop {
+    fn write_image(&self, set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (record, truth) = (&image.record, image.truth);
+        let (scene, number) = (scene(set, image.sample.0, image.sample.1, &record.camera), record.frame);
+        write(folder, &format!("{scene}/rgb/{number:06}.{}", record.extension), &image.bytes)?;
         let mut encoded = |name: String, bytes: Result<Vec<u8>, _>| {
             let bytes = bytes.map_err(|error: etendue_io::exr::EncodeError| Error::Run(format!("{name}: {error}")))?;
             write(folder, &name, &bytes)
         };
         encoded(format!("{scene}/depth/{number:06}.png"), encode_depth16(&truth.depth, self.units_per_m()))?;
-        let silhouettes = picture.silhouettes();
+        let silhouettes = image.silhouettes();
         let (mut counted, ids) = (Vec::new(), truth.instance.samples());
         for (place, object) in objects(record).enumerate() {
-            let whole = silhouettes.get(&object.id).map_or(&[][..], Vec::as_slice);
-            let seen: Vec<usize> = whole.iter().copied().filter(|at| ids[*at] == object.id).collect();
-            for (kind, pixels) in [("mask", whole), ("mask_visib", &seen)] {
+            let silhouette = silhouettes.get(&object.id).map_or(&[][..], Vec::as_slice);
+            let visible: Vec<usize> = silhouette.iter().copied().filter(|at| ids[*at] == object.id).collect();
+            for (kind, pixels) in [("mask", silhouette), ("mask_visib", &visible)] {
                 let mut mask = vec![0; ids.len()];
                 pixels.iter().for_each(|at| mask[*at] = 255);
                 let bytes = encode_grey8(record.width_px, record.height_px, &mask);
                 encoded(format!("{scene}/{kind}/{number:06}_{place:06}.png"), bytes)?;
             }
-            counted.push(self.info(object, whole, seen.len(), &truth.depth));
+            counted.push(self.info(object, silhouette, visible.len(), &truth.depth));
         }
         self.counted.borrow_mut().insert((record.camera.clone(), number), counted);
         Ok(())
@@ -120,21 +120,21 @@ impl Writer for Bop {
         let mut models = self.models.borrow_mut();
         if models.is_none() {
             let records = Records::in_folder(folder.path())?;
-            *models = Some(Models::of(&records, Some(record.sample))?);
+            *models = Some(ObjectModels::new(&records, Some(record.sample))?);
         }
         models.get_or_insert_default().add(record)?;
         for camera in &set.cameras {
             let scene = scene(set, record.sample, record.split, camera);
-            let pictures = || record.pictures.iter().filter(|picture| picture.camera == *camera);
-            let by_number = |of: &dyn Fn(&PictureRecord) -> Value| -> Value {
-                pictures().map(|picture| (picture.frame.to_string(), of(picture))).collect::<Map<_, _>>().into()
+            let images = || record.pictures.iter().filter(|image| image.camera == *camera);
+            let by_number = |entry: &dyn Fn(&ImageRecord) -> Value| -> Value {
+                images().map(|image| (image.frame.to_string(), entry(image))).collect::<Map<_, _>>().into()
             };
-            let poses = |picture: &PictureRecord| objects(picture).map(pose).collect::<Vec<_>>().into();
-            let counts = |picture: &PictureRecord| {
-                counted.get(&(picture.camera.clone(), picture.frame)).cloned().unwrap_or_default().into()
+            let poses = |image: &ImageRecord| objects(image).map(pose).collect::<Vec<_>>().into();
+            let counts = |image: &ImageRecord| {
+                counted.get(&(image.camera.clone(), image.frame)).cloned().unwrap_or_default().into()
             };
             for (name, facts) in [
-                ("scene_camera", by_number(&|picture| self.camera(picture))),
+                ("scene_camera", by_number(&|image| self.camera(image))),
                 ("scene_gt", by_number(&poses)),
                 ("scene_gt_info", by_number(&counts)),
             ] {
@@ -145,7 +145,7 @@ impl Writer for Bop {
     }
 
     fn finish(&self, _set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
-        let Models(models) = Models::of(records, None)?;
+        let ObjectModels(models) = ObjectModels::new(records, None)?;
         let facts: Map<String, Value> = models.iter().map(|(id, (_, size))| (id.to_string(), model(*size))).collect();
         write(folder, "bop/models/models_info.json", format!("{}\n", Value::Object(facts)).as_bytes())?;
         let names: Map<String, Value> =
@@ -166,11 +166,11 @@ fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> E
 }
 
 impl Bop {
-    fn camera(&self, picture: &PictureRecord) -> Value {
-        let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
-        let [w, x, y, z] = picture.pose.rotation_wxyz;
+    fn camera(&self, image: &ImageRecord) -> Value {
+        let [fx, skew, cx, fy, cy] = image.camera_matrix_px.expect("checked for all cameras of the format");
+        let [w, x, y, z] = image.pose.rotation_wxyz;
         let from_world = DMat3::from_quat(DQuat::from_xyzw(x, y, z, w)).transpose();
-        let place_mm = from_world * (-1000.0 * DVec3::from_array(picture.pose.position_m));
+        let place_mm = from_world * (-1000.0 * DVec3::from_array(image.pose.position_m));
         json!({
             "cam_K": [fx, skew, cx - 0.5, 0.0, fy, cy - 0.5, 0.0, 0.0, 1.0],
             "depth_scale": self.depth_unit_mm,
@@ -179,9 +179,9 @@ impl Bop {
         })
     }
 
-    fn info(&self, object: &ObjectRecord, whole: &[usize], seen: usize, depth: &Plane<Length>) -> Value {
+    fn info(&self, object: &ObjectRecord, silhouette: &[usize], visible_count: usize, depth: &Plane<Length>) -> Value {
         let is_valid = |at: &&usize| stored_depth(depth.samples()[**at], self.units_per_m()) > 0;
-        let corners = |found: Option<[f64; 4]>| match found {
+        let corners = |bounds: Option<[f64; 4]>| match bounds {
             Some([left, top, right, bottom]) => {
                 let (left, top) = (left.floor(), top.floor());
                 [left, top, right.ceil() - left, bottom.ceil() - top].map(|x| x as i64)
@@ -191,10 +191,10 @@ impl Bop {
         json!({
             "bbox_obj": corners(object.amodal_box_px),
             "bbox_visib": corners(object.visible_box_px),
-            "px_count_all": whole.len(),
-            "px_count_valid": whole.iter().filter(is_valid).count(),
-            "px_count_visib": seen,
-            "visib_fract": if whole.is_empty() { 0.0 } else { seen as f64 / whole.len() as f64 },
+            "px_count_all": silhouette.len(),
+            "px_count_valid": silhouette.iter().filter(is_valid).count(),
+            "px_count_visib": visible_count,
+            "visib_fract": if silhouette.is_empty() { 0.0 } else { visible_count as f64 / silhouette.len() as f64 },
         })
     }
 }

@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 use etendue::{Error, ErrorCode, GroundTruth, OutputFolder};
 use etendue_io::png::{encode_grey8, encode_grey16};
 
-use crate::records::{Records, Writer, write};
-use crate::{picture::Picture, record::PictureRecord, set::Set};
+use crate::records::{Records, FormatWriter, write};
+use crate::{picture::SampleImage, record::ImageRecord, set::Set};
 
 pub(super) struct Cityscapes {
     /// Labels by class id.
@@ -73,7 +73,7 @@ const MAX_INSTANCES: u16 = 1000;
 impl Cityscapes {
     /// # Errors
     /// If `cityscapes_labels` names a class that the scene does not have, or a label that Cityscapes does not; where two cameras would be one city.
-    pub(super) fn of(set: &Set) -> Result<Self, Error> {
+    pub(super) fn new(set: &Set) -> Result<Self, Error> {
         let stated = set.variations.as_ref().map_or(&[][..], |variations| &variations.cityscapes_labels);
         for (_, label) in stated {
             if label_of(&label.value).is_none() {
@@ -107,15 +107,15 @@ fn city(camera: &str) -> String {
     camera.replace('_', "-")
 }
 
-impl Writer for Cityscapes {
-    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, split) = picture.sample;
-        let record = &picture.record;
+impl FormatWriter for Cityscapes {
+    fn write_image(&self, set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = image.sample;
+        let record = &image.record;
         let city = city(&record.camera);
         let stem = format!("{}/{city}/{city}_{sample:06}_{:06}", split.name(), record.frame);
-        write(folder, &format!("cityscapes/leftImg8bit/{stem}_leftImg8bit.png"), &picture.bytes)?;
-        let labels: Vec<u8> = self.labels(picture.truth);
-        let instances = self.instances(set, record, &labels, picture.truth);
+        write(folder, &format!("cityscapes/leftImg8bit/{stem}_leftImg8bit.png"), &image.bytes)?;
+        let labels: Vec<u8> = self.labels(image.truth);
+        let instances = self.instances(set, record, &labels, image.truth);
         let (width, height) = (record.width_px, record.height_px);
         for (kind, bytes) in [
             ("labelIds", encode_grey8(width, height, &labels)),
@@ -143,7 +143,7 @@ impl Cityscapes {
         pixels.map(label).collect()
     }
 
-    fn instances(&self, set: &Set, record: &PictureRecord, labels: &[u8], truth: &GroundTruth) -> Vec<u16> {
+    fn instances(&self, set: &Set, record: &ImageRecord, labels: &[u8], truth: &GroundTruth) -> Vec<u16> {
         let mut counts: BTreeMap<u8, u16> = BTreeMap::new();
         let mut numbers: BTreeMap<u32, u16> = BTreeMap::new();
         for (object, _, _) in record.visible() {

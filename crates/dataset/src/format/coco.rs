@@ -17,17 +17,17 @@ use std::io::{self, Write};
 use etendue::{Error, OutputFolder};
 use serde_json::{Value, json};
 
-use crate::record::{PictureRecord, SampleRecord};
-use crate::records::{Records, Writer, write};
-use crate::{draw::Split, picture::Picture, set::Set};
+use crate::record::{ImageRecord, SampleRecord};
+use crate::records::{Records, FormatWriter, write};
+use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Coco;
 
-impl Writer for Coco {
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, split) = picture.sample;
-        let name = format!("coco/{}/{}", split.name(), file_name(&picture.record, sample));
-        write(folder, &name, &picture.bytes)
+impl FormatWriter for Coco {
+    fn write_image(&self, _set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = image.sample;
+        let name = format!("coco/{}/{}", split.name(), file_name(&image.record, sample));
+        write(folder, &name, &image.bytes)
     }
 
     fn finish(&self, set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
@@ -39,12 +39,12 @@ impl Writer for Coco {
     }
 }
 
-fn file_name(picture: &PictureRecord, sample: u32) -> String {
-    format!("{}.{}", picture.stem(sample), picture.extension)
+fn file_name(image: &ImageRecord, sample: u32) -> String {
+    format!("{}.{}", image.stem(sample), image.extension)
 }
 
 /// Images of a split with their ids, from 1 in the order of samples.
-fn pictures(records: &Records, split: Split) -> impl Iterator<Item = io::Result<(u32, PictureRecord)>> + '_ {
+fn image_records(records: &Records, split: Split) -> impl Iterator<Item = io::Result<(u32, ImageRecord)>> + '_ {
     let of_split =
         move |record: &io::Result<SampleRecord>| record.as_ref().map_or(true, |record| record.split == split);
     records.each().filter(of_split).flat_map(|record| match record {
@@ -57,15 +57,15 @@ fn pictures(records: &Records, split: Split) -> impl Iterator<Item = io::Result<
 fn write_split(set: &Set, records: &Records, split: Split, file: &mut impl Write) -> io::Result<()> {
     let info = json!({ "description": "rendered by Étendue", "version": env!("CARGO_PKG_VERSION") });
     write!(file, "{{\"info\":{info},\n\"images\":[")?;
-    for (index, found) in pictures(records, split).enumerate() {
-        let (sample, picture) = found?;
+    for (index, entry) in image_records(records, split).enumerate() {
+        let (sample, picture) = entry?;
         separate(file, index)?;
         write!(file, "{}", image(index + 1, sample, &picture))?;
     }
     write!(file, "],\n\"annotations\":[")?;
     let mut count = 0;
-    for (index, found) in pictures(records, split).enumerate() {
-        let (_, picture) = found?;
+    for (index, entry) in image_records(records, split).enumerate() {
+        let (_, picture) = entry?;
         for annotation in annotations(set, &picture, index + 1) {
             separate(file, count)?;
             count += 1;
@@ -85,7 +85,7 @@ fn with_id(mut annotation: Value, id: usize) -> Value {
     annotation
 }
 
-fn image(id: usize, sample: u32, picture: &PictureRecord) -> Value {
+fn image(id: usize, sample: u32, picture: &ImageRecord) -> Value {
     json!({
         "id": id,
         "file_name": file_name(picture, sample),
@@ -94,7 +94,7 @@ fn image(id: usize, sample: u32, picture: &PictureRecord) -> Value {
     })
 }
 
-fn annotations(set: &Set, picture: &PictureRecord, image: usize) -> Vec<Value> {
+fn annotations(set: &Set, picture: &ImageRecord, image: usize) -> Vec<Value> {
     let size = [picture.height_px, picture.width_px];
     let annotation = |(object, mask, [left, top, right, bottom]): (&crate::record::ObjectRecord, &str, [f64; 4])| {
         let category = set.class_id(object.class.as_deref())?;
@@ -112,8 +112,8 @@ fn annotations(set: &Set, picture: &PictureRecord, image: usize) -> Vec<Value> {
 
 pub(super) struct Yolo;
 
-impl Writer for Yolo {
-    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+impl FormatWriter for Yolo {
+    fn write_image(&self, set: &Set, picture: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
         let (sample, split) = picture.sample;
         let (split, stem) = (split.name(), picture.record.stem(sample));
         let image = format!("yolo/images/{split}/{stem}.{}", picture.record.extension);
@@ -130,10 +130,10 @@ impl Writer for Yolo {
     }
 }
 
-fn lines(set: &Set, picture: &PictureRecord) -> String {
-    let (width, height) = (picture.width_px as f64, picture.height_px as f64);
+fn lines(set: &Set, image: &ImageRecord) -> String {
+    let (width, height) = (image.width_px as f64, image.height_px as f64);
     let mut text = String::new();
-    for (object, _, [left, top, right, bottom]) in picture.visible() {
+    for (object, _, [left, top, right, bottom]) in image.visible() {
         let Some(class) = set.class_place(object.class.as_deref()) else { continue };
         let centre = [(left + right) / (2.0 * width), (top + bottom) / (2.0 * height)];
         let size = [(right - left) / width, (bottom - top) / height];

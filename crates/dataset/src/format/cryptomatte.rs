@@ -5,17 +5,17 @@
 
 use etendue::{Error, OutputFolder};
 
-use crate::records::{Records, Writer, write};
-use crate::{picture::Picture, set::Set};
+use crate::records::{Records, FormatWriter, write};
+use crate::{picture::SampleImage, set::Set};
 
 pub(super) struct Cryptomatte;
 
-impl Writer for Cryptomatte {
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, split) = picture.sample;
-        let stem = format!("cryptomatte/{}/{}", split.name(), picture.record.stem(sample));
-        write(folder, &format!("{stem}.{}", picture.record.extension), &picture.bytes)?;
-        write(folder, &format!("{stem}.exr"), picture.cryptomatte()?)
+impl FormatWriter for Cryptomatte {
+    fn write_image(&self, _set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = image.sample;
+        let stem = format!("cryptomatte/{}/{}", split.name(), image.record.stem(sample));
+        write(folder, &format!("{stem}.{}", image.record.extension), &image.bytes)?;
+        write(folder, &format!("{stem}.exr"), image.cryptomatte()?)
     }
 
     fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {

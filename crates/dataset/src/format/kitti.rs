@@ -22,9 +22,9 @@ use etendue::{Error, OutputFolder};
 use etendue_core::maths::f64::atan2;
 use glam::{DQuat, DVec3};
 
-use crate::record::{ObjectRecord, PictureRecord, SampleRecord, SolidRecord};
-use crate::records::{Records, Writer, write};
-use crate::{draw::Split, picture::Picture, set::Set};
+use crate::record::{ObjectRecord, ImageRecord, SampleRecord, SolidRecord};
+use crate::records::{Records, FormatWriter, write};
+use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Kitti;
 
@@ -42,25 +42,25 @@ const TYPES: [(&str, &str); 10] = [
     ("misc", "Misc"),
 ];
 
-impl Writer for Kitti {
-    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, _) = picture.sample;
-        let (record, number) = (&picture.record, number(set, sample, picture.record.frame));
-        write(folder, &format!("{}/image_2/{number}.png", root(&record.camera)), &picture.bytes)?;
+impl FormatWriter for Kitti {
+    fn write_image(&self, set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = image.sample;
+        let (record, number) = (&image.record, number(set, sample, image.record.frame));
+        write(folder, &format!("{}/image_2/{number}.png", root(&record.camera)), &image.bytes)?;
         for (left, _) in set.pairs.iter().filter(|(_, right)| *right == record.camera) {
-            write(folder, &format!("{}/image_3/{number}.png", root(left)), &picture.bytes)?;
+            write(folder, &format!("{}/image_3/{number}.png", root(left)), &image.bytes)?;
         }
         write(folder, &format!("{}/label_2/{number}.txt", root(&record.camera)), labels(set, record).as_bytes())
     }
 
     fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
-        for picture in &record.pictures {
-            let right = set.pairs.iter().find(|(left, _)| *left == picture.camera).map(|(_, right)| right);
-            let is_other = |other: &&PictureRecord| Some(&other.camera) == right && other.frame == picture.frame;
+        for image in &record.pictures {
+            let right = set.pairs.iter().find(|(left, _)| *left == image.camera).map(|(_, right)| right);
+            let is_other = |other: &&ImageRecord| Some(&other.camera) == right && other.frame == image.frame;
             let right = record.pictures.iter().find(is_other);
-            let number = number(set, record.sample, picture.frame);
-            let name = format!("{}/calib/{number}.txt", root(&picture.camera));
-            write(folder, &name, calibration(picture, right).as_bytes())?;
+            let number = number(set, record.sample, image.frame);
+            let name = format!("{}/calib/{number}.txt", root(&image.camera));
+            write(folder, &name, calibration(image, right).as_bytes())?;
         }
         Ok(())
     }
@@ -93,11 +93,11 @@ fn root(camera: &str) -> String {
 }
 
 /// Lines of a calibration: the cameras 0 and 2 of KITTI are this one, 1 and 3 the right one of its pair, or this one if it has none.
-fn calibration(picture: &PictureRecord, right: Option<&PictureRecord>) -> String {
-    let of = [projection(picture, picture), projection(right.unwrap_or(picture), picture)];
+fn calibration(image: &ImageRecord, right: Option<&ImageRecord>) -> String {
+    let projections = [projection(image, image), projection(right.unwrap_or(image), image)];
     let mut text = String::new();
     for camera in 0..4 {
-        let _ = writeln!(text, "P{camera}: {}", numbers(&of[camera % 2]));
+        let _ = writeln!(text, "P{camera}: {}", numbers(&projections[camera % 2]));
     }
     let _ = writeln!(text, "R0_rect: {}", numbers(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]));
     let scanner = [0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0];
@@ -108,10 +108,10 @@ fn calibration(picture: &PictureRecord, right: Option<&PictureRecord>) -> String
 }
 
 /// Projection from points in the frame of the camera `from` to pixels of a camera of the same orientation.
-fn projection(picture: &PictureRecord, from: &PictureRecord) -> [f64; 12] {
-    let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
+fn projection(image: &ImageRecord, from: &ImageRecord) -> [f64; 12] {
+    let [fx, skew, cx, fy, cy] = image.camera_matrix_px.expect("checked for all cameras of the format");
     let [w, x, y, z] = from.pose.rotation_wxyz;
-    let to_right_m = DVec3::from_array(picture.pose.position_m) - DVec3::from_array(from.pose.position_m);
+    let to_right_m = DVec3::from_array(image.pose.position_m) - DVec3::from_array(from.pose.position_m);
     let base_m = (DQuat::from_xyzw(x, y, z, w).inverse() * to_right_m).x;
     [fx, skew, cx - 0.5, 0.0 - fx * base_m, 0.0, fy, cy - 0.5, 0.0, 0.0, 0.0, 1.0, 0.0]
 }
@@ -120,11 +120,11 @@ fn numbers(numbers: &[f64]) -> String {
     numbers.iter().map(|number| format!("{number:.12e}")).collect::<Vec<_>>().join(" ")
 }
 
-fn labels(set: &Set, picture: &PictureRecord) -> String {
+fn labels(set: &Set, image: &ImageRecord) -> String {
     let mut text = String::new();
-    for (object, _, _) in picture.visible() {
+    for (object, _, _) in image.visible() {
         if let Some(kind) = kind(set, object.class.as_deref()) {
-            let _ = writeln!(text, "{}", label(&kind, object, picture));
+            let _ = writeln!(text, "{}", label(&kind, object, image));
         }
     }
     text
@@ -141,17 +141,17 @@ fn kind(set: &Set, class: Option<&str>) -> Option<String> {
     TYPES.iter().find(|(known, _)| *known == name).map(|(_, kind)| (*kind).to_owned())
 }
 
-fn label(kind: &str, object: &ObjectRecord, picture: &PictureRecord) -> String {
+fn label(kind: &str, object: &ObjectRecord, image: &ImageRecord) -> String {
     let truncated = if object.is_cut { 1.0 } else { object.truncated_fraction.unwrap_or(1.0) };
     let occluded = match object.visible_fraction {
-        seen if seen >= 0.95 => 0,
-        seen if seen >= 0.5 => 1,
+        fraction if fraction >= 0.95 => 0,
+        fraction if fraction >= 0.5 => 1,
         _ => 2,
     };
     let [left, top, right, bottom] = object.amodal_box_in_picture_px.or(object.visible_box_px).unwrap_or_default();
-    let column = |x: f64| (x - 0.5).clamp(0.0, picture.width_px as f64 - 1.0);
-    let row = |y: f64| (y - 0.5).clamp(0.0, picture.height_px as f64 - 1.0);
-    let solid = Upright::about(&object.box_3d);
+    let column = |x: f64| (x - 0.5).clamp(0.0, image.width_px as f64 - 1.0);
+    let row = |y: f64| (y - 0.5).clamp(0.0, image.height_px as f64 - 1.0);
+    let solid = UprightBox::enclosing(&object.box_3d);
     let [x, y, z] = solid.bottom_m.to_array();
     let alpha = wrapped(solid.rotation_y_rad - atan2(x, z));
     format!(
@@ -173,7 +173,7 @@ fn wrapped(angle_rad: f64) -> f64 {
 }
 
 /// Box with its height along the camera's y.
-struct Upright {
+struct UprightBox {
     height_m: f64,
     width_m: f64,
     length_m: f64,
@@ -182,9 +182,9 @@ struct Upright {
     rotation_y_rad: f64,
 }
 
-impl Upright {
+impl UprightBox {
     /// Returns the smallest such box about a 3D box, rotated about the camera's y like the box's x axis; if that is vertical, like its y axis.
-    fn about(solid: &SolidRecord) -> Self {
+    fn enclosing(solid: &SolidRecord) -> Self {
         let [w, x, y, z] = solid.camera.rotation_wxyz;
         let rotation = DQuat::from_xyzw(x, y, z, w);
         let ahead = [DVec3::X, DVec3::Y].map(|axis| rotation * axis);
@@ -213,13 +213,13 @@ impl Upright {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Stance;
+    use crate::record::BoxPose;
 
     /// Box of 4 m × 2 m × 1 m with this rotation in the camera's frame.
-    fn upright(rotation: DQuat) -> Upright {
+    fn upright(rotation: DQuat) -> UprightBox {
         let [x, y, z, w] = rotation.to_array();
-        let stance = Stance { centre_m: [1.0, 0.5, 10.0], rotation_wxyz: [w, x, y, z] };
-        Upright::about(&SolidRecord { size_m: [4.0, 2.0, 1.0], camera: stance, world: stance })
+        let stance = BoxPose { centre_m: [1.0, 0.5, 10.0], rotation_wxyz: [w, x, y, z] };
+        UprightBox::enclosing(&SolidRecord { size_m: [4.0, 2.0, 1.0], camera: stance, world: stance })
     }
 
     #[test]
@@ -227,20 +227,20 @@ mod tests {
         // z up is −y of the camera; then rotated about the camera's y.
         let level = DQuat::from_rotation_x(PI / 2.0);
         for turn in [-3.0, -1.0, 0.0, 0.4, 2.5] {
-            let found = upright(DQuat::from_rotation_y(turn) * level);
-            let sizes = [found.length_m, found.width_m, found.height_m];
+            let upright_box = upright(DQuat::from_rotation_y(turn) * level);
+            let sizes = [upright_box.length_m, upright_box.width_m, upright_box.height_m];
             assert!(sizes.iter().zip([4.0, 2.0, 1.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{sizes:?}");
-            assert!((found.rotation_y_rad - turn).abs() < 1e-12, "{turn}: {}", found.rotation_y_rad);
-            assert!((found.bottom_m - DVec3::new(1.0, 1.0, 10.0)).length() < 1e-12);
+            assert!((upright_box.rotation_y_rad - turn).abs() < 1e-12, "{turn}: {}", upright_box.rotation_y_rad);
+            assert!((upright_box.bottom_m - DVec3::new(1.0, 1.0, 10.0)).length() < 1e-12);
         }
     }
 
     #[test]
     fn a_tilted_box_is_within_the_upright_one() {
-        let found = upright(DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(PI / 2.0));
+        let upright_box = upright(DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(PI / 2.0));
         // Height of a bar of 4 m that rises by 0.3 rad, 1 m thick.
         let (sin, cos) = etendue_core::maths::f64::sin_cos(0.3);
         let height = 4.0 * sin + cos;
-        assert!((found.height_m - height).abs() < 1e-12, "{}", found.height_m);
+        assert!((upright_box.height_m - height).abs() < 1e-12, "{}", upright_box.height_m);
     }
 }

@@ -16,16 +16,16 @@ use std::{cell::RefCell, collections::BTreeMap};
 use etendue::{Error, ErrorCode, OutputFolder};
 
 use super::ros;
-use crate::records::{Records, Writer, write};
+use crate::records::{Records, FormatWriter, write};
 use crate::set::{Set, topic_name};
-use crate::{picture::Picture, record::SampleRecord};
+use crate::{picture::SampleImage, record::SampleRecord};
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Last second of a ROS time stamp, which has 32 bits: 19 January 2038, counted from 1970.
 const LAST_S: i64 = i32::MAX as i64;
 
 /// A message of a topic.
-struct Message {
+struct McapMessage {
     time_ns: u64,
     topic: String,
     schema: &'static str,
@@ -34,10 +34,10 @@ struct Message {
 
 /// Messages of the current sample.
 #[derive(Default)]
-pub(super) struct Mcap(RefCell<Vec<Message>>);
+pub(super) struct Mcap(RefCell<Vec<McapMessage>>);
 
-impl Writer for Mcap {
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
+impl FormatWriter for Mcap {
+    fn write_image(&self, _set: &Set, picture: &SampleImage<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
         let record = &picture.record;
         let time = record.exact_time();
         let time_ns = u64::try_from(time.nanoseconds()).ok().filter(|_| time.whole_s() <= LAST_S);
@@ -48,7 +48,7 @@ impl Writer for Mcap {
                 format!("{problem}; MCAP with ROS messages stores times from 0 to {LAST_S} s"),
             ));
         };
-        let at = ros::At { time_ns, frame: record.camera.as_str() };
+        let at = ros::MessageHeader { time_ns, frame: record.camera.as_str() };
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
         let size = (record.width_px, record.height_px);
         let topic = |name: &str| format!("/{}/{name}", topic_name(&record.camera));
@@ -63,8 +63,8 @@ impl Writer for Mcap {
             (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size.0, size.1, matrix)),
             ("/tf".to_owned(), ros::TF_MESSAGE, ros::transform(at, &record.pose)),
         ];
-        let of = |(topic, schema, data)| Message { time_ns, topic, schema, data };
-        self.0.borrow_mut().extend(messages.map(of));
+        let message = |(topic, schema, data)| McapMessage { time_ns, topic, schema, data };
+        self.0.borrow_mut().extend(messages.map(message));
         Ok(())
     }
 
@@ -92,7 +92,7 @@ mod opcode {
 }
 
 /// Bytes of a file of messages.
-fn file(messages: &[Message]) -> Vec<u8> {
+fn file(messages: &[McapMessage]) -> Vec<u8> {
     let mut schemas: BTreeMap<&str, u16> = BTreeMap::new();
     let mut channels: BTreeMap<&str, (u16, u16)> = BTreeMap::new();
     let mut described = Vec::new();
@@ -149,13 +149,13 @@ fn channel_record(id: u16, schema: u16, topic: &str) -> Vec<u8> {
     [id.to_le_bytes().to_vec(), schema.to_le_bytes().to_vec(), text(topic), text("cdr"), no_metadata].concat()
 }
 
-fn message_record(channel: u16, sequence: u32, message: &Message) -> Vec<u8> {
+fn message_record(channel: u16, sequence: u32, message: &McapMessage) -> Vec<u8> {
     let time = message.time_ns.to_le_bytes();
     [&channel.to_le_bytes()[..], &sequence.to_le_bytes(), &time, &time, &message.data].concat()
 }
 
-fn statistics(messages: &[Message], schemas: usize, channels: usize, counts: &BTreeMap<u16, u64>) -> Vec<u8> {
-    let time = |message: Option<&Message>| message.map_or(0, |message| message.time_ns).to_le_bytes();
+fn statistics(messages: &[McapMessage], schemas: usize, channels: usize, counts: &BTreeMap<u16, u64>) -> Vec<u8> {
+    let time = |message: Option<&McapMessage>| message.map_or(0, |message| message.time_ns).to_le_bytes();
     let none = 0_u32.to_le_bytes();
     let mut bytes = (messages.len() as u64).to_le_bytes().to_vec();
     bytes.extend_from_slice(&(schemas as u16).to_le_bytes());

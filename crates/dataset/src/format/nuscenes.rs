@@ -20,9 +20,9 @@ use etendue_io::png::encode_grey8;
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
-use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
-use crate::records::{Records, Writer, write};
-use crate::{draw::Split, picture::Picture, set::Set};
+use crate::record::{ObjectRecord, ImageRecord, Pose, SampleRecord};
+use crate::records::{Records, FormatWriter, write};
+use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct NuScenes;
 
@@ -39,10 +39,10 @@ const TABLES: [(&str, RowsOf); 7] = [
     ("sample_annotation", annotations),
 ];
 
-impl Writer for NuScenes {
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, _) = picture.sample;
-        write(folder, &format!("nuscenes/{}", file_name(sample, &picture.record)), &picture.bytes)
+impl FormatWriter for NuScenes {
+    fn write_image(&self, _set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = image.sample;
+        write(folder, &format!("nuscenes/{}", file_name(sample, &image.record)), &image.bytes)
     }
 
     fn finish(&self, set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
@@ -50,7 +50,7 @@ impl Writer for NuScenes {
         write(folder, "nuscenes/maps/none.png", &no_map)?;
         for split in Split::ALL {
             let table = |name: &str| format!("nuscenes/v1.0-{}/{name}.json", split.name());
-            for (name, rows) in of_all(set) {
+            for (name, rows) in common_tables(set) {
                 write(folder, &table(name), format!("{rows}\n").as_bytes())?;
             }
             for (name, rows_of) in TABLES {
@@ -80,7 +80,7 @@ fn write_rows(set: &Set, records: &Records, split: Split, rows_of: RowsOf, file:
 
 /// Kind of object that a token identifies: its first digits.
 #[derive(Clone, Copy)]
-enum Kind {
+enum TokenKind {
     Category = 1,
     Sensor,
     Log,
@@ -94,27 +94,27 @@ enum Kind {
 }
 
 /// Token: 32 digits, unique in the set.
-fn token(kind: Kind, numbers: [u32; 3]) -> String {
+fn token(kind: TokenKind, numbers: [u32; 3]) -> String {
     let [a, b, c] = numbers;
     format!("{:08x}{a:08x}{b:08x}{c:08x}", kind as u32)
 }
 
 /// Tables that are the same for all samples.
-fn of_all(set: &Set) -> Vec<(&'static str, Value)> {
+fn common_tables(set: &Set) -> Vec<(&'static str, Value)> {
     let categories = set
         .classes
         .iter()
-        .map(|(name, id)| json!({ "token": token(Kind::Category, [*id, 0, 0]), "name": name, "description": "" }));
+        .map(|(name, id)| json!({ "token": token(TokenKind::Category, [*id, 0, 0]), "name": name, "description": "" }));
     let levels = ["v0-40", "v40-60", "v60-80", "v80-100"].into_iter().zip(1..);
     let levels = levels.map(|(level, number)| {
         json!({ "token": number.to_string(), "level": level, "description": "part of the object in the picture that is seen, %" })
     });
     let sensors = set.cameras.iter().zip(0..).map(
-        |(name, place)| json!({ "token": token(Kind::Sensor, [place, 0, 0]), "channel": name, "modality": "camera" }),
+        |(name, place)| json!({ "token": token(TokenKind::Sensor, [place, 0, 0]), "channel": name, "modality": "camera" }),
     );
-    let log = token(Kind::Log, [0; 3]);
+    let log = token(TokenKind::Log, [0; 3]);
     let map = json!({
-        "token": token(Kind::Map, [0; 3]), "log_tokens": [log], "category": "semantic_prior", "filename": "maps/none.png",
+        "token": token(TokenKind::Map, [0; 3]), "log_tokens": [log], "category": "semantic_prior", "filename": "maps/none.png",
     });
     vec![
         ("category", categories.collect()),
@@ -126,24 +126,24 @@ fn of_all(set: &Set) -> Vec<(&'static str, Value)> {
     ]
 }
 
-fn file_name(sample: u32, picture: &PictureRecord) -> String {
-    format!("samples/{}/{}.{}", picture.camera, picture.stem(sample), picture.extension)
+fn file_name(sample: u32, image: &ImageRecord) -> String {
+    format!("samples/{}/{}.{}", image.camera, image.stem(sample), image.extension)
 }
 
-fn place(set: &Set, picture: &PictureRecord) -> u32 {
-    set.cameras.iter().position(|camera| *camera == picture.camera).expect("a camera of the job") as u32
+fn place(set: &Set, image: &ImageRecord) -> u32 {
+    set.cameras.iter().position(|camera| *camera == image.camera).expect("a camera of the job") as u32
 }
 
-fn time_us(picture: &PictureRecord) -> i64 {
-    (picture.exact_time().nanoseconds() + 500).div_euclid(1000) as i64
+fn time_us(image: &ImageRecord) -> i64 {
+    (image.exact_time().nanoseconds() + 500).div_euclid(1000) as i64
 }
 
 fn sample_token(record: &SampleRecord, frame: u32) -> String {
-    token(Kind::Sample, [record.sample, frame, 0])
+    token(TokenKind::Sample, [record.sample, frame, 0])
 }
 
-fn data_token(set: &Set, record: &SampleRecord, picture: &PictureRecord) -> String {
-    token(Kind::Data, [record.sample, picture.frame, place(set, picture)])
+fn data_token(set: &Set, record: &SampleRecord, image: &ImageRecord) -> String {
+    token(TokenKind::Data, [record.sample, image.frame, place(set, image)])
 }
 
 /// Token of the previous or next element of a list; empty at its end.
@@ -153,10 +153,10 @@ fn neighbour(frames: &[u32], at: Option<usize>, token: impl Fn(u32) -> String) -
 
 fn scenes(set: &Set, record: &SampleRecord) -> Vec<Value> {
     vec![json!({
-        "token": token(Kind::Scene, [record.sample, 0, 0]),
+        "token": token(TokenKind::Scene, [record.sample, 0, 0]),
         "name": format!("scene-{:06}", record.sample),
         "description": record.set.join("; "),
-        "log_token": token(Kind::Log, [0; 3]),
+        "log_token": token(TokenKind::Log, [0; 3]),
         "nbr_samples": set.frame_count(),
         "first_sample_token": sample_token(record, set.frames.start),
         "last_sample_token": sample_token(record, set.frames.end - 1),
@@ -166,13 +166,13 @@ fn scenes(set: &Set, record: &SampleRecord) -> Vec<Value> {
 fn samples(set: &Set, record: &SampleRecord) -> Vec<Value> {
     let frames: Vec<u32> = set.frames.clone().collect();
     let row = |(at, frame): (usize, &u32)| {
-        let first = record.pictures.iter().find(|picture| picture.frame == *frame);
+        let first = record.pictures.iter().find(|image| image.frame == *frame);
         json!({
             "token": sample_token(record, *frame),
             "timestamp": first.map_or(0, time_us),
             "prev": neighbour(&frames, at.checked_sub(1), |frame| sample_token(record, frame)),
             "next": neighbour(&frames, at.checked_add(1), |frame| sample_token(record, frame)),
-            "scene_token": token(Kind::Scene, [record.sample, 0, 0]),
+            "scene_token": token(TokenKind::Scene, [record.sample, 0, 0]),
         })
     };
     frames.iter().enumerate().map(row).collect()
@@ -180,38 +180,38 @@ fn samples(set: &Set, record: &SampleRecord) -> Vec<Value> {
 
 fn sample_data(set: &Set, record: &SampleRecord) -> Vec<Value> {
     let frames: Vec<u32> = set.frames.clone().collect();
-    let row = |picture: &PictureRecord| {
-        let (of_camera, at) = (place(set, picture), (picture.frame - set.frames.start) as usize);
-        let of = |frame| token(Kind::Data, [record.sample, frame, of_camera]);
+    let row = |image: &ImageRecord| {
+        let (of_camera, at) = (place(set, image), (image.frame - set.frames.start) as usize);
+        let token_at = |frame| token(TokenKind::Data, [record.sample, frame, of_camera]);
         json!({
-            "token": of(picture.frame),
-            "sample_token": sample_token(record, picture.frame),
-            "ego_pose_token": of(picture.frame),
-            "calibrated_sensor_token": token(Kind::Calibration, [record.sample, of_camera, 0]),
-            "timestamp": time_us(picture),
-            "fileformat": picture.extension,
+            "token": token_at(image.frame),
+            "sample_token": sample_token(record, image.frame),
+            "ego_pose_token": token_at(image.frame),
+            "calibrated_sensor_token": token(TokenKind::Calibration, [record.sample, of_camera, 0]),
+            "timestamp": time_us(image),
+            "fileformat": image.extension,
             "is_key_frame": true,
-            "height": picture.height_px,
-            "width": picture.width_px,
-            "filename": file_name(record.sample, picture),
-            "prev": neighbour(&frames, at.checked_sub(1), of),
-            "next": neighbour(&frames, at.checked_add(1), of),
+            "height": image.height_px,
+            "width": image.width_px,
+            "filename": file_name(record.sample, image),
+            "prev": neighbour(&frames, at.checked_sub(1), token_at),
+            "next": neighbour(&frames, at.checked_add(1), token_at),
         })
     };
     record.pictures.iter().map(row).collect()
 }
 
 fn ego_poses(set: &Set, record: &SampleRecord) -> Vec<Value> {
-    let row = |picture: &PictureRecord| {
-        let (place_m, rotation) = parts(&picture.pose);
+    let row = |image: &ImageRecord| {
+        let (place_m, rotation) = parts(&image.pose);
         // Pose of the carrying frame: the inverse of camera-to-frame, then camera-to-world.
-        let (place_m, rotation) = picture.mount.as_ref().map(parts).map_or((place_m, rotation), |(mount_m, mount)| {
+        let (place_m, rotation) = image.mount.as_ref().map(parts).map_or((place_m, rotation), |(mount_m, mount)| {
             let rotation = rotation * mount.inverse();
             (place_m - rotation * mount_m, rotation)
         });
         json!({
-            "token": data_token(set, record, picture),
-            "timestamp": time_us(picture),
+            "token": data_token(set, record, image),
+            "timestamp": time_us(image),
             "translation": place_m.to_array(),
             "rotation": wxyz(rotation),
         })
@@ -220,14 +220,14 @@ fn ego_poses(set: &Set, record: &SampleRecord) -> Vec<Value> {
 }
 
 fn calibrated_sensors(set: &Set, record: &SampleRecord) -> Vec<Value> {
-    let first = record.pictures.iter().filter(|picture| picture.frame == set.frames.start);
-    let row = |picture: &PictureRecord| {
-        let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
-        let (place_m, rotation) = picture.mount.as_ref().map_or((DVec3::ZERO, DQuat::IDENTITY), parts);
-        let of_camera = place(set, picture);
+    let first = record.pictures.iter().filter(|image| image.frame == set.frames.start);
+    let row = |image: &ImageRecord| {
+        let [fx, skew, cx, fy, cy] = image.camera_matrix_px.expect("checked for all cameras of the format");
+        let (place_m, rotation) = image.mount.as_ref().map_or((DVec3::ZERO, DQuat::IDENTITY), parts);
+        let of_camera = place(set, image);
         json!({
-            "token": token(Kind::Calibration, [record.sample, of_camera, 0]),
-            "sensor_token": token(Kind::Sensor, [of_camera, 0, 0]),
+            "token": token(TokenKind::Calibration, [record.sample, of_camera, 0]),
+            "sensor_token": token(TokenKind::Sensor, [of_camera, 0, 0]),
             "translation": place_m.to_array(),
             "rotation": wxyz(rotation),
             "camera_intrinsic": [[fx, skew, cx - 0.5], [0.0, fy, cy - 0.5], [0.0, 0.0, 1.0]],
@@ -247,55 +247,55 @@ fn wxyz(rotation: DQuat) -> [f64; 4] {
 }
 
 /// Object in a frame: record of the first camera that sees it, and the best visibility.
-struct Seen<'a> {
+struct ObservedObject<'a> {
     object: &'a ObjectRecord,
     class: u32,
     visible_fraction: f64,
 }
 
 /// Frames in which each object is visible.
-fn seen<'a>(set: &Set, record: &'a SampleRecord) -> BTreeMap<u32, BTreeMap<u32, Seen<'a>>> {
-    let mut found: BTreeMap<u32, BTreeMap<u32, Seen<'_>>> = BTreeMap::new();
-    for picture in &record.pictures {
-        for (object, _, _) in picture.visible() {
+fn observed_objects<'a>(set: &Set, record: &'a SampleRecord) -> BTreeMap<u32, BTreeMap<u32, ObservedObject<'a>>> {
+    let mut observed: BTreeMap<u32, BTreeMap<u32, ObservedObject<'_>>> = BTreeMap::new();
+    for image in &record.pictures {
+        for (object, _, _) in image.visible() {
             let Some(class) = set.class_id(object.class.as_deref()) else { continue };
             let visible_fraction = object.visible_fraction;
-            let frames = found.entry(object.id).or_default();
-            let known = frames.entry(picture.frame).or_insert(Seen { object, class, visible_fraction });
+            let frames = observed.entry(object.id).or_default();
+            let known = frames.entry(image.frame).or_insert(ObservedObject { object, class, visible_fraction });
             known.visible_fraction = known.visible_fraction.max(visible_fraction);
         }
     }
-    found
+    observed
 }
 
 fn annotation_token(record: &SampleRecord, id: u32, frame: u32) -> String {
-    token(Kind::Annotation, [record.sample, id, frame])
+    token(TokenKind::Annotation, [record.sample, id, frame])
 }
 
 fn instances(set: &Set, record: &SampleRecord) -> Vec<Value> {
-    let row = |(id, frames): (u32, BTreeMap<u32, Seen<'_>>)| {
-        let ((first, seen), (last, _)) = (frames.first_key_value()?, frames.last_key_value()?);
+    let row = |(id, frames): (u32, BTreeMap<u32, ObservedObject<'_>>)| {
+        let ((first, observed), (last, _)) = (frames.first_key_value()?, frames.last_key_value()?);
         Some(json!({
-            "token": token(Kind::Instance, [record.sample, id, 0]),
-            "category_token": token(Kind::Category, [seen.class, 0, 0]),
+            "token": token(TokenKind::Instance, [record.sample, id, 0]),
+            "category_token": token(TokenKind::Category, [observed.class, 0, 0]),
             "nbr_annotations": frames.len(),
             "first_annotation_token": annotation_token(record, id, *first),
             "last_annotation_token": annotation_token(record, id, *last),
         }))
     };
-    seen(set, record).into_iter().filter_map(row).collect()
+    observed_objects(set, record).into_iter().filter_map(row).collect()
 }
 
 fn annotations(set: &Set, record: &SampleRecord) -> Vec<Value> {
     let mut rows = Vec::new();
-    for (id, seen) in seen(set, record) {
-        let frames: Vec<u32> = seen.keys().copied().collect();
-        for (at, (frame, Seen { object, visible_fraction, .. })) in seen.iter().enumerate() {
+    for (id, observed) in observed_objects(set, record) {
+        let frames: Vec<u32> = observed.keys().copied().collect();
+        for (at, (frame, ObservedObject { object, visible_fraction, .. })) in observed.iter().enumerate() {
             let [x, y, z] = object.box_3d.size_m;
             rows.push(json!({
                 "token": annotation_token(record, id, *frame),
                 "sample_token": sample_token(record, *frame),
-                "instance_token": token(Kind::Instance, [record.sample, id, 0]),
+                "instance_token": token(TokenKind::Instance, [record.sample, id, 0]),
                 "visibility_token": visibility(*visible_fraction),
                 "attribute_tokens": [],
                 "translation": object.box_3d.world.centre_m,

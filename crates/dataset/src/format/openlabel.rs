@@ -13,19 +13,19 @@ use etendue::{Error, OutputFolder};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
-use crate::records::{Records, Writer, write};
-use crate::{picture::Picture, set::Set};
+use crate::record::{ObjectRecord, ImageRecord, Pose, SampleRecord};
+use crate::records::{Records, FormatWriter, write};
+use crate::{picture::SampleImage, set::Set};
 
 pub(super) struct OpenLabel;
 
 /// Coordinate system of the scene.
 const WORLD: &str = "world";
 
-impl Writer for OpenLabel {
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, split) = picture.sample;
-        write(folder, &format!("openlabel/{}/{}", split.name(), uri(sample, &picture.record)), &picture.bytes)
+impl FormatWriter for OpenLabel {
+    fn write_image(&self, _set: &Set, image: &SampleImage<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = image.sample;
+        write(folder, &format!("openlabel/{}/{}", split.name(), uri(sample, &image.record)), &image.bytes)
     }
 
     fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
@@ -38,17 +38,17 @@ impl Writer for OpenLabel {
     }
 }
 
-fn uri(sample: u32, picture: &PictureRecord) -> String {
-    format!("images/{}.{}", picture.stem(sample), picture.extension)
+fn uri(sample: u32, image: &ImageRecord) -> String {
+    format!("images/{}.{}", image.stem(sample), image.extension)
 }
 
 fn content(set: &Set, record: &SampleRecord) -> Value {
-    let mut frames: BTreeMap<u32, Vec<&PictureRecord>> = BTreeMap::new();
-    record.pictures.iter().for_each(|picture| frames.entry(picture.frame).or_default().push(picture));
-    let mut seen: BTreeMap<u32, (&ObjectRecord, BTreeSet<u32>)> = BTreeMap::new();
-    for picture in &record.pictures {
-        for object in labelled(picture) {
-            seen.entry(object.id).or_insert_with(|| (object, BTreeSet::new())).1.insert(picture.frame);
+    let mut frames: BTreeMap<u32, Vec<&ImageRecord>> = BTreeMap::new();
+    record.pictures.iter().for_each(|image| frames.entry(image.frame).or_default().push(image));
+    let mut observed: BTreeMap<u32, (&ObjectRecord, BTreeSet<u32>)> = BTreeMap::new();
+    for image in &record.pictures {
+        for object in labelled(image) {
+            observed.entry(object.id).or_insert_with(|| (object, BTreeSet::new())).1.insert(image.frame);
         }
     }
     let cameras: Vec<&str> = set.cameras.iter().map(String::as_str).collect();
@@ -60,10 +60,10 @@ fn content(set: &Set, record: &SampleRecord) -> Value {
             .map(|camera| ((*camera).to_owned(), json!({ "type": "sensor_cs", "parent": WORLD, "children": [] }))),
     );
     let streams = cameras.iter().filter_map(|camera| {
-        let picture = record.pictures.iter().find(|picture| picture.camera == *camera)?;
-        Some(((*camera).to_owned(), stream(picture)))
+        let image = record.pictures.iter().find(|image| image.camera == *camera)?;
+        Some(((*camera).to_owned(), stream(image)))
     });
-    let objects = seen.iter().map(|(id, (object, frames))| {
+    let objects = observed.iter().map(|(id, (object, frames))| {
         let facts = json!({ "name": object.name, "type": object.class, "frame_intervals": intervals(frames) });
         (id.to_string(), facts)
     });
@@ -72,21 +72,21 @@ fn content(set: &Set, record: &SampleRecord) -> Value {
         "coordinate_systems": systems,
         "streams": streams.collect::<Map<_, _>>(),
         "frame_intervals": intervals(&frames.keys().copied().collect()),
-        "frames": frames.iter().map(|(number, pictures)| (number.to_string(), frame(record.sample, pictures))).collect::<Map<_, _>>(),
+        "frames": frames.iter().map(|(number, images)| (number.to_string(), frame(record.sample, images))).collect::<Map<_, _>>(),
         "objects": objects.collect::<Map<_, _>>(),
     })
 }
 
 /// Objects with a class and a visible pixel.
-fn labelled(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
-    picture.visible().map(|(object, ..)| object).filter(|object| object.class.is_some())
+fn labelled(image: &ImageRecord) -> impl Iterator<Item = &ObjectRecord> {
+    image.visible().map(|(object, ..)| object).filter(|object| object.class.is_some())
 }
 
-fn stream(picture: &PictureRecord) -> Value {
-    let Some([fx, skew, cx, fy, cy]) = picture.camera_matrix_px else { return json!({ "type": "camera" }) };
+fn stream(image: &ImageRecord) -> Value {
+    let Some([fx, skew, cx, fy, cy]) = image.camera_matrix_px else { return json!({ "type": "camera" }) };
     let matrix = [fx, skew, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0];
     let intrinsics = json!({
-        "width_px": picture.width_px, "height_px": picture.height_px, "camera_matrix_3x4": matrix, "distortion_coeffs_1xN": [0.0, 0.0, 0.0, 0.0],
+        "width_px": image.width_px, "height_px": image.height_px, "camera_matrix_3x4": matrix, "distortion_coeffs_1xN": [0.0, 0.0, 0.0, 0.0],
     });
     json!({ "type": "camera", "stream_properties": { "intrinsics_pinhole": intrinsics } })
 }
@@ -103,31 +103,31 @@ fn intervals(frames: &BTreeSet<u32>) -> Vec<Value> {
     runs.into_iter().map(|(start, end)| json!({ "frame_start": start, "frame_end": end })).collect()
 }
 
-fn frame(sample: u32, pictures: &[&PictureRecord]) -> Value {
-    let streams = pictures.iter().map(|picture| {
-        let facts = json!({ "uri": uri(sample, picture), "stream_properties": { "sync": { "timestamp": picture.exact_time().to_string() } } });
-        (picture.camera.clone(), facts)
+fn frame(sample: u32, images: &[&ImageRecord]) -> Value {
+    let streams = images.iter().map(|image| {
+        let facts = json!({ "uri": uri(sample, image), "stream_properties": { "sync": { "timestamp": image.exact_time().to_string() } } });
+        (image.camera.clone(), facts)
     });
-    let transforms = pictures.iter().map(|picture| {
-        let facts = json!({ "src": picture.camera, "dst": WORLD, "transform_src_to_dst": { "matrix4x4": matrix(&picture.pose) } });
-        (format!("{}_to_{WORLD}", picture.camera), facts)
+    let transforms = images.iter().map(|image| {
+        let facts = json!({ "src": image.camera, "dst": WORLD, "transform_src_to_dst": { "matrix4x4": matrix(&image.pose) } });
+        (format!("{}_to_{WORLD}", image.camera), facts)
     });
     let mut objects: BTreeMap<u32, (Vec<Value>, Vec<Value>, Value)> = BTreeMap::new();
-    for picture in pictures {
-        for (object, _, [left, top, right, bottom]) in picture.visible().filter(|(object, ..)| object.class.is_some()) {
+    for image in images {
+        for (object, _, [left, top, right, bottom]) in image.visible().filter(|(object, ..)| object.class.is_some()) {
             let (boxes, shares, solid) =
                 objects.entry(object.id).or_insert_with(|| (Vec::new(), Vec::new(), cuboid(object)));
             let (centre, size) = ([(left + right) / 2.0, (top + bottom) / 2.0], [right - left, bottom - top]);
-            let of = |name: &str| format!("{name}_{}", picture.camera);
-            boxes.push(json!({ "name": of("bbox"), "val": [centre[0], centre[1], size[0], size[1]], "coordinate_system": picture.camera }));
-            shares.push(json!({ "name": of("visible_fraction"), "val": object.visible_fraction }));
+            let key = |name: &str| format!("{name}_{}", image.camera);
+            boxes.push(json!({ "name": key("bbox"), "val": [centre[0], centre[1], size[0], size[1]], "coordinate_system": image.camera }));
+            shares.push(json!({ "name": key("visible_fraction"), "val": object.visible_fraction }));
             *solid = cuboid(object);
         }
     }
     let objects = objects.into_iter().map(|(id, (boxes, shares, solid))| {
         (id.to_string(), json!({ "object_data": { "bbox": boxes, "cuboid": [solid], "num": shares } }))
     });
-    let times = pictures.iter().map(|picture| picture.exact_time());
+    let times = images.iter().map(|image| image.exact_time());
     let first = times.reduce(|a, b| if b < a { b } else { a }).unwrap_or_default();
     json!({
         "frame_properties": {

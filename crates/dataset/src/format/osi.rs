@@ -27,21 +27,21 @@ use etendue::{Error, OutputFolder, WorldObject};
 use etendue_core::{ExactTime, maths::f64::atan2};
 use glam::{DMat3, DVec3};
 
-use crate::records::{Records, Writer, write};
-use crate::{picture::Picture, record::SampleRecord, set::Set};
+use crate::records::{Records, FormatWriter, write};
+use crate::{picture::SampleImage, record::SampleRecord, set::Set};
 
 /// Version of the messages.
 const VERSION: [u64; 3] = [3, 8, 0];
 
 /// Messages of the frames of the current sample.
 #[derive(Default)]
-pub(super) struct Osi(RefCell<BTreeMap<u32, (ExactTime, Message)>>);
+pub(super) struct Osi(RefCell<BTreeMap<u32, (ExactTime, ProtobufMessage)>>);
 
-impl Writer for Osi {
-    fn picture(&self, set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
-        let record = &picture.record;
+impl FormatWriter for Osi {
+    fn write_image(&self, set: &Set, image: &SampleImage<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
+        let record = &image.record;
         if set.cameras.first() == Some(&record.camera) {
-            let message = ground_truth(record.exact_time(), &picture.world_objects());
+            let message = ground_truth(record.exact_time(), &image.world_objects());
             self.0.borrow_mut().insert(record.frame, (record.exact_time(), message));
         }
         Ok(())
@@ -50,7 +50,7 @@ impl Writer for Osi {
     fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let frames = self.0.take();
         let first = frames.values().next().map_or(ExactTime::default(), |(time, _)| *time);
-        let name = of(first.seconds(), VERSION, frames.len(), record.sample);
+        let name = trace_name(first.seconds(), VERSION, frames.len(), record.sample);
         let mut bytes = Vec::new();
         for (_, message) in frames.values() {
             let length = u32::try_from(message.bytes().len());
@@ -67,14 +67,14 @@ impl Writer for Osi {
 }
 
 /// `GroundTruth`.
-fn ground_truth(time: ExactTime, objects: &[WorldObject]) -> Message {
+fn ground_truth(time: ExactTime, objects: &[WorldObject]) -> ProtobufMessage {
     let [major, minor, patch] = VERSION;
-    let version = Message::default().varint(1, major).varint(2, minor).varint(3, patch);
-    let message = Message::default().message(1, &version).message(2, &timestamp(time));
+    let version = ProtobufMessage::default().varint(1, major).varint(2, minor).varint(3, patch);
+    let message = ProtobufMessage::default().message(1, &version).message(2, &timestamp(time));
     objects.iter().fold(message, |message, object| {
-        let kind = object.class.as_deref().and_then(|class| Kind::of(class, object.moves));
+        let kind = object.class.as_deref().and_then(|class| OsiObjectType::from_class(class, object.moves));
         match kind {
-            Some(Kind::Stationary(number)) => message.message(4, &stationary(object, number)),
+            Some(OsiObjectType::Stationary(number)) => message.message(4, &stationary(object, number)),
             Some(kind) => message.message(5, &moving(object, kind)),
             None => message,
         }
@@ -82,16 +82,16 @@ fn ground_truth(time: ExactTime, objects: &[WorldObject]) -> Message {
 }
 
 /// `Timestamp`: whole seconds, and the remainder in ns, not below 0.
-fn timestamp(time: ExactTime) -> Message {
+fn timestamp(time: ExactTime) -> ProtobufMessage {
     let ns = time.nanoseconds();
-    let (whole, rest) = (ns.div_euclid(1_000_000_000), ns.rem_euclid(1_000_000_000));
-    Message::default().varint(1, whole as i64 as u64).varint(2, rest as u64)
+    let (seconds, rest) = (ns.div_euclid(1_000_000_000), ns.rem_euclid(1_000_000_000));
+    ProtobufMessage::default().varint(1, seconds as i64 as u64).varint(2, rest as u64)
 }
 
 /// `StationaryObject`.
-fn stationary(object: &WorldObject, number: u64) -> Message {
-    let classification = Message::default().varint(1, number);
-    Message::default()
+fn stationary(object: &WorldObject, number: u64) -> ProtobufMessage {
+    let classification = ProtobufMessage::default().varint(1, number);
+    ProtobufMessage::default()
         .message(1, &identifier(object.id))
         .message(2, &base(object))
         .message(3, &classification)
@@ -99,38 +99,38 @@ fn stationary(object: &WorldObject, number: u64) -> Message {
 }
 
 /// `MovingObject`.
-fn moving(object: &WorldObject, kind: Kind) -> Message {
+fn moving(object: &WorldObject, kind: OsiObjectType) -> ProtobufMessage {
     let base = base(object).message(4, &vector(object.velocity_m_s));
     let number = kind.moving_type().expect("no stationary object");
-    let message = Message::default().message(1, &identifier(object.id)).message(2, &base).varint(3, number);
+    let message = ProtobufMessage::default().message(1, &identifier(object.id)).message(2, &base).varint(3, number);
     let message = match kind {
-        Kind::Vehicle(vehicle) => message.message(6, &Message::default().varint(1, vehicle)),
-        Kind::Mover(_) | Kind::Stationary(_) => message,
+        OsiObjectType::Vehicle(vehicle) => message.message(6, &ProtobufMessage::default().varint(1, vehicle)),
+        OsiObjectType::Mover(_) | OsiObjectType::Stationary(_) => message,
     };
     message.message(10, &source(object))
 }
 
 /// Common part of `BaseMoving` and `BaseStationary`: dimension, position, orientation.
-fn base(object: &WorldObject) -> Message {
-    let [yaw, pitch, roll] = yaw_pitch_roll(&DMat3::from_quat(object.stance.rotation));
-    Message::default()
+fn base(object: &WorldObject) -> ProtobufMessage {
+    let [yaw, pitch, roll] = yaw_pitch_roll(&DMat3::from_quat(object.pose.rotation));
+    ProtobufMessage::default()
         .message(1, &vector(object.size_m))
-        .message(2, &vector(object.stance.centre_m))
+        .message(2, &vector(object.pose.centre_m))
         .message(3, &vector(DVec3::new(roll, pitch, yaw)))
 }
 
 /// Three numbers: `Vector3d`, `Dimension3d`, `Orientation3d`.
-fn vector(v: DVec3) -> Message {
-    Message::default().double(1, v.x).double(2, v.y).double(3, v.z)
+fn vector(v: DVec3) -> ProtobufMessage {
+    ProtobufMessage::default().double(1, v.x).double(2, v.y).double(3, v.z)
 }
 
-fn identifier(id: u32) -> Message {
-    Message::default().varint(1, u64::from(id))
+fn identifier(id: u32) -> ProtobufMessage {
+    ProtobufMessage::default().varint(1, u64::from(id))
 }
 
 /// `ExternalReference`: the object's name in the scene.
-fn source(object: &WorldObject) -> Message {
-    Message::default().text(1, "scene").text(2, "etendue").text(3, &object.name)
+fn source(object: &WorldObject) -> ProtobufMessage {
+    ProtobufMessage::default().text(1, "scene").text(2, "etendue").text(3, &object.name)
 }
 
 /// Angles, rad, of a rotation about z, then about the new y, then about the new x; roll is 0 when pointing straight up or down.
@@ -152,7 +152,7 @@ const ANIMAL: u64 = 4;
 
 /// Kind of an object, from its class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum OsiObjectType {
     /// A vehicle, and its `VehicleClassification.Type`.
     Vehicle(u64),
     /// `MovingObject.Type` other than a vehicle.
@@ -230,9 +230,9 @@ const SURFACES: [&str; 12] = [
     "lane marking",
 ];
 
-impl Kind {
+impl OsiObjectType {
     /// Kind for a class name ("-" and "_" are blanks); a class in no list is another moving or another stationary object. `None` for surfaces.
-    fn of(class: &str, moves: bool) -> Option<Self> {
+    fn from_class(class: &str, moves: bool) -> Option<Self> {
         let name = class.to_lowercase().replace(['-', '_'], " ");
         let number = |list: &[(&str, u64)]| list.iter().find(|(known, _)| *known == name).map(|(_, number)| *number);
         if let Some(vehicle) = number(&VEHICLES) {
@@ -265,15 +265,15 @@ const SECONDS_PER_DAY: i64 = 86_400;
 const LAST_S: f64 = 253_402_300_799.0;
 
 /// Name of a trace of `GroundTruth` that begins at a time, s from 1970.
-fn of(time_s: f64, version: [u64; 3], frames: usize, sample: u32) -> String {
+fn trace_name(time_s: f64, version: [u64; 3], frames: usize, sample: u32) -> String {
     let digits = |version: [u64; 3]| version.map(|number| number.to_string()).concat();
     format!("{}_gt_{}_{}_{frames}_{sample:06}.osi", stamp(time_s), digits(version), digits(PROTOBUF))
 }
 
 /// A time, s from 1970, as ISO 8601 in UTC, `yyyymmddThhmmssZ`; whole seconds, of the years 1 to 9999.
 fn stamp(time_s: f64) -> String {
-    let whole = time_s.floor().clamp(-62_135_596_800.0, LAST_S) as i64;
-    let (days, second) = (whole.div_euclid(SECONDS_PER_DAY), whole.rem_euclid(SECONDS_PER_DAY));
+    let seconds = time_s.floor().clamp(-62_135_596_800.0, LAST_S) as i64;
+    let (days, second) = (seconds.div_euclid(SECONDS_PER_DAY), seconds.rem_euclid(SECONDS_PER_DAY));
     let [year, month, day] = date(days);
     format!("{year:04}{month:02}{day:02}T{:02}{:02}{:02}Z", second / 3600, second / 60 % 60, second % 60)
 }
@@ -300,9 +300,9 @@ mod wire_type {
 
 /// Message under construction, field by field.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct Message(Vec<u8>);
+struct ProtobufMessage(Vec<u8>);
 
-impl Message {
+impl ProtobufMessage {
     /// The bytes.
     fn bytes(&self) -> &[u8] {
         &self.0

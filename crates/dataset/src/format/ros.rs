@@ -17,7 +17,7 @@ const NS: u64 = 1_000_000_000;
 
 /// Time, ns, and coordinate frame of a message.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct At<'a> {
+pub(super) struct MessageHeader<'a> {
     /// Time, ns.
     pub(super) time_ns: u64,
     /// Name of the coordinate frame.
@@ -69,11 +69,11 @@ const QUATERNION: &str = "geometry_msgs/Quaternion";
 
 /// Definition of a message and of the types that it contains, in the form of ROS 2 files.
 pub(super) fn definition(name: &str) -> String {
-    let of = |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
-    let (_, fields, parts) = of(name);
+    let definition_of = |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
+    let (_, fields, parts) = definition_of(name);
     let mut text = (*fields).to_owned();
     for part in *parts {
-        text.push_str(&format!("{}\nMSG: {part}\n{}", "=".repeat(80), of(part).1));
+        text.push_str(&format!("{}\nMSG: {part}\n{}", "=".repeat(80), definition_of(part).1));
     }
     text
 }
@@ -83,13 +83,13 @@ struct Cdr(Vec<u8>);
 
 impl Cdr {
     /// Starts a message with a header.
-    fn with_header(at: At<'_>) -> Self {
+    fn with_header(at: MessageHeader<'_>) -> Self {
         let mut cdr = Self(vec![0, 1, 0, 0]);
         cdr.header(at);
         cdr
     }
 
-    fn header(&mut self, At { time_ns, frame }: At<'_>) {
+    fn header(&mut self, MessageHeader { time_ns, frame }: MessageHeader<'_>) {
         self.u32((time_ns / NS) as u32);
         self.u32((time_ns % NS) as u32);
         self.text(frame);
@@ -124,15 +124,15 @@ impl Cdr {
 }
 
 /// Encoded image, by the extension of its file.
-pub(super) fn compressed_image(at: At<'_>, extension: &str, picture: &[u8]) -> Vec<u8> {
+pub(super) fn compressed_image(at: MessageHeader<'_>, extension: &str, image: &[u8]) -> Vec<u8> {
     let mut cdr = Cdr::with_header(at);
     cdr.text(if extension == "jpg" { "jpeg" } else { extension });
-    cdr.bytes(picture);
+    cdr.bytes(image);
     cdr.0
 }
 
 /// Depths, m.
-pub(super) fn depth_image(at: At<'_>, depth: &Plane<Length>) -> Vec<u8> {
+pub(super) fn depth_image(at: MessageHeader<'_>, depth: &Plane<Length>) -> Vec<u8> {
     let (width, height) = (depth.width() as u32, depth.height() as u32);
     let mut cdr = Cdr::with_header(at);
     cdr.u32(height);
@@ -153,7 +153,7 @@ const FLOAT32: u8 = 7;
 /// Points that a camera without distortion (fx, skew, cx, fy, cy in raster coordinates) sees through its pixel centres, in its frame, m, row by row with their
 /// colours (red, green, blue from 0 to 1, display-referred); NaN where there is no depth.
 pub(super) fn point_cloud(
-    at: At<'_>,
+    at: MessageHeader<'_>,
     depth: &Plane<Length>,
     colours: &Plane<Display>,
     [fx, skew, cx, fy, cy]: [f64; 5],
@@ -189,7 +189,7 @@ pub(super) fn point_cloud(
 }
 
 /// Camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
-pub(super) fn camera_info(at: At<'_>, width: usize, height: usize, [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
+pub(super) fn camera_info(at: MessageHeader<'_>, width: usize, height: usize, [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
     // ROS has pixel centres at whole numbers.
     let (cx, cy) = (cx - 0.5, cy - 0.5);
     let mut cdr = Cdr::with_header(at);
@@ -208,11 +208,11 @@ pub(super) fn camera_info(at: At<'_>, width: usize, height: usize, [fx, skew, cx
 }
 
 /// Transform from the world to a camera.
-pub(super) fn transform(camera: At<'_>, pose: &Pose) -> Vec<u8> {
+pub(super) fn transform(camera: MessageHeader<'_>, pose: &Pose) -> Vec<u8> {
     let [w, x, y, z] = pose.rotation_wxyz;
     let mut cdr = Cdr(vec![0, 1, 0, 0]);
     cdr.u32(1);
-    cdr.header(At { frame: "world", ..camera });
+    cdr.header(MessageHeader { frame: "world", ..camera });
     cdr.text(camera.frame);
     cdr.f64s(&pose.position_m);
     cdr.f64s(&[x, y, z, w]);

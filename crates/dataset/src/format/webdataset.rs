@@ -16,8 +16,8 @@ use etendue_core::quantity::{Identity, Length};
 use etendue_io::png::encode_grey16;
 use serde_json::json;
 
-use crate::records::{Records, Writer, write};
-use crate::{draw::Split, picture::Picture, record::SampleRecord, set::Set};
+use crate::records::{Records, FormatWriter, write};
+use crate::{draw::Split, picture::SampleImage, record::SampleRecord, set::Set};
 
 pub(super) struct WebDataset {
     shard_samples: u32,
@@ -40,7 +40,7 @@ struct ShardLayout {
 type Shards = BTreeMap<(Split, u32), Vec<u32>>;
 
 impl WebDataset {
-    pub(super) fn of(set: &Set) -> Self {
+    pub(super) fn new(set: &Set) -> Self {
         let stated = set.variations.as_ref().and_then(|variations| variations.shard_samples.as_ref());
         // At most a million.
         Self {
@@ -86,7 +86,7 @@ fn parts(folder: &OutputFolder, samples: &[u32]) -> Vec<PathBuf> {
     samples.iter().map(|sample| folder.path().join(part(*sample))).collect()
 }
 
-impl Writer for WebDataset {
+impl FormatWriter for WebDataset {
     /// A complete shard has no parts: its samples must be rendered again together.
     fn check_replaced(&self, records: &Records, samples: &Range<u32>, folder: &OutputFolder) -> Result<(), Error> {
         let shard = |sample: u32| sample / self.shard_samples;
@@ -107,7 +107,7 @@ impl Writer for WebDataset {
     }
 
     /// A part is a section of the shard that has replaced it.
-    fn holds(&self, name: &str, record: &SampleRecord, records: &Records, root: &Path) -> bool {
+    fn has_file(&self, name: &str, record: &SampleRecord, records: &Records, root: &Path) -> bool {
         let Some(digest) = record.files.get(name).filter(|_| name == part(record.sample)) else { return false };
         let shard = record.sample / self.shard_samples;
         let mut layout = self.layout.borrow_mut();
@@ -123,23 +123,23 @@ impl Writer for WebDataset {
             file.seek(SeekFrom::Start(*start))?;
             FileDigest::from_reader(file.take(digest.bytes))
         });
-        let is_of_length = tar.metadata().is_ok_and(|found| found.len() == length + END.len() as u64);
-        is_of_length && piece.is_ok_and(|found| found == *digest)
+        let is_of_length = tar.metadata().is_ok_and(|info| info.len() == length + END.len() as u64);
+        is_of_length && piece.is_ok_and(|actual| actual == *digest)
     }
 
-    fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
-        let (sample, _) = picture.sample;
-        let record = &picture.record;
+    fn write_image(&self, _set: &Set, image: &SampleImage<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = image.sample;
+        let record = &image.record;
         let stem = record.stem(sample);
         let failed = |error: &dyn std::fmt::Display| Error::Run(format!("{stem}: {error}"));
         let facts = json!({ "sample": sample, "picture": record }).to_string();
-        let ids = identities(&picture.truth.instance).map_err(|error| failed(&error))?;
+        let ids = identities(&image.truth.instance).map_err(|error| failed(&error))?;
         let mut part = self.part.borrow_mut();
         for (extension, bytes) in [
-            (record.extension.as_str(), picture.bytes.as_slice()),
+            (record.extension.as_str(), image.bytes.as_slice()),
             ("json", facts.as_bytes()),
             ("instance.png", &ids),
-            ("depth.npy", &npy(&picture.truth.depth)),
+            ("depth.npy", &npy(&image.truth.depth)),
         ] {
             add(&mut part, &format!("{stem}.{extension}"), bytes);
         }
@@ -164,7 +164,7 @@ impl Writer for WebDataset {
         Ok(())
     }
 
-    fn tidy(&self, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
+    fn remove_obsolete(&self, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
         for ((_, shard), samples) in self.shards(records)? {
             if self.is_complete(records, shard) {
                 let names: Vec<String> = samples.iter().map(|sample| part(*sample)).collect();

@@ -1,8 +1,8 @@
 //! Flow, disparity and boxes, from a job to files.
 
-use etendue::{Existing, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use etendue_io::correspondence::decode_flo;
-use etendue_io::exr::{Samples, read_exr};
+use etendue_io::exr::{ExrSamples, read_exr};
 use std::path::Path;
 
 const CAMERA: &str = "lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
@@ -28,7 +28,7 @@ fn job(left: &str, sequence: &str) -> String {
 
 const SEQUENCE: &str = "[sequence]\nframe_rate_hz = 10\n";
 
-fn opened(text: &str) -> Result<Job, String> {
+fn open_job(text: &str) -> Result<Job, String> {
     let mut files = MemoryFiles::new();
     files.add_text("job.toml", text);
     JobRequest::new("job.toml").open_in(&files).map_err(|error| error.to_string())
@@ -40,15 +40,15 @@ fn floats(folder: &Path, file: &str, channel: &str) -> Vec<f32> {
 }
 
 #[test]
-fn everything_that_is_asked_for_is_written_and_right() {
+fn all_requested_annotations_are_written_and_right() {
     let left = "output = { optical_flow = \"middlebury\", scene_flow = true, disparity_to = \"right\", disparity_format = \"kitti\", \
                 boxes = true }\n";
-    let job = opened(&job(left, SEQUENCE)).expect("a legal job");
+    let job = open_job(&job(left, SEQUENCE)).expect("a legal job");
     assert!(job.summary().contains("optical flow, scene flow, disparity, boxes"), "{}", job.summary());
     let folder = tempfile::tempdir().expect("a folder");
     let options = RenderOptions { frames: 0..2, ..RenderOptions::default() };
     let results = job.render(&options, &Unobserved).expect("rendered");
-    results.save(folder.path(), Existing::Refuse, &Unobserved).expect("saved");
+    results.save(folder.path(), ExistingFiles::Refuse, &Unobserved).expect("saved");
     let named = job.file_names(&(0..2));
     assert!(named.iter().all(|name| folder.path().join(name).is_file()), "{named:?}");
     let at = |file: &str| folder.path().join("left").join(file);
@@ -68,9 +68,9 @@ fn everything_that_is_asked_for_is_written_and_right() {
     // b f / z = 0.3 m · 60 px / 10 m; the right camera sees it in all but the two columns that lie outside.
     let disparity = floats(&left, "disparity.0000.exr", "disparity.X");
     assert!(disparity.iter().all(|d| (d - 1.8).abs() < 1e-5), "{:?}", &disparity[..4]);
-    let seen = read_exr(&at("disparity.0000.exr")).expect("disparity");
-    let Some(Samples::Uint(seen)) = seen.channel("visibility.ID") else { panic!("no visibility") };
-    assert_eq!((seen[0], seen[1], seen[2]), (3, 3, 1));
+    let visibility = read_exr(&at("disparity.0000.exr")).expect("disparity");
+    let Some(ExrSamples::Uint(visibility)) = visibility.channel("visibility.ID") else { panic!("no visibility") };
+    assert_eq!((visibility[0], visibility[1], visibility[2]), (3, 3, 1));
     assert!(at("disparity.0001.png").is_file());
     let boxes = std::fs::read_to_string(at("boxes.0001.json")).expect("boxes");
     let boxes: serde_json::Value = serde_json::from_str(&boxes).expect("JSON");
@@ -83,25 +83,25 @@ fn everything_that_is_asked_for_is_written_and_right() {
 
 #[test]
 fn what_cannot_be_is_refused_with_its_remedy() {
-    let refused = |left: &str, sequence: &str| opened(&job(left, sequence)).map(|_| ()).expect_err("refused");
-    let message = refused("output = { optical_flow = \"exr\" }\n", "");
+    let error = |left: &str, sequence: &str| open_job(&job(left, sequence)).map(|_| ()).expect_err("refused");
+    let message = error("output = { optical_flow = \"exr\" }\n", "");
     assert!(
         message.contains("\"optical_flow\" requires the previous and the next frame") && message.contains("[sequence]"),
         "{message}"
     );
-    let message = refused("output = { disparity_to = \"top\" }\n", SEQUENCE);
+    let message = error("output = { disparity_to = \"top\" }\n", SEQUENCE);
     assert!(message.contains("there is no other camera \"top\"") && message.contains("give one of right"), "{message}");
-    let message = refused("output = { disparity_format = \"kitti\" }\n", SEQUENCE);
+    let message = error("output = { disparity_format = \"kitti\" }\n", SEQUENCE);
     assert!(message.contains("\"disparity_format\" has no effect without \"disparity_to\""), "{message}");
     let turned = job("output = { disparity_to = \"right\" }\n", SEQUENCE).replacen(
         "rotation_deg = [0, 0, 0]",
         "rotation_deg = [0, 1, 0]",
         2,
     );
-    let message = opened(&turned).map(|_| ()).expect_err("refused");
+    let message = open_job(&turned).map(|_| ()).expect_err("refused");
     assert!(message.contains("are not rectified") && message.contains("the same lens without distortion"), "{message}");
     let swapped =
         job("", SEQUENCE).replace("name = \"right\"", "name = \"right\"\noutput = { disparity_to = \"left\" }");
-    let message = opened(&swapped).map(|_| ()).expect_err("refused");
+    let message = open_job(&swapped).map(|_| ()).expect_err("refused");
     assert!(message.contains("camera \"left\" is not to the right of \"right\""), "{message}");
 }

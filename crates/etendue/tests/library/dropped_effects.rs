@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Jobs that equal others except for time of day or weather.
-const LIKE_OTHERS: [&str; 9] =
+const DUPLICATE_JOBS: [&str; 9] =
     ["sunset", "wet-night", "light-rain", "snow", "puddles", "night-fog", "spray", "streaks", "pupil"];
 
 /// Jobs of the repository, one of each kind.
@@ -21,7 +21,7 @@ fn jobs() -> Vec<PathBuf> {
         file.extension().is_some_and(|e| e == "toml")
             && std::fs::read_to_string(file).is_ok_and(|text| text.contains("[[cameras]]"))
     };
-    let is_other = |file: &PathBuf| file.file_stem().is_none_or(|name| LIKE_OTHERS.iter().all(|like| name != *like));
+    let is_other = |file: &PathBuf| file.file_stem().is_none_or(|name| DUPLICATE_JOBS.iter().all(|like| name != *like));
     let files = within(scenes).filter(|p| p.is_dir()).flat_map(within);
     let mut jobs: Vec<PathBuf> = files.filter(is_job).filter(is_other).collect();
     jobs.sort();
@@ -30,14 +30,14 @@ fn jobs() -> Vec<PathBuf> {
 
 /// Plan of a job under changes; the assets that it needs are added to the known ones.
 fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String> {
-    let told = |errors: Vec<String>| errors.join("\n");
+    let joined = |errors: Vec<String>| errors.join("\n");
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
-    let description = Description::load(job, &read, &Overrides::new(set)).map_err(|faults| faults.to_string())?;
+    let description = Description::load(job, &read, &Overrides::new(set)).map_err(|description_errors| description_errors.to_string())?;
     let complete =
         complete_assets(std::mem::take(assets), &description.assets(), &TextureMemory::default(), &Sandbox::NONE);
-    *assets = complete.map_err(|errors| told(errors.iter().map(ToString::to_string).collect()))?;
+    *assets = complete.map_err(|errors| joined(errors.iter().map(ToString::to_string).collect()))?;
     compile(&description, assets, &Choices::default())
-        .map_err(|faults| told(faults.iter().map(ToString::to_string).collect()))
+        .map_err(|description_errors| joined(description_errors.iter().map(ToString::to_string).collect()))
 }
 
 /// Status of an effect in the plan of a job after disabling it.
@@ -47,7 +47,7 @@ fn status(plan: &Plan, camera: usize, name: &str) -> PlannedEffect {
 }
 
 /// Trial: a camera of a job and an effect of it with the changes that disable it.
-struct Trial<'j> {
+struct EffectTrial<'j> {
     job: &'j Path,
     camera: usize,
     name: &'static str,
@@ -56,7 +56,7 @@ struct Trial<'j> {
     weight: usize,
 }
 
-impl Trial<'_> {
+impl EffectTrial<'_> {
     /// Kind of the trial: the effect, and the keys without cameras and values.
     fn kind(&self) -> (&'static str, Vec<String>) {
         let key = |set: &String| {
@@ -80,16 +80,16 @@ impl Trial<'_> {
     }
 }
 
-fn trials(job: &Path) -> Vec<Trial<'_>> {
-    let whole = plan(job, &[], &mut Assets::default()).unwrap_or_else(|error| panic!("{}: {error}", job.display()));
-    let weight = whole.world.meshes().iter().map(|mesh| mesh.triangles().len()).sum();
+fn trials(job: &Path) -> Vec<EffectTrial<'_>> {
+    let full_plan = plan(job, &[], &mut Assets::default()).unwrap_or_else(|error| panic!("{}: {error}", job.display()));
+    let weight = full_plan.world.meshes().iter().map(|mesh| mesh.triangles().len()).sum();
     let of = |(camera, setup)| {
-        let effects = whole.effects(setup).into_iter();
-        effects.filter_map(move |PlannedEffect { name, if_dropped, .. }| {
-            Some(Trial { job, camera, name, set: if_dropped?.set?, weight })
+        let effects = full_plan.effects(setup).into_iter();
+        effects.filter_map(move |PlannedEffect { name, omission: if_dropped, .. }| {
+            Some(EffectTrial { job, camera, name, set: if_dropped?.set?, weight })
         })
     };
-    whole.cameras.iter().enumerate().flat_map(of).collect()
+    full_plan.cameras.iter().enumerate().flat_map(of).collect()
 }
 
 /// Each kind of change once, in the cheapest job.
@@ -97,7 +97,7 @@ fn trials(job: &Path) -> Vec<Trial<'_>> {
 fn an_effect_that_is_dropped_by_its_keys_is_skipped() {
     let jobs = jobs();
     assert!(jobs.len() > 20, "{}", jobs.len());
-    let mut all: Vec<Trial<'_>> = jobs.par_iter().flat_map_iter(|job| trials(job)).collect();
+    let mut all: Vec<EffectTrial<'_>> = jobs.par_iter().flat_map_iter(|job| trials(job)).collect();
     all.sort_by_key(|trial| trial.weight);
     let mut kinds = BTreeMap::new();
     all.into_iter().for_each(|trial| {

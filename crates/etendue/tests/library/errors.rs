@@ -2,7 +2,7 @@
 //! kept, and a resumed run ends as an uninterrupted one.
 
 use etendue::{
-    Error, Existing, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
+    Error, ExistingFiles, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
 };
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,19 +20,19 @@ const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
 
 /// Panics when this many tiles are done, and records its messages.
-struct Faulty {
+struct PanickingObserver {
     tiles: usize,
-    told: Mutex<Vec<String>>,
+    messages: Mutex<Vec<String>>,
 }
 
-impl Observer for Faulty {
+impl Observer for PanickingObserver {
     fn progress(&self, progress: Progress<'_>) {
         assert_ne!(progress.done, self.tiles, "a test's panic");
     }
 
     fn message(&self, message: Message<'_>) {
         let (Message::Note(text) | Message::Warning(text)) = message;
-        self.told.lock().expect("no panic holds it").push(text.to_owned());
+        self.messages.lock().expect("no panic holds it").push(text.to_owned());
     }
 }
 
@@ -49,7 +49,7 @@ fn options() -> RenderOptions {
 
 /// Files of a folder and its subfolders.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
+    let mut contents = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(path) = folders.pop() {
         for entry in std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()) {
@@ -57,53 +57,53 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
                 true => folders.push(entry),
                 false => {
                     let name = entry.strip_prefix(folder).expect("below").to_string_lossy().into_owned();
-                    found.insert(name, std::fs::read(&entry).expect("a file"));
+                    contents.insert(name, std::fs::read(&entry).expect("a file"));
                 }
             }
         }
     }
-    found
+    contents
 }
 
 /// Renders until the observer panics at a tile; returns its messages.
 fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
-    let observer = Faulty { tiles, told: Mutex::default() };
+    let observer = PanickingObserver { tiles, messages: Mutex::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
-    let run = || pool.install(|| job.save(&options(), folder, Existing::Refuse, &observer));
+    let run = || pool.install(|| job.save(&options(), folder, ExistingFiles::Refuse, &observer));
     catch_unwind(AssertUnwindSafe(run)).expect_err("the observer's panic");
-    let told = observer.told.into_inner().expect("no panic holds it");
-    told.last().expect("what was kept").clone()
+    let messages = observer.messages.into_inner().expect("no panic holds it");
+    messages.last().expect("what was kept").clone()
 }
 
 #[test]
 fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     let place = tempfile::tempdir().expect("a folder");
-    let whole = place.path().join("whole");
-    job(false).save(&options(), &whole, Existing::Refuse, &Unobserved).expect("rendered");
-    let expected = files(&whole);
+    let undisturbed = place.path().join("whole");
+    job(false).save(&options(), &undisturbed, ExistingFiles::Refuse, &Unobserved).expect("rendered");
+    let expected = files(&undisturbed);
     // In the first frame: nothing remains, not even the folder.
     let out = place.path().join("out");
-    let told = panicked(&job(false), &out, 2);
-    assert!(told.ends_with("nothing of this run was saved") && !out.exists(), "{told}");
+    let message = panicked(&job(false), &out, 2);
+    assert!(message.ends_with("nothing of this run was saved") && !out.exists(), "{message}");
     // In the third: two frames.
-    let told = panicked(&job(false), &out, 10);
-    assert!(told.contains("saved 2 complete frames; to continue, use `resume`"), "{told}");
-    let kept = files(&out);
-    assert!(kept.len() > 2 && kept.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", kept.keys());
-    job(false).save(&options(), &out, Existing::Resume, &Unobserved).expect("rendered");
+    let message = panicked(&job(false), &out, 10);
+    assert!(message.contains("saved 2 complete frames; to continue, use `resume`"), "{message}");
+    let stored = files(&out);
+    assert!(stored.len() > 2 && stored.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", stored.keys());
+    job(false).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
     assert!(files(&out) == expected);
 }
 
 #[test]
 fn a_panic_between_passes_leaves_the_light_of_the_last() {
     let place = tempfile::tempdir().expect("a folder");
-    let (whole, out) = (place.path().join("whole"), place.path().join("out"));
-    job(true).save(&options(), &whole, Existing::Refuse, &Unobserved).expect("rendered");
+    let (undisturbed, out) = (place.path().join("whole"), place.path().join("out"));
+    job(true).save(&options(), &undisturbed, ExistingFiles::Refuse, &Unobserved).expect("rendered");
     // The second pass of the first frame.
-    let told = panicked(&job(true), &out, 6);
-    assert!(told.contains("kept the light of the last whole pass; with `resume`"), "{told}");
-    job(true).save(&options(), &out, Existing::Resume, &Unobserved).expect("rendered");
-    assert!(files(&out) == files(&whole));
+    let message = panicked(&job(true), &out, 6);
+    assert!(message.contains("kept the light of the last whole pass; with `resume`"), "{message}");
+    job(true).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
+    assert!(files(&out) == files(&undisturbed));
 }
 
 /// The folder is unlocked again, also within the process.
@@ -111,11 +111,11 @@ fn a_panic_between_passes_leaves_the_light_of_the_last() {
 fn jobs_of_one_process_take_turns_in_a_folder() {
     let place = tempfile::tempdir().expect("a folder");
     panicked(&job(false), place.path(), 2);
-    let held = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
-    let refused = job(false).save(&options(), place.path(), Existing::Replace, &Unobserved).expect_err("held");
-    assert!(refused.to_string().contains("another run of this process writes into this folder"), "{refused}");
-    drop(held);
-    job(false).save(&options(), place.path(), Existing::Refuse, &Unobserved).expect("free");
+    let folder = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("free");
+    let error = job(false).save(&options(), place.path(), ExistingFiles::Replace, &Unobserved).expect_err("held");
+    assert!(error.to_string().contains("another run of this process writes into this folder"), "{error}");
+    drop(folder);
+    job(false).save(&options(), place.path(), ExistingFiles::Refuse, &Unobserved).expect("free");
 }
 
 #[test]
@@ -127,22 +127,22 @@ fn a_missing_file_is_a_fault_of_the_key_that_names_it() {
         focal_length_mm = 4\nf_number = 8\n[cameras.sensor]\nwidth_px = 8\nheight_px = 8\npixel_pitch_um = 4\n";
     std::fs::write(&job, text).expect("written");
     let opened = Job::open(&job).map(|_| ());
-    let Err(Error::Input(faults)) = opened else { panic!("{opened:?}") };
-    let Some(fault) = faults.iter().find(|fault| fault.message.contains("lost.obj")) else { panic!("{faults:?}") };
-    assert_eq!((fault.file.as_ref(), fault.line, fault.column), (Some(&job), Some(4), Some(8)), "{fault:?}");
-    assert_eq!(fault.key.as_deref(), Some("scene.meshes.m.file"));
+    let Err(Error::Input(errors)) = opened else { panic!("{opened:?}") };
+    let Some(error) = errors.iter().find(|error| error.message.contains("lost.obj")) else { panic!("{errors:?}") };
+    assert_eq!((error.file.as_ref(), error.line, error.column), (Some(&job), Some(4), Some(8)), "{error:?}");
+    assert_eq!(error.key.as_deref(), Some("scene.meshes.m.file"));
 }
 
 /// The program names it `--time` (`crates/cli/tests/binary/progressive.rs`), Python `time_s`.
 #[test]
-fn a_time_that_is_too_short_is_told_by_its_field() {
-    let Err(Error::Input(faults)) = JobRequest { time_s: Some(3.0), ..JobRequest::new("job.toml") }.open() else {
+fn a_time_that_is_too_short_is_reported_by_its_field() {
+    let Err(Error::Input(errors)) = JobRequest { time_s: Some(3.0), ..JobRequest::new("job.toml") }.open() else {
         panic!("a time of 3 s is refused")
     };
-    assert_eq!(faults[0].field.as_deref(), Some("time_s"));
+    assert_eq!(errors[0].field.as_deref(), Some("time_s"));
     assert!(
-        faults[0].message.starts_with("`time_s` 3: ") && !faults[0].message.contains("--"),
+        errors[0].message.starts_with("`time_s` 3: ") && !errors[0].message.contains("--"),
         "{}",
-        faults[0].message
+        errors[0].message
     );
 }

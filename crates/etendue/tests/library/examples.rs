@@ -28,10 +28,10 @@ fn a_first_picture_is_written() {
 fn another_lens_photographs_stored_radiance() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = another_lens::run(folder.path()).unwrap_or_else(|error| panic!("{error}"));
-    let pictures: Vec<Vec<u8>> = ["f2.8", "f11"]
+    let images: Vec<Vec<u8>> = ["f2.8", "f11"]
         .map(|f| std::fs::read(folder.path().join(f).join("web/picture.0000.png")).expect("a picture"))
         .to_vec();
-    assert_ne!(pictures[0], pictures[1]);
+    assert_ne!(images[0], images[1]);
     assert!(files.iter().all(|file| file.is_file()));
 }
 
@@ -59,8 +59,8 @@ fn a_chart_gives_the_distortion_that_the_camera_declares() {
 #[test]
 fn a_sheet_from_arrays_has_the_depth_of_its_folds() {
     let depth = scene_from_arrays::run().unwrap_or_else(|error| panic!("{error}"));
-    let seen: Vec<f32> = depth.into_iter().filter(|d| d.is_finite()).collect();
+    let depths: Vec<f32> = depth.into_iter().filter(|d| d.is_finite()).collect();
     // 5 m minus 0 … 0.2 m: vertices lie on lower edges and ridges, so facets are exact except for roundings of f32.
-    assert!(seen.iter().all(|d| (4.799..=5.001).contains(d)), "{seen:?}");
-    assert!(seen.iter().any(|d| *d < 4.81) && seen.iter().any(|d| *d > 4.99), "{seen:?}");
+    assert!(depths.iter().all(|d| (4.799..=5.001).contains(d)), "{depths:?}");
+    assert!(depths.iter().any(|d| *d < 4.81) && depths.iter().any(|d| *d > 4.99), "{depths:?}");
 }

@@ -1,6 +1,6 @@
 //! Jobs that begin far from the time 0: they have the same light as near it, and keep the full precision of every time.
 
-use etendue::{Existing, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use etendue_io::exr::read_exr;
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn render(text: &str, out: &Path) -> Result<(), String> {
     let job = JobRequest::new("job.toml").open_in(&files).map_err(|error| error.to_string())?;
     let options = RenderOptions { frames: 0..3, ..RenderOptions::default() };
     let results = job.render(&options, &Unobserved).map_err(|error| error.to_string())?;
-    results.save(out, Existing::Refuse, &Unobserved).map(drop).map_err(|error| error.to_string())
+    results.save(out, ExistingFiles::Refuse, &Unobserved).map(drop).map_err(|error| error.to_string())
 }
 
 /// Reads the radiance of all frames.
@@ -54,8 +54,8 @@ fn light_is_the_same_at_unix_times_as_near_zero() {
     render(&job("1e-7", "1.0000001", "0.2", ""), &out("near")).expect("rendered");
     let near = radiance(&out("near"));
     assert!(near.iter().any(|value| *value > 0.0));
-    for whole in ["1700000000", "10000000000", "-5000000"] {
-        let time_text = |fraction: &str| match whole.strip_prefix('-') {
+    for second in ["1700000000", "10000000000", "-5000000"] {
+        let time_text = |fraction: &str| match second.strip_prefix('-') {
             // -5000000 + 0.2, in digits.
             Some(_) => format!(
                 "\"{}\"",
@@ -66,12 +66,12 @@ fn light_is_the_same_at_unix_times_as_near_zero() {
                     .1
             ),
             None => match fraction {
-                "1" => format!("\"{}.0000001\"", whole.parse::<i64>().expect("digits") + 1),
-                fraction => format!("\"{whole}.{fraction}\""),
+                "1" => format!("\"{}.0000001\"", second.parse::<i64>().expect("digits") + 1),
+                fraction => format!("\"{second}.{fraction}\""),
             },
         };
-        render(&job(&time_text("0000001"), &time_text("1"), &time_text("2"), ""), &out(whole)).expect("rendered");
-        assert_eq!(radiance(&out(whole)), near, "{whole}");
+        render(&job(&time_text("0000001"), &time_text("1"), &time_text("2"), ""), &out(second)).expect("rendered");
+        assert_eq!(radiance(&out(second)), near, "{second}");
     }
     let frame = json(&out("1700000000"), "frame.0001.json");
     assert_eq!(frame["time"], "1700000000.1000001");

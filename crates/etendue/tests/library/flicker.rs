@@ -1,7 +1,7 @@
 //! Flicker of frames with a side-car: timing need not be stated again.
 
 use etendue::measure::{FlickerRequest, flicker};
-use etendue::{Existing, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use std::path::{Path, PathBuf};
 
 /// A lamp on mains of 50 Hz fills the image; rows of 250 µs, 25 frames per second.
@@ -22,11 +22,11 @@ fn frames(folder: &Path, numbers: &[u32]) -> Vec<PathBuf> {
     files.add_text("job.toml", JOB);
     let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));
     let options = RenderOptions { frames: 0..5, ..RenderOptions::default() };
-    job.save(&options, folder, Existing::Refuse, &Unobserved).expect("rendered");
+    job.save(&options, folder, ExistingFiles::Refuse, &Unobserved).expect("rendered");
     numbers.iter().map(|number| folder.join(format!("eye/raw.{number:04}.png"))).collect()
 }
 
-fn told(request: &FlickerRequest) -> (f64, f64, Vec<String>) {
+fn measured_flicker(request: &FlickerRequest) -> (f64, f64, Vec<String>) {
     let report = flicker(request).unwrap_or_else(|error| panic!("{error}"));
     let value = |key: &str| report.value(key).unwrap_or_else(|| panic!("{key}: {:?}", report.notes())).value;
     (value("frequency_hz"), value("amplitude_light"), report.notes().to_vec())
@@ -36,19 +36,19 @@ fn told(request: &FlickerRequest) -> (f64, f64, Vec<String>) {
 fn times_are_those_of_the_side_car() {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = frames(folder.path(), &[0, 1, 2, 3]);
-    let (frequency_hz, depth, notes) = told(&FlickerRequest::new(frames.clone()));
+    let (frequency_hz, depth, notes) = measured_flicker(&FlickerRequest::new(frames.clone()));
     // Shot noise of ten thousand electrons per pixel, 24 pixels per row, 480 rows: far below.
     assert!((frequency_hz - 100.0).abs() < 0.1 && (depth - 0.6).abs() < 0.01, "{frequency_hz} Hz, {depth}");
-    let taken = "row time 250 µs, frame rate 25 Hz, exposure 2000 µs";
-    assert!(notes.iter().any(|note| note.contains("camera.json") && note.contains(taken)), "{notes:?}");
+    let expected = "row time 250 µs, frame rate 25 Hz, exposure 2000 µs";
+    assert!(notes.iter().any(|note| note.contains("camera.json") && note.contains(expected)), "{notes:?}");
     let stated = FlickerRequest {
         row_time_us: Some(250.0),
         frame_rate_hz: Some(25.0),
         exposure_us: Some(2000.0),
         ..FlickerRequest::new(frames)
     };
-    let (again_hz, again, notes) = told(&stated);
-    assert_eq!((again_hz, again), (frequency_hz, depth));
+    let (again_hz, repeated, notes) = measured_flicker(&stated);
+    assert_eq!((again_hz, repeated), (frequency_hz, depth));
     assert!(!notes.iter().any(|note| note.contains("camera.json")), "{notes:?}");
 }
 
@@ -57,10 +57,10 @@ fn an_option_overrides_the_side_car_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = frames(folder.path(), &[0, 2, 4]);
     let request = FlickerRequest { row_time_us: Some(125.0), frame_rate_hz: Some(25.0), ..FlickerRequest::new(frames) };
-    let (frequency_hz, _, notes) = told(&request);
+    let (frequency_hz, _, notes) = measured_flicker(&request);
     assert!((frequency_hz - 200.0).abs() < 1.0, "rows in half the time: {frequency_hz} Hz");
-    let said = |words: &str| notes.iter().any(|note| note.contains(words));
-    assert!(said("`row_time_us` 125 is taken") && said("says 250 µs"), "{notes:?}");
+    let is_noted = |words: &str| notes.iter().any(|note| note.contains(words));
+    assert!(is_noted("`row_time_us` 125 is taken") && is_noted("says 250 µs"), "{notes:?}");
     // Every second frame.
-    assert!(said("`frame_rate_hz` 25 is taken") && said("says 12.5 Hz"), "{notes:?}");
+    assert!(is_noted("`frame_rate_hz` 25 is taken") && is_noted("says 12.5 Hz"), "{notes:?}");
 }

@@ -1,6 +1,6 @@
 //! Calibration files of a rig, read by independent formulas and compared with the program's projection.
 
-use etendue::{Existing, Job, Unobserved};
+use etendue::{ExistingFiles, Job, Unobserved};
 use etendue_core::maths::f64::{atan2, cos, sin};
 use glam::{DMat3, DVec2, DVec3};
 use serde_json::Value;
@@ -22,7 +22,7 @@ fn job() -> Job {
 }
 
 fn written(job: &Job, folder: &Path) -> impl Fn(&str) -> String {
-    job.save_calibration_files(&(0..3), folder, Existing::Refuse, &Unobserved).expect("written");
+    job.save_calibration_files(&(0..3), folder, ExistingFiles::Refuse, &Unobserved).expect("written");
     let root = folder.join("calibration");
     move |name| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
@@ -37,8 +37,8 @@ fn points(job: &Job, name: &str) -> Vec<DVec3> {
 /// Reference: the program's image of a point of the world, raster px.
 fn truth(job: &Job, name: &str, time_s: f64, point_m: DVec3) -> DVec2 {
     let camera = job.plan().camera(name).expect("a camera");
-    let seen = camera.body.lens.project(camera.path.at(time_s).point_to_camera(point_m)).expect("in the field");
-    camera.body.raster.raster_px(seen)
+    let image_mm = camera.body.lens.project(camera.path.at(time_s).point_to_camera(point_m)).expect("in the field");
+    camera.body.raster.raster_px(image_mm)
 }
 
 /// The numbers of the first list after a word.
@@ -53,7 +53,7 @@ fn list(text: &str, word: &str) -> Vec<f64> {
 }
 
 /// OpenCV's image of a point of the camera frame, with a matrix whose pixel centres are at whole numbers.
-fn seen([fx, fy, cx, cy]: [f64; 4], model: &str, k: &[f64], point: DVec3) -> DVec2 {
+fn opencv_image_px([fx, fy, cx, cy]: [f64; 4], model: &str, k: &[f64], point: DVec3) -> DVec2 {
     let at = |i: usize| k.get(i).copied().unwrap_or(0.0);
     let (x, y) = (point.x / point.z, point.y / point.z);
     let s = x * x + y * y;
@@ -100,8 +100,8 @@ fn rotation([w, x, y, z]: [f64; 4]) -> DMat3 {
 }
 
 #[track_caller]
-fn assert_near(found: DVec2, expected: DVec2, told: &str) {
-    assert!((found - expected).length() < TOLERANCE_PX, "{told}: {found} for {expected}");
+fn assert_near(actual: DVec2, expected: DVec2, what: &str) {
+    assert!((actual - expected).length() < TOLERANCE_PX, "{what}: {actual} for {expected}");
 }
 
 /// Transforms a point from the car's frame to the camera's, by `static_transforms.yaml`: the inverse of its rotation and translation.
@@ -118,7 +118,7 @@ fn into_camera(transforms: &str, name: &str, point_m: DVec3) -> DVec3 {
 }
 
 /// Transforms a point of the world to the car's frame at 0 s.
-fn in_car(point_m: DVec3) -> DVec3 {
+fn to_car_frame(point_m: DVec3) -> DVec3 {
     let (sin, cos) = (sin(CAR_YAW_DEG.to_radians()), cos(CAR_YAW_DEG.to_radians()));
     let [x, y, z] = (point_m - DVec3::from_array(CAR_M)).to_array();
     DVec3::new(cos * x + sin * y, cos * y - sin * x, z)
@@ -140,8 +140,8 @@ fn camera_info_and_fixed_transforms_see_what_the_program_sees() {
         assert_eq!(word(&info, "distortion_model: "), model, "{name}");
         let (k, d) = (list(&info, "camera_matrix"), list(&info, "distortion_coefficients"));
         for point in points(&job, name) {
-            let found = seen([k[0], k[4], k[2], k[5]], model, &d, into_camera(&transforms, name, in_car(point)));
-            assert_near(found + 0.5, truth(&job, name, 0.0, point), name);
+            let actual = opencv_image_px([k[0], k[4], k[2], k[5]], model, &d, into_camera(&transforms, name, to_car_frame(point)));
+            assert_near(actual + 0.5, truth(&job, name, 0.0, point), name);
         }
     }
     assert!(transforms.contains("# left out: camera walker: it moves in \"world\""), "{transforms}");
@@ -160,11 +160,11 @@ fn the_projection_matrix_of_a_pair_holds_its_base() {
     let pose = job.plan().camera("left").expect("a camera").path.at(0.0);
     for point in points(&job, "left") {
         let x = pose.point_to_camera(point);
-        let found = DVec2::new(
+        let actual = DVec2::new(
             (right[0] * x.x + right[2] * x.z + right[3]) / x.z,
             (right[5] * x.y + right[6] * x.z + right[7]) / x.z,
         );
-        assert_near(found + 0.5, truth(&job, "right", 0.0, point), "right");
+        assert_near(actual + 0.5, truth(&job, "right", 0.0, point), "right");
     }
 }
 
@@ -190,13 +190,13 @@ fn a_chain_takes_points_from_camera_to_camera() {
         let (k, d) = (list(block, "intrinsics"), list(block, "distortion_coeffs"));
         let model = word(block, "distortion_model: ");
         for point in points(&job, name) {
-            let from_car = apply(&matrix(block, "T_cam_imu:"), in_car(point));
+            let from_car = apply(&matrix(block, "T_cam_imu:"), to_car_frame(point));
             let expected = truth(&job, name, 0.0, point);
-            assert_near(seen([k[0], k[1], k[2], k[3]], model, &d, from_car) + 0.5, expected, name);
+            assert_near(opencv_image_px([k[0], k[1], k[2], k[3]], model, &d, from_car) + 0.5, expected, name);
             if let Some(before) = i.checked_sub(1) {
-                let there = apply(&matrix(blocks[before], "T_cam_imu:"), in_car(point));
+                let there = apply(&matrix(blocks[before], "T_cam_imu:"), to_car_frame(point));
                 let here = apply(&matrix(block, "T_cn_cnm1:"), there);
-                assert_near(seen([k[0], k[1], k[2], k[3]], model, &d, here) + 0.5, expected, name);
+                assert_near(opencv_image_px([k[0], k[1], k[2], k[3]], model, &d, here) + 0.5, expected, name);
             }
         }
     }
@@ -213,8 +213,8 @@ fn colmap_s_model_sees_what_the_program_sees_in_every_frame() {
     let read = written(&job, folder.path());
     let (cameras, images) = (read("colmap/cameras.txt"), read("colmap/images.txt"));
     let lines = |text: &str| -> Vec<Vec<String>> {
-        let kept = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-        kept.map(|line| line.split(' ').map(str::to_owned).collect()).collect()
+        let data_lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+        data_lines.map(|line| line.split(' ').map(str::to_owned).collect()).collect()
     };
     let (cameras, images) = (lines(&cameras), lines(&images));
     let models: Vec<&str> = cameras.iter().map(|line| line[1].as_str()).collect();
@@ -234,7 +234,7 @@ fn colmap_s_model_sees_what_the_program_sees_in_every_frame() {
         let [fx, fy, cx, cy, ref k @ ..] = parameters[..] else { panic!("{parameters:?}") };
         for point in points(&job, name) {
             let expected = truth(&job, name, 0.1 * frame as f64, point);
-            assert_near(seen([fx, fy, cx, cy], &camera[1], k, turn * point + shift), expected, name);
+            assert_near(opencv_image_px([fx, fy, cx, cy], &camera[1], k, turn * point + shift), expected, name);
         }
     }
     assert!(read("colmap/points3D.txt").starts_with('#'));
@@ -251,7 +251,7 @@ fn table(value: &Value) -> Vec<(DVec3, DVec2)> {
 }
 
 /// Transforms a point of the car's frame at 0 s to the world.
-fn of_car(point_m: DVec3) -> DVec3 {
+fn car_to_world(point_m: DVec3) -> DVec3 {
     let (sin, cos) = (sin(CAR_YAW_DEG.to_radians()), cos(CAR_YAW_DEG.to_radians()));
     DVec3::new(cos * point_m.x - sin * point_m.y, sin * point_m.x + cos * point_m.y, point_m.z)
         + DVec3::from_array(CAR_M)
@@ -266,7 +266,7 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
     for name in ["left", "right", "side", "five", "rear"] {
         assert_eq!(figures["ros"][name]["frame"], "car");
         for (point, px) in table(&figures["ros"][name]) {
-            assert_near(px, truth(&job, name, 0.0, of_car(point)), name);
+            assert_near(px, truth(&job, name, 0.0, car_to_world(point)), name);
         }
     }
     let left = job.plan().camera("left").expect("a camera").path.at(0.0);
@@ -275,15 +275,15 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
     }
     for name in ["left", "right", "side", "rear"] {
         for (point, px) in table(&figures["kalibr"][name]) {
-            assert_near(px, truth(&job, name, 0.0, of_car(point)), name);
+            assert_near(px, truth(&job, name, 0.0, car_to_world(point)), name);
         }
     }
     let images = figures["colmap"].as_array().expect("a list");
     assert_eq!(images.len(), 18);
     for image in images {
         let file = image["name"].as_str().expect("a name");
-        let (name, picture) = file.split_once('/').expect("a folder");
-        let frame: f64 = picture.split('.').nth(1).and_then(|number| number.parse().ok()).expect("a number");
+        let (name, file_name) = file.split_once('/').expect("a folder");
+        let frame: f64 = file_name.split('.').nth(1).and_then(|number| number.parse().ok()).expect("a number");
         for (point, px) in table(image) {
             assert_near(px, truth(&job, name, 0.1 * frame, point), file);
         }
@@ -293,7 +293,7 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
 #[test]
 fn the_files_that_they_read_are_those_that_the_program_writes() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
-    let written = job.save_calibration_files(&(0..3), folder.path(), Existing::Refuse, &Unobserved).expect("written");
+    let written = job.save_calibration_files(&(0..3), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
     assert_eq!(written.len(), 11);
     for path in written {
         let name = path.strip_prefix(folder.path()).expect("within");

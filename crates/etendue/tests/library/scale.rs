@@ -1,6 +1,6 @@
 //! `sensor.scale`: the same field of view, mean level and clipping with fewer, larger pixels.
 
-use etendue::{Existing, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use etendue_core::Shutter;
 use etendue_core::maths::f64::pow;
 use etendue_pipeline::plan::CameraBody;
@@ -50,7 +50,7 @@ fn body<'j>(job: &'j Job, camera: &str) -> &'j CameraBody {
 /// Returns the mean level, DN, and the fraction of clipped pixels of the first frame.
 fn levels(job: &Job) -> [f64; 2] {
     let folder = tempfile::tempdir().expect("a folder");
-    job.save(&RenderOptions::default(), folder.path(), Existing::Refuse, &Unobserved).expect("rendered");
+    job.save(&RenderOptions::default(), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("rendered");
     let text = std::fs::read_to_string(folder.path().join("eye/camera.json")).expect("a side-car");
     let sidecar: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let levels = &sidecar["frames"][0]["levels"];
@@ -121,7 +121,7 @@ fn keys_scale_by_their_rules() {
     let [before, after] = [full, quarter].map(|body| body.sensor.as_ref().expect("electronics").parameters());
     assert_eq!((quarter.raster.width(), quarter.raster.height(), quarter.scale), (16, 12, 4));
     assert_eq!(quarter.raster.principal_px().to_array(), [30.5 / 4.0, 23.0 / 4.0]);
-    let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found} for {expected}");
+    let near = |actual: f64, expected: f64| assert!((actual / expected - 1.0).abs() < 1e-12, "{actual} for {expected}");
     near(after.pixel.pitch_um, 48.0);
     near(after.charge.full_well.capacity_e, 16.0 * 60_000.0);
     near(after.read_out.gain_dn_e, GAIN / 16.0);
@@ -174,10 +174,10 @@ fn rows_are_exposed_when_their_first_row_is() {
                 _ => 4 * row,
             };
             for row in 0..12 {
-                let (found, expected) = (quarter.row(0, row), full.row(0, first(row)));
+                let (actual, expected) = (quarter.row(0, row), full.row(0, first(row)));
                 let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
-                let is_same = near(found.start_s(), expected.start_s()) && near(found.end_s(), expected.end_s());
-                assert!(is_same, "{kind}, {rows}, row {row}: {found:?} for {expected:?}");
+                let is_same = near(actual.start_s(), expected.start_s()) && near(actual.end_s(), expected.end_s());
+                assert!(is_same, "{kind}, {rows}, row {row}: {actual:?} for {expected:?}");
             }
             assert!((quarter.reading_s() / full.reading_s() - 1.0).abs() < 1e-9, "{kind}, {rows}");
         }
@@ -198,7 +198,7 @@ fn calibrations_project_points_to_scaled_coordinates() {
     }
     let folders = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
     let [before, after] = [(&full, &folders[0]), (&half, &folders[1])].map(|(job, folder)| {
-        job.save_calibration_files(&(0..1), folder.path(), Existing::Refuse, &Unobserved).expect("written");
+        job.save_calibration_files(&(0..1), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
         std::fs::read_to_string(folder.path().join("calibration/ros/five.yaml")).expect("a calibration")
     });
     let [before, after] = [before, after].map(|text| matrix(&text));
@@ -223,10 +223,10 @@ fn calibration_files_describe_the_full_image() {
 
 /// Compares the images of three points in view, given by their directions in the camera frame.
 fn assert_same_projection(full: &CameraBody, scaled: &CameraBody, k: f64) {
-    let seen = |body: &CameraBody, to: DVec3| body.raster.raster_px(body.lens.project(to).expect("in the field"));
+    let image_px = |body: &CameraBody, to: DVec3| body.raster.raster_px(body.lens.project(to).expect("in the field"));
     for to in [[0.0, 0.0, 1.0], [0.2, -0.1, 1.0], [-0.3, 0.25, 1.0]].map(DVec3::from_array) {
-        let (expected, found) = (seen(full, to) / k, seen(scaled, to));
-        assert!((found - expected).length() < 1e-9, "{to}: {found} for {expected}");
+        let (expected, actual) = (image_px(full, to) / k, image_px(scaled, to));
+        assert!((actual - expected).length() < 1e-9, "{to}: {actual} for {expected}");
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) fn number_of(word: &str) -> Result<f64, String> {
 
 /// Number of an attribute, or `default`.
 pub(super) fn attribute_number(element: &MitsubaElement, name: &str, default: f64) -> Result<f64, Error> {
-    let number = element.attribute(name).map(number_of).transpose().map_err(|told| element.fault(told))?;
+    let number = element.attribute(name).map(number_of).transpose().map_err(|problem| element.error(problem))?;
     Ok(number.unwrap_or(default))
 }
 
@@ -33,18 +33,18 @@ pub(super) fn triple_of(element: &MitsubaElement, default: f64) -> Result<DVec3,
         let [x, y, z] = ["x", "y", "z"].map(|name| attribute_number(element, name, default));
         return Ok(DVec3::new(x?, y?, z?));
     };
-    match numbers_of(value).map_err(|told| element.fault(told))?[..] {
+    match numbers_of(value).map_err(|problem| element.error(problem))?[..] {
         [one] => Ok(DVec3::splat(one)),
         [x, y, z] => Ok(DVec3::new(x, y, z)),
-        ref others => Err(element.fault(format!("expected three numbers, found {}", others.len()))),
+        ref others => Err(element.error(format!("expected three numbers, found {}", others.len()))),
     }
 }
 
 /// The parameter of this name.
 pub(super) fn find<'a>(element: &'a MitsubaElement, name: &str) -> Option<&'a MitsubaElement> {
-    let found = element.children.iter().find(|child| child.attribute("name") == Some(name))?;
-    found.used.set(true);
-    Some(found)
+    let child_element = element.children.iter().find(|child| child.attribute("name") == Some(name))?;
+    child_element.used.set(true);
+    Some(child_element)
 }
 
 /// Value of a parameter as text.
@@ -53,7 +53,7 @@ fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Er
         Some(value) if tags.contains(&parameter.tag) => Ok(value),
         _ => {
             let message = format!("\"{}\": expected <{} value=\"…\"/>", parameter.name(), tags.join("> or <"));
-            Err(parameter.fault(message))
+            Err(parameter.error(message))
         }
     }
 }
@@ -62,7 +62,7 @@ fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Er
 pub(super) fn stated(element: &MitsubaElement, name: &str) -> Result<Option<f64>, Error> {
     let Some(parameter) = find(element, name) else { return Ok(None) };
     let text = value(parameter, &["float", "integer"])?;
-    number_of(text).map(Some).map_err(|told| parameter.fault(format!("\"{name}\": {told}")))
+    number_of(text).map(Some).map_err(|problem| parameter.error(format!("\"{name}\": {problem}")))
 }
 
 /// The number of a parameter, or `default`.
@@ -81,7 +81,7 @@ pub(super) fn flag(element: &MitsubaElement, name: &str, default: bool) -> Resul
     match value(parameter, &["boolean"])?.to_ascii_lowercase().as_str() {
         "true" => Ok(true),
         "false" => Ok(false),
-        _ => Err(parameter.fault(format!("\"{name}\": expected true or false"))),
+        _ => Err(parameter.error(format!("\"{name}\": expected true or false"))),
     }
 }
 
@@ -90,7 +90,7 @@ pub(super) fn vector(element: &MitsubaElement, name: &str, default: DVec3) -> Re
     match find(element, name) {
         None => Ok(default),
         Some(parameter) if matches!(parameter.tag, "point" | "vector") => triple_of(parameter, 0.0),
-        Some(parameter) => Err(parameter.fault(format!("\"{name}\": expected <point> or <vector>"))),
+        Some(parameter) => Err(parameter.error(format!("\"{name}\": expected <point> or <vector>"))),
     }
 }
 

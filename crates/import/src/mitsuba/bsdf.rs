@@ -11,19 +11,19 @@ use etendue_scene::{record::material::factor::FactorTexture, record::material::s
 use etendue_spectra::{Spectrum, metal};
 
 use super::importer::{Importer, MAX_DEPTH};
-use super::{access::text, transform::Use, value::Value};
+use super::{access::text, transform::TextureUsage, value::MitsubaValue};
 use crate::scenery::{INTERFACE, KnownTexture, grey, plain};
 use crate::syntax::mitsuba::MitsubaElement;
 
 /// Result of the conversion of a surface.
-pub(super) struct Made {
+pub(super) struct ConvertedSurface {
     /// `None` for an invisible surface.
     pub(super) surface: Option<Surface>,
     pub(super) opacity: Option<Factor>,
     pub(super) normal_map: Option<NormalMap>,
 }
 
-impl From<Surface> for Made {
+impl From<Surface> for ConvertedSurface {
     fn from(surface: Surface) -> Self {
         Self { surface: Some(surface), opacity: None, normal_map: None }
     }
@@ -35,12 +35,12 @@ impl<'a> Importer<'a> {
         if let Some(known) = self.surfaces.get(&element.number) {
             return Ok(known.clone());
         }
-        let Made { surface, opacity, normal_map } = self.made(element, depth)?;
+        let ConvertedSurface { surface, opacity, normal_map } = self.convert(element, depth)?;
         let name: Rc<str> = match surface {
             None => INTERFACE.into(),
             Some(surface) => {
-                let wish = element.attribute("id").unwrap_or(element.kind());
-                let own = self.scenery.names.take(wish, "material");
+                let preferred = element.attribute("id").unwrap_or(element.kind());
+                let own = self.scenery.names.take(preferred, "material");
                 let normal_map = normal_map.filter(|_| !matches!(surface, Surface::Mix(_)));
                 if normal_map.is_some() {
                     self.normal_mapped.insert(own.as_str().into(), None);
@@ -57,19 +57,19 @@ impl<'a> Importer<'a> {
         Ok(name)
     }
 
-    fn made(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+    fn convert(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
         if depth >= MAX_DEPTH {
             return Err(
-                element.fault(format!("surfaces are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
+                element.error(format!("surfaces are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
             );
         }
         self.at(element);
-        let made = self.model(element, depth)?;
+        let converted = self.model(element, depth)?;
         self.note_unused(element);
-        Ok(made)
+        Ok(converted)
     }
 
-    fn model(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+    fn model(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
         let kind = element.kind();
         // The nested surface decides it, or both sides are equal.
         if !matches!(
@@ -109,15 +109,15 @@ impl<'a> Importer<'a> {
                 Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() }).into()
             }
             "principled" => self.principled(element)?.into(),
-            "null" => Made { surface: None, opacity: None, normal_map: None },
+            "null" => ConvertedSurface { surface: None, opacity: None, normal_map: None },
             "twosided" => {
                 let [inner, others @ ..] = &self.within(element, "bsdf")?[..] else {
-                    return Err(element.fault("the \"twosided\" has no <bsdf>"));
+                    return Err(element.error("the \"twosided\" has no <bsdf>"));
                 };
                 if others.iter().any(|other| other.number != inner.number) {
                     self.scenery.report.note("both sides of a \"twosided\" with two surfaces use the first");
                 }
-                self.made(inner, depth + 1)?
+                self.convert(inner, depth + 1)?
             }
             "mask" => self.mask(element, depth)?,
             "blendbsdf" => self.blend(element, depth)?,
@@ -138,60 +138,60 @@ impl<'a> Importer<'a> {
     }
 
     /// Converts the only nested surface.
-    fn only(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+    fn only(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
         match self.within(element, "bsdf")?[..] {
-            [inner] => self.made(inner, depth + 1),
+            [inner] => self.convert(inner, depth + 1),
             ref others => {
                 let message = format!("{} surfaces in a \"{}\"; expected one <bsdf>", others.len(), element.kind());
-                Err(element.fault(message))
+                Err(element.error(message))
             }
         }
     }
 
-    fn mask(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+    fn mask(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
         let opacity = self.factor(element, "opacity", 0.5)?;
         let inner = self.only(element, depth)?;
         if inner.opacity.is_some() {
             self.scenery.report.note("of nested \"mask\" surfaces only the outer mask is used");
         }
-        Ok(Made { opacity: Some(opacity), ..inner })
+        Ok(ConvertedSurface { opacity: Some(opacity), ..inner })
     }
 
-    fn normals(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
-        let found = self.within(element, "texture")?;
+    fn normals(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
+        let textures = self.within(element, "texture")?;
         let inner = self.only(element, depth)?;
-        let Some(texture) = found.first() else {
-            return Err(element.fault("the \"normalmap\" has no <texture>"));
+        let Some(texture) = textures.first() else {
+            return Err(element.error("the \"normalmap\" has no <texture>"));
         };
-        let normal_map = match self.texture(texture, Use::Data)? {
+        let normal_map = match self.texture(texture, TextureUsage::Data)? {
             KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
             KnownTexture::Even(_) => None,
         };
         if matches!(inner.surface, Some(Surface::Mix(_))) {
             self.scenery.report.note("a \"normalmap\" over a blend of surfaces is not used");
         }
-        Ok(Made { normal_map, ..inner })
+        Ok(ConvertedSurface { normal_map, ..inner })
     }
 
-    fn blend(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+    fn blend(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<ConvertedSurface, Error> {
         let weight = self.factor(element, "weight", 0.5)?;
         let parts = self.within(element, "bsdf")?;
         let [a, b] = parts[..] else {
-            return Err(element.fault(format!("{} surfaces in a \"blendbsdf\"; expected two", parts.len())));
+            return Err(element.error(format!("{} surfaces in a \"blendbsdf\"; expected two", parts.len())));
         };
-        let share = |weight: f64| Some(Factor::Number(weight.into()));
+        let constant = |weight: f64| Some(Factor::Number(weight.into()));
         let [first, second] = [self.part(a, depth)?, self.part(b, depth)?];
         match (first, second, weight) {
-            (None, None, _) => Ok(Made { surface: None, opacity: None, normal_map: None }),
+            (None, None, _) => Ok(ConvertedSurface { surface: None, opacity: None, normal_map: None }),
             // A blend with an invisible surface is a partly transparent surface.
             (Some(_), None, Factor::Number(w)) => {
-                Ok(Made { opacity: share(1.0 - w.value), ..self.made(a, depth + 1)? })
+                Ok(ConvertedSurface { opacity: constant(1.0 - w.value), ..self.convert(a, depth + 1)? })
             }
-            (None, Some(_), Factor::Number(w)) => Ok(Made { opacity: share(w.value), ..self.made(b, depth + 1)? }),
-            (None, Some(_), picture) => Ok(Made { opacity: Some(picture), ..self.made(b, depth + 1)? }),
+            (None, Some(_), Factor::Number(w)) => Ok(ConvertedSurface { opacity: constant(w.value), ..self.convert(b, depth + 1)? }),
+            (None, Some(_), picture) => Ok(ConvertedSurface { opacity: Some(picture), ..self.convert(b, depth + 1)? }),
             (Some(_), None, _) => {
                 self.scenery.report.note("a blend with an invisible second surface is replaced by its first surface");
-                self.made(a, depth + 1)
+                self.convert(a, depth + 1)
             }
             (Some(a), Some(b), weight) => Ok(Surface::Mix(Mix::new(&*a, &*b, weight)).into()),
         }
@@ -201,17 +201,17 @@ impl<'a> Importer<'a> {
     fn part(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Option<Rc<str>>, Error> {
         let name = self.bsdf(element, depth + 1)?;
         let materials = &self.scenery.scene.materials;
-        let Some(found) = materials.iter().find(|m| m.name.value == *name) else { return Ok(None) };
-        if found.normal_map.is_some() {
+        let Some(base) = materials.iter().find(|m| m.name.value == *name) else { return Ok(None) };
+        if base.normal_map.is_some() {
             self.scenery.report.note("the green channel of a \"normalmap\" in a blend points up in its image; set y = \"down\" where the image is mirrored");
         }
-        if found.opacity.is_none() {
+        if base.opacity.is_none() {
             return Ok(Some(name));
         }
         let own = self.scenery.names.take(&format!("{name}-whole"), "part");
-        let whole = Material { name: own.as_str().into(), opacity: None, ..found.clone() };
+        let opaque = Material { name: own.as_str().into(), opacity: None, ..base.clone() };
         self.scenery.report.note("a \"mask\" in a blend is not used; only its surface is");
-        self.scenery.scene.materials.push(whole);
+        self.scenery.scene.materials.push(opaque);
         Ok(Some(own.as_str().into()))
     }
 
@@ -224,8 +224,8 @@ impl<'a> Importer<'a> {
         let [u, v] = [self.factor(element, "alpha_u", 0.1)?, self.factor(element, "alpha_v", 0.1)?];
         match (&u, &v) {
             (Factor::Number(u), Factor::Number(v)) if u.value != v.value => {
-                let told = "anisotropic roughness becomes isotropic: α is the geometric mean";
-                self.scenery.report.note(told);
+                let message = "anisotropic roughness becomes isotropic: α is the geometric mean";
+                self.scenery.report.note(message);
                 Ok(Factor::Number((u.value * v.value).sqrt().into()))
             }
             _ => Ok(u),
@@ -237,18 +237,18 @@ impl<'a> Importer<'a> {
         match text(element, "distribution")?.unwrap_or("beckmann") {
             "ggx" => Ok(false),
             "beckmann" => Ok(true),
-            other => Err(element.fault(format!("unknown \"distribution\" \"{other}\"; expected beckmann or ggx"))),
+            other => Err(element.error(format!("unknown \"distribution\" \"{other}\"; expected beckmann or ggx"))),
         }
     }
 
     /// Notes a slope distribution that our surfaces do not support.
     pub(super) fn note_slopes(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
         if Self::is_beckmann(element)? {
-            let told = format!(
+            let message = format!(
                 "the Beckmann distribution of a \"{}\" becomes GGX with the same α, which has longer tails",
                 element.kind()
             );
-            self.scenery.report.note(told);
+            self.scenery.report.note(message);
         }
         Ok(())
     }
@@ -323,9 +323,9 @@ impl<'a> Importer<'a> {
         };
         let metallic = self.factor(element, "metallic", 0.0)?;
         let stated = match self.value(element, "eta")? {
-            Some(Value::Number(eta)) => eta,
+            Some(MitsubaValue::Number(eta)) => eta,
             _ => match self.value(element, "specular")? {
-                Some(Value::Number(specular)) => index_of(specular),
+                Some(MitsubaValue::Number(specular)) => index_of(specular),
                 _ => 1.5,
             },
         };
@@ -358,8 +358,8 @@ impl<'a> Importer<'a> {
             return Ok(metal);
         }
         let [a, b] = [("plain", coated()), ("metal", metal)].map(|(word, surface)| {
-            let wish = format!("{}-{word}", element.attribute("id").unwrap_or("principled"));
-            let own = self.scenery.names.take(&wish, "part");
+            let preferred = format!("{}-{word}", element.attribute("id").unwrap_or("principled"));
+            let own = self.scenery.names.take(&preferred, "part");
             self.scenery.scene.materials.push(Material::new(own.as_str(), surface));
             own
         });

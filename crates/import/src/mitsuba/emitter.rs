@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use etendue_io::{Error, picture::read_picture};
+use etendue_io::{Error, picture::read_image};
 use etendue_scene::record::{Emission, Environment, Level};
 use glam::{DMat3, DVec3};
 
 use super::access::{all, find, number, text, vector};
 use super::{importer::Importer, transform::transform_of};
-use crate::scenery::{Homogeneous, LightPicture, linear_pixels};
+use crate::scenery::{Homogeneous, LightImage, linear_pixels};
 use crate::{lamps, syntax::mitsuba::MitsubaElement};
 
 impl<'a> Importer<'a> {
@@ -20,7 +20,7 @@ impl<'a> Importer<'a> {
             "directional" => self.directional(element)?,
             "constant" => {
                 let unit = self.light(element, "radiance")?;
-                if let Some(level) = self.lit(kind, "cd/m²", unit.luminance) {
+                if let Some(level) = self.note_light(kind, "cd/m²", unit.luminance) {
                     let emission = Emission::new(Level::Luminance(level.into()));
                     let emission = Emission { colour: Some(unit.colour), ..emission };
                     self.surround(Environment::Uniform(emission));
@@ -47,7 +47,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Notes a light; `None` for a dark one.
-    fn lit(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
+    fn note_light(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
         if level > 0.0 {
             self.scenery.report.note(format!("emitter \"{kind}\": {level} {unit}"));
             return Some(level);
@@ -67,7 +67,7 @@ impl<'a> Importer<'a> {
             Some(_) => vector(element, "position", DVec3::ZERO)?,
             None => to_world.translation,
         };
-        let Some(candela) = self.lit("point", "cd", unit.luminance) else { return Ok(()) };
+        let Some(candela) = self.note_light("point", "cd", unit.luminance) else { return Ok(()) };
         let name = self.name(element);
         self.scenery.scene.lights.push(lamps::point(&name, self.scenery.to_ours * position, candela, unit.colour));
         Ok(())
@@ -80,9 +80,9 @@ impl<'a> Importer<'a> {
         let inner_deg = number(element, "beam_width", 0.75 * outer_deg)?;
         if !(0.0..=180.0).contains(&outer_deg) || outer_deg == 0.0 || !(0.0..=outer_deg).contains(&inner_deg) {
             let message = format!("the cone is from {inner_deg}° to {outer_deg}°; expected 0 ≤ beam ≤ cutoff ≤ 180");
-            return Err(element.fault(message));
+            return Err(element.error(message));
         }
-        let Some(candela) = self.lit("spot", "cd", unit.luminance) else { return Ok(()) };
+        let Some(candela) = self.note_light("spot", "cd", unit.luminance) else { return Ok(()) };
         self.scenery.report.note("the falloff of a spot follows Étendue's curve between the same angles");
         let name = self.name(element);
         let ahead = (self.scenery.to_ours * to_world.matrix3.z_axis).normalize_or(DVec3::X);
@@ -103,8 +103,8 @@ impl<'a> Importer<'a> {
         let to_world = transform_of(element, "to_world")?;
         let ahead = vector(element, "direction", to_world.matrix3.z_axis)?;
         let towards = (self.scenery.to_ours * -ahead).try_normalize();
-        let towards = towards.ok_or_else(|| element.fault("\"direction\" has zero length"))?;
-        let Some(lux) = self.lit("directional", "lx, a sun disc of 0.01°", unit.luminance) else { return Ok(()) };
+        let towards = towards.ok_or_else(|| element.error("\"direction\" has zero length"))?;
+        let Some(lux) = self.note_light("directional", "lx, a sun disc of 0.01°", unit.luminance) else { return Ok(()) };
         let name = self.name(element);
         self.scenery.scene.lights.push(lamps::parallel(&name, towards, lux, unit.colour));
         Ok(())
@@ -112,14 +112,14 @@ impl<'a> Importer<'a> {
 }
 
 /// Rotation from Mitsuba's environment-map space to ours: its middle column is seen along +z and its upper edge is +y.
-fn picture_axes() -> DMat3 {
+fn image_axes() -> DMat3 {
     DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
 }
 
 impl<'a> Importer<'a> {
     /// `None`, with a note, for an unsupported or dark image.
     fn envmap(&mut self, element: &'a MitsubaElement) -> Result<Option<Environment>, Error> {
-        let file = text(element, "filename")?.ok_or_else(|| element.fault("the envmap has no \"filename\""))?;
+        let file = text(element, "filename")?.ok_or_else(|| element.error("the envmap has no \"filename\""))?;
         let scale = number(element, "scale", 1.0)?;
         if scale <= 0.0 {
             self.scenery.report.note("an emitter \"envmap\" emits no light and is left out");
@@ -131,18 +131,18 @@ impl<'a> Importer<'a> {
             to_world.y_axis.normalize_or_zero(),
             to_world.z_axis.normalize_or_zero(),
         );
-        let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?.in_rec_709();
+        let image = read_image(&self.file(file)).map_err(|e| element.error(e.to_string()))?.in_rec_709();
         let Some(pixel) = linear_pixels(&image) else {
             let message = format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)");
             self.scenery.report.note(message);
             return Ok(None);
         };
         // Transform from our environment-map space, by Mitsuba's, to our world.
-        let turn = self.scenery.to_ours * to_world * picture_axes().transpose();
+        let turn = self.scenery.to_ours * to_world * image_axes().transpose();
         let path = self.path(file);
-        let picture = LightPicture { shown: file, path: &path, columns: image.width as usize, pixel: &*pixel };
-        let made = self.scenery.light_picture(&picture, image.height as usize, turn, scale);
-        made.map(Some).map_err(|message| element.fault(message))
+        let picture = LightImage { shown: file, path: &path, columns: image.width as usize, pixel: &*pixel };
+        let result = self.scenery.light_image(&picture, image.height as usize, turn, scale);
+        result.map(Some).map_err(|message| element.error(message))
     }
 }
 
@@ -172,7 +172,7 @@ impl<'a> Importer<'a> {
         let scale = number(element, "scale", 1.0)?;
         let (extinction, even) = self.coefficient(element, "sigma_t", 1.0)?;
         if scale < 0.0 || !(300..=1100).step_by(100).any(|nm| extinction.at(nm as f32) > 0.0) {
-            return Err(element.fault("the medium needs \"sigma_t\" and \"scale\" above 0"));
+            return Err(element.error("the medium needs \"sigma_t\" and \"scale\" above 0"));
         }
         let extinction = self.scenery.curve(&extinction, even, scale);
         let (albedo, even) = self.coefficient(element, "albedo", 0.75)?;

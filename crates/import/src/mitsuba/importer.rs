@@ -7,17 +7,17 @@ use etendue_io::Error;
 use etendue_scene::record::Transform;
 use etendue_scene::record::medium::{Everywhere, MediumShape};
 
-use super::{access::all, camera, transform::Use};
-use crate::scenery::{Graphics, KnownTexture, Scenery};
+use super::{access::all, camera, transform::TextureUsage};
+use crate::scenery::{Graphics, KnownTexture, SceneBuilder};
 use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
-use crate::written::{ImportedCamera, Written, written};
+use crate::written::{ImportedCamera, ImportFiles, import_files};
 
 /// Maximum depth of nested references and surfaces.
 pub(super) const MAX_DEPTH: usize = 32;
 
 /// Scene under construction, and the conversions of the file's elements.
 pub(super) struct Importer<'a> {
-    pub(super) scenery: Scenery,
+    pub(super) scenery: SceneBuilder,
     /// Elements by id.
     ids: HashMap<&'a str, &'a MitsubaElement>,
     /// Our names of surfaces, by the numbers of their elements.
@@ -25,9 +25,9 @@ pub(super) struct Importer<'a> {
     /// Our names of surfaces with a normal map, with the name of the version whose green points down, if one exists.
     pub(super) normal_mapped: HashMap<Rc<str>, Option<Rc<str>>>,
     /// Converted textures, by the numbers of their elements and their use.
-    pub(super) textures: HashMap<(usize, Use), KnownTexture>,
+    pub(super) textures: HashMap<(usize, TextureUsage), KnownTexture>,
     /// True for shapes and surfaces with images, by the numbers of their elements.
-    pub(super) pictured: HashMap<usize, bool>,
+    pub(super) has_image: HashMap<usize, bool>,
     /// Names of media, by the numbers of their elements; empty for unsupported ones.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
@@ -39,12 +39,12 @@ impl<'a> Importer<'a> {
     pub(super) fn new(file: &Path, folder: &Path, scene: &'a MitsubaScene) -> Result<Self, Error> {
         let root = &scene.root;
         let mut importer = Self {
-            scenery: Scenery::new(file, folder),
+            scenery: SceneBuilder::new(file, folder),
             ids: HashMap::new(),
             surfaces: HashMap::new(),
             normal_mapped: HashMap::new(),
             textures: HashMap::new(),
-            pictured: HashMap::new(),
+            has_image: HashMap::new(),
             media: HashMap::new(),
             cameras: Vec::new(),
             folders: &scene.folders,
@@ -70,7 +70,7 @@ impl<'a> Importer<'a> {
             && element.tag != "alias"
             && self.ids.insert(id, element).is_some()
         {
-            return Err(element.fault(format!("duplicate id \"{id}\"; give each element its own id")));
+            return Err(element.error(format!("duplicate id \"{id}\"; give each element its own id")));
         }
         element.children.iter().try_for_each(|child| self.collect(child))
     }
@@ -78,10 +78,10 @@ impl<'a> Importer<'a> {
     fn aliases(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
         for alias in all(root, "alias") {
             let (Some(id), Some(name)) = (alias.attribute("id"), alias.attribute("as")) else {
-                return Err(alias.fault("<alias> lacks \"id\" or \"as\""));
+                return Err(alias.error("<alias> lacks \"id\" or \"as\""));
             };
             let known = self.ids.get(id).copied();
-            self.ids.insert(name, known.ok_or_else(|| alias.fault(format!("no element has the id \"{id}\"")))?);
+            self.ids.insert(name, known.ok_or_else(|| alias.error(format!("no element has the id \"{id}\"")))?);
         }
         Ok(())
     }
@@ -91,39 +91,39 @@ impl<'a> Importer<'a> {
         if element.tag != "ref" {
             return Ok(element);
         }
-        let id = element.attribute("id").ok_or_else(|| element.fault("<ref> has no \"id\""))?;
-        let found = self.ids.get(id).copied();
-        let found = found.ok_or_else(|| element.fault(format!("no element has the id \"{id}\"; check the id")))?;
+        let id = element.attribute("id").ok_or_else(|| element.error("<ref> has no \"id\""))?;
+        let target = self.ids.get(id).copied();
+        let target = target.ok_or_else(|| element.error(format!("no element has the id \"{id}\"; check the id")))?;
         element.used.set(true);
-        found.used.set(true);
-        Ok(found)
+        target.used.set(true);
+        Ok(target)
     }
 
     /// Elements of a kind within another, directly or by reference, whatever their names.
     pub(super) fn within(&self, element: &'a MitsubaElement, tag: &str) -> Result<Vec<&'a MitsubaElement>, Error> {
-        let mut found = Vec::new();
+        let mut matching = Vec::new();
         for child in element.children.iter().filter(|child| matches!(child.tag, "ref") || child.tag == tag) {
             let was_used = child.used.get();
-            let meant = self.resolve(child)?;
-            if meant.tag == tag {
-                meant.used.set(true);
-                found.push(meant);
+            let target = self.resolve(child)?;
+            if target.tag == tag {
+                target.used.set(true);
+                matching.push(target);
             } else {
                 child.used.set(was_used);
             }
         }
-        Ok(found)
+        Ok(matching)
     }
 
     /// Path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
-        let found = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
-        found.unwrap_or_else(|| self.scenery.source_folder.join(name))
+        let existing = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        existing.unwrap_or_else(|| self.scenery.source_folder.join(name))
     }
 
     /// The path of a file as the written scene names it.
     pub(super) fn path(&self, name: &str) -> String {
-        self.scenery.way_to(&self.file(name))
+        self.scenery.relative_path(&self.file(name))
     }
 
     /// Notes the unused parameters of an element.
@@ -156,13 +156,13 @@ impl<'a> Importer<'a> {
             self.scenery.report.at(String::new());
             self.scenery.report.note("it has no supported camera: one at the origin that looks along z is added");
             let camera = camera::MitsubaCamera::at_origin();
-            let imported = camera.imported("camera", self.scenery.to_ours, &mut self.scenery.report);
+            let imported = camera.into_imported("camera", self.scenery.to_ours, &mut self.scenery.report);
             self.cameras.push(imported);
         }
         for (sensor, camera, media) in read {
             self.at(sensor);
             let name = self.scenery.names.take(sensor.attribute("id").unwrap_or("camera"), "camera");
-            let imported = camera.imported(&name, self.scenery.to_ours, &mut self.scenery.report);
+            let imported = camera.into_imported(&name, self.scenery.to_ours, &mut self.scenery.report);
             self.cameras.push(imported);
             for medium in media {
                 let name = self.medium(medium)?;
@@ -197,8 +197,8 @@ impl<'a> Importer<'a> {
     }
 
     /// Files of the scene.
-    pub(super) fn finish(self, file: &Path) -> Result<Written, Error> {
-        let Scenery { scene, mut report, files, .. } = self.scenery;
+    pub(super) fn finish(self, file: &Path) -> Result<ImportFiles, Error> {
+        let SceneBuilder { scene, mut report, files, .. } = self.scenery;
         report.at(String::new());
         let counts =
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
@@ -206,8 +206,8 @@ impl<'a> Importer<'a> {
         report.note(format!(
             "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
         ));
-        let mut made = written(file, &scene, &self.cameras, report.lines());
-        made.files.extend(files);
-        Ok(made)
+        let mut result = import_files(file, &scene, &self.cameras, report.lines());
+        result.files.extend(files);
+        Ok(result)
     }
 }

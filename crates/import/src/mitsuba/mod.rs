@@ -21,11 +21,11 @@ use std::path::Path;
 
 use etendue_io::{Sandbox, failure::Error};
 
-use super::written::Written;
+use super::written::ImportFiles;
 use crate::syntax::mitsuba::read_mitsuba;
 use importer::Importer;
 
-pub(super) fn imported(file: &Path, folder: &Path, given: &[(String, String)]) -> Result<Written, Error> {
-    let scene = read_mitsuba(file, given, &Sandbox::NONE).map_err(Error::input)?;
+pub(super) fn convert(file: &Path, folder: &Path, values: &[(String, String)]) -> Result<ImportFiles, Error> {
+    let scene = read_mitsuba(file, values, &Sandbox::NONE).map_err(Error::input)?;
     Importer::new(file, folder, &scene).and_then(|importer| importer.finish(file)).map_err(Error::input)
 }

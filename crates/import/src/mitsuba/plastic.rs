@@ -45,7 +45,7 @@ impl<'a> Importer<'a> {
         match known.map_or_else(|| number_of(word), Ok) {
             Ok(index) if index > 0.0 => Ok(index),
             _ => Err(element
-                .fault(format!("\"{name}\" is \"{word}\"; expected a refractive index or a material such as bk7"))),
+                .error(format!("\"{name}\" is \"{word}\"; expected a refractive index or a material such as bk7"))),
         }
     }
 

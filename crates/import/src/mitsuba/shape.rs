@@ -24,17 +24,17 @@ impl<'a> Importer<'a> {
     pub(super) fn shape(&mut self, element: &'a MitsubaElement, outer: &Graphics, depth: usize) -> Result<(), Error> {
         if depth >= MAX_DEPTH {
             return Err(
-                element.fault(format!("instances are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
+                element.error(format!("instances are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
             );
         }
         self.at(element);
-        let told = |what: String| element.fault(what);
+        let located = |what: String| element.error(what);
         let kind = element.kind();
         if (kind == "instance" && depth >= 1) || (kind == "shapegroup" && depth >= 2) {
-            let told = format!(
+            let problem = format!(
                 "the shape \"{kind}\" is in an instance, which Mitsuba does not allow; insert its shapes instead"
             );
-            return Err(element.fault(told));
+            return Err(element.error(problem));
         }
         // A shape group is placed only by its instances.
         if kind == "shapegroup" && depth == 0 {
@@ -61,45 +61,45 @@ impl<'a> Importer<'a> {
                 return Ok(());
             }
         }
-        let has_picture = self.has_picture(element, 0)?;
-        let graphics = self.held(element, graphics)?;
+        let has_picture = self.has_image(element, 0)?;
+        let graphics = self.shape_state(element, graphics)?;
         self.at(element);
         match kind {
             "obj" | "ply" => self.mesh_file(element, graphics)?,
             "rectangle" if has_picture || graphics.to_world.matrix3.determinant() < 0.0 => {
-                self.mesh(rectangle(), &graphics).map_err(told)?;
+                self.mesh(rectangle(), &graphics).map_err(located)?;
             }
             "rectangle" => self.scenery.quad([2.0; 2], &graphics),
-            "cube" => self.mesh(cube(), &graphics).map_err(told)?,
+            "cube" => self.mesh(cube(), &graphics).map_err(located)?,
             "cylinder" => {
                 let ends = [vector(element, "p0", DVec3::ZERO)?, vector(element, "p1", DVec3::Z)?];
                 let mesh = cylinder(ends, number(element, "radius", 1.0)?)
-                    .ok_or_else(|| told("the cylinder has no extent".to_owned()))?;
+                    .ok_or_else(|| located("the cylinder has no extent".to_owned()))?;
                 self.scenery.report.note("a cylinder becomes a mesh of 128 sides");
-                self.mesh(mesh, &graphics).map_err(told)?;
+                self.mesh(mesh, &graphics).map_err(located)?;
             }
             "sphere" => {
                 let (centre, radius) =
                     (vector(element, "center", DVec3::ZERO)?, stated(element, "radius")?.unwrap_or(1.0));
                 if radius <= 0.0 {
-                    return Err(told(format!("\"radius\" is {radius}; expected a number above 0")));
+                    return Err(located(format!("\"radius\" is {radius}; expected a number above 0")));
                 }
                 let to_world = graphics.to_world * DAffine3::from_translation(centre);
                 let graphics = Graphics { to_world, ..graphics };
                 if has_picture {
-                    self.round(Triangles::of_sphere(radius, [-radius, radius], TAU), &graphics).map_err(told)?;
+                    self.round(Triangles::from_sphere(radius, [-radius, radius], TAU), &graphics).map_err(located)?;
                 } else {
                     self.scenery.whole_sphere(radius, &graphics);
                 }
             }
             // Mitsuba's coordinates are the distance from the centre and the azimuth; ours point upwards.
             _ if has_picture => {
-                let disc = Triangles::of_ring([1.0, 0.0], 0.0, TAU, |s, t| [1.0 - t, 1.0 - s]);
-                self.round(disc, &graphics).map_err(told)?;
+                let disc = Triangles::from_ring([1.0, 0.0], 0.0, TAU, |s, t| [1.0 - t, 1.0 - s]);
+                self.round(disc, &graphics).map_err(located)?;
             }
             _ => self.scenery.whole_disc(1.0, 0.0, &graphics),
         }
-        self.scenery.check_size().map_err(told)?;
+        self.scenery.check_size().map_err(located)?;
         self.note_unused(element);
         Ok(())
     }
@@ -113,13 +113,13 @@ impl<'a> Importer<'a> {
     fn instance(&mut self, element: &'a MitsubaElement, graphics: &Graphics, depth: usize) -> Result<(), Error> {
         let groups = self.within(element, "shape")?;
         if groups.is_empty() {
-            return Err(element.fault("the instance has no <ref> to a shapegroup"));
+            return Err(element.error("the instance has no <ref> to a shapegroup"));
         }
         groups.into_iter().try_for_each(|group| self.shape(group, graphics, depth + 1))
     }
 
     /// State of a shape: its surface, its light, its medium.
-    fn held(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<Graphics, Error> {
+    fn shape_state(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<Graphics, Error> {
         let mut graphics = graphics;
         graphics.reverse_orientation = flag(element, "flip_normals", false)?;
         match self.within(element, "bsdf")?.first() {
@@ -164,26 +164,26 @@ impl<'a> Importer<'a> {
     }
 
     /// Returns true if an image lies on a surface. Each is examined once; circular references count as having one.
-    fn has_picture(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
-        if let Some(known) = self.pictured.get(&element.number) {
+    fn has_image(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
+        if let Some(known) = self.has_image.get(&element.number) {
             return Ok(*known);
         }
-        self.pictured.insert(element.number, true);
-        let has = depth >= MAX_DEPTH || self.finds_picture(element, depth)?;
-        self.pictured.insert(element.number, has);
+        self.has_image.insert(element.number, true);
+        let has = depth >= MAX_DEPTH || self.find_image(element, depth)?;
+        self.has_image.insert(element.number, has);
         Ok(has)
     }
 
-    fn finds_picture(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
+    fn find_image(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
         for child in &element.children {
-            let meant = match (child.tag, child.name()) {
+            let target = match (child.tag, child.name()) {
                 ("ref", "interior" | "exterior") => continue,
                 ("ref", _) => self.resolve(child)?,
                 _ => child,
             };
-            match meant.tag {
+            match target.tag {
                 "texture" => return Ok(true),
-                "bsdf" if self.has_picture(meant, depth + 1)? => return Ok(true),
+                "bsdf" if self.has_image(target, depth + 1)? => return Ok(true),
                 _ => {}
             }
         }
@@ -192,8 +192,8 @@ impl<'a> Importer<'a> {
 
     fn mesh_file(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<(), Error> {
         let is_obj = element.kind() == "obj";
-        let name = text(element, "filename")?.ok_or_else(|| element.fault("the mesh has no \"filename\""))?;
-        let mut mesh = Triangles::read(&self.file(name)).map_err(|told| element.fault(told))?;
+        let name = text(element, "filename")?.ok_or_else(|| element.error("the mesh has no \"filename\""))?;
+        let mut mesh = Triangles::read(&self.file(name)).map_err(|problem| element.error(problem))?;
         // Mitsuba's v points downwards in images.
         if !flag(element, "flip_tex_coords", is_obj)? {
             mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
@@ -207,7 +207,7 @@ impl<'a> Importer<'a> {
         let is_turned = mesh.normals.is_empty() && graphics.to_world.matrix3.determinant() < 0.0;
         let reverse_orientation = graphics.reverse_orientation != is_turned;
         let graphics = Graphics { reverse_orientation, ..graphics };
-        self.mesh(mesh, &graphics).map_err(|told| element.fault(told))
+        self.mesh(mesh, &graphics).map_err(|problem| element.error(problem))
     }
 }
 
@@ -226,7 +226,7 @@ impl Importer<'_> {
         if mesh.uvs.len() != mesh.positions.len() {
             return false;
         }
-        let placed = mesh.clone().placed(self.scenery.placed(graphics), graphics.reverse_orientation);
+        let placed = mesh.clone().placed(self.scenery.placement(graphics), graphics.reverse_orientation);
         // Its triangles turn anticlockwise about their normals, like images that are not mirrored.
         let turn = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|i| DVec2::from_array(placed.uvs[i as usize]));
@@ -240,13 +240,13 @@ impl Importer<'_> {
         if let Some(Some(known)) = self.normal_mapped.get(name) {
             return known.clone();
         }
-        let Some(found) = self.scenery.scene.materials.iter().find(|material| material.name.value == **name) else {
+        let Some(base) = self.scenery.scene.materials.iter().find(|material| material.name.value == **name) else {
             return name.clone();
         };
-        let normal_map = found.normal_map.clone().map(|map| NormalMap { y: Some(Green::Down.into()), ..map });
+        let normal_map = base.normal_map.clone().map(|map| NormalMap { y: Some(Green::Down.into()), ..map });
         let own = self.scenery.names.take(&format!("{name}-mirrored"), "material");
-        let made = Material { name: own.as_str().into(), normal_map, ..found.clone() };
-        self.scenery.scene.materials.push(made);
+        let flipped = Material { name: own.as_str().into(), normal_map, ..base.clone() };
+        self.scenery.scene.materials.push(flipped);
         let own: Rc<str> = own.as_str().into();
         self.normal_mapped.insert(name.clone(), Some(own.clone()));
         own
@@ -294,19 +294,19 @@ pub(super) fn cylinder([from, to]: [DVec3; 2], radius: f64) -> Option<Triangles>
     let axis = (to - from).try_normalize().filter(|_| radius > 0.0)?;
     let x = axis.any_orthonormal_vector();
     let y = axis.cross(x);
-    let mut made = Triangles::default();
+    let mut mesh = Triangles::default();
     for i in 0..=SIDES {
-        let share = f64::from(i) / f64::from(SIDES);
-        let (sin, cos) = maths::sin_cos(share * TAU);
+        let fraction = f64::from(i) / f64::from(SIDES);
+        let (sin, cos) = maths::sin_cos(fraction * TAU);
         let out = cos * x + sin * y;
         for (end, v) in [(from, 1.0), (to, 0.0)] {
-            made.positions.push((end + radius * out).to_array());
-            made.normals.push(out.to_array());
-            made.uvs.push([share, v]);
+            mesh.positions.push((end + radius * out).to_array());
+            mesh.normals.push(out.to_array());
+            mesh.uvs.push([fraction, v]);
         }
     }
-    made.triangles = (0..SIDES).map(|i| 2 * i).flat_map(|i| [[i, i + 2, i + 3], [i, i + 3, i + 1]]).collect();
-    Some(made)
+    mesh.triangles = (0..SIDES).map(|i| 2 * i).flat_map(|i| [[i, i + 2, i + 3], [i, i + 3, i + 1]]).collect();
+    Some(mesh)
 }
 
 #[cfg(test)]

@@ -11,20 +11,20 @@ use crate::syntax::mitsuba::MitsubaElement;
 pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffine3, Error> {
     let Some(parameter) = find(element, name) else { return Ok(DAffine3::IDENTITY) };
     if parameter.tag != "transform" {
-        return Err(parameter.fault(format!("\"{name}\": expected <transform>")));
+        return Err(parameter.error(format!("\"{name}\": expected <transform>")));
     }
-    let mut made = DAffine3::IDENTITY;
+    let mut composed = DAffine3::IDENTITY;
     for step in &parameter.children {
         // Each acts in the space that the previous ones lead to.
-        made = step_of(step)? * made;
+        composed = step_transform(step)? * composed;
     }
-    if !made.is_finite() || made.matrix3.determinant() == 0.0 {
-        return Err(parameter.fault("the transform is singular; correct its numbers"));
+    if !composed.is_finite() || composed.matrix3.determinant() == 0.0 {
+        return Err(parameter.error("the transform is singular; correct its numbers"));
     }
-    Ok(made)
+    Ok(composed)
 }
 
-fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
+fn step_transform(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let known: &[&str] = match step.tag {
         "rotate" => &["value", "x", "y", "z", "angle"],
         "lookat" => &["origin", "target", "up"],
@@ -32,7 +32,7 @@ fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
         _ => &["value", "x", "y", "z"],
     };
     if let Some((name, _)) = step.attributes.iter().find(|(name, _)| !known.contains(&&**name)) {
-        return Err(step.fault(format!(
+        return Err(step.error(format!(
             "unknown attribute \"{name:.40}\" of <{}>; expected {}",
             step.tag,
             known.join(", ")
@@ -43,16 +43,16 @@ fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
         "scale" => Ok(DAffine3::from_scale(triple_of(step, 1.0)?)),
         "rotate" => {
             if step.attribute("angle").is_none() {
-                return Err(step.fault("<rotate> has no \"angle\""));
+                return Err(step.error("<rotate> has no \"angle\""));
             }
             let degrees = attribute_number(step, "angle", 0.0)?;
             let axis =
-                triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.fault("the rotation axis has zero length"))?;
+                triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.error("the rotation axis has zero length"))?;
             Ok(DAffine3::from_mat3(rotation(degrees, axis)))
         }
         "lookat" => look_at(step),
         "matrix" => matrix(step),
-        tag => Err(step.fault(format!(
+        tag => Err(step.error(format!(
             "unknown element <{tag}> in a transform; expected translate, rotate, scale, lookat or matrix"
         ))),
     }
@@ -68,16 +68,16 @@ fn rotation(degrees: f64, axis: DVec3) -> DMat3 {
 /// Camera transform: x to the left, y upwards, z forward.
 fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let three = |name: &str| {
-        let text = step.attribute(name).ok_or_else(|| step.fault(format!("<lookat> has no \"{name}\"")))?;
-        match numbers_of(text).map_err(|told| step.fault(told))?[..] {
+        let text = step.attribute(name).ok_or_else(|| step.error(format!("<lookat> has no \"{name}\"")))?;
+        match numbers_of(text).map_err(|problem| step.error(problem))?[..] {
             [x, y, z] => Ok(DVec3::new(x, y, z)),
-            _ => Err(step.fault(format!("\"{name}\" of <lookat>: expected three numbers"))),
+            _ => Err(step.error(format!("\"{name}\" of <lookat>: expected three numbers"))),
         }
     };
     let (origin, target) = (three("origin")?, three("target")?);
     let ahead = (target - origin)
         .try_normalize()
-        .ok_or_else(|| step.fault("\"origin\" and \"target\" of <lookat> coincide"))?;
+        .ok_or_else(|| step.error("\"origin\" and \"target\" of <lookat> coincide"))?;
     let up = match step.attribute("up") {
         Some(_) => three("up")?,
         None => ahead.any_orthonormal_vector(),
@@ -85,28 +85,28 @@ fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let left = up
         .cross(ahead)
         .try_normalize()
-        .ok_or_else(|| step.fault("\"up\" of <lookat> is parallel to the viewing direction"))?;
+        .ok_or_else(|| step.error("\"up\" of <lookat> is parallel to the viewing direction"))?;
     Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, ahead.cross(left), ahead), origin))
 }
 
 /// Matrix, row by row.
 fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
-    let text = step.attribute("value").ok_or_else(|| step.fault("<matrix> has no \"value\""))?;
-    let numbers = numbers_of(text).map_err(|told| step.fault(told))?;
+    let text = step.attribute("value").ok_or_else(|| step.error("<matrix> has no \"value\""))?;
+    let numbers = numbers_of(text).map_err(|problem| step.error(problem))?;
     if let Ok(rows) = <[f64; 9]>::try_from(&numbers[..]) {
         return Ok(DAffine3::from_mat3(DMat3::from_cols_array(&rows).transpose()));
     }
     let rows = <[f64; 16]>::try_from(&numbers[..])
-        .map_err(|_| step.fault(format!("{} numbers in a <matrix>; expected 9 or 16", numbers.len())))?;
+        .map_err(|_| step.error(format!("{} numbers in a <matrix>; expected 9 or 16", numbers.len())))?;
     match rows[12..] == [0.0, 0.0, 0.0, 1.0] {
         true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&rows).transpose())),
-        false => Err(step.fault("the matrix is not affine; expected 0, 0, 0, 1 as its last row")),
+        false => Err(step.error("the matrix is not affine; expected 0, 0, 0, 1 as its last row")),
     }
 }
 
 /// Use of a texture.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Use {
+pub(super) enum TextureUsage {
     /// Colours.
     Colours,
     /// One number per texel, which Mitsuba computes from the colour.

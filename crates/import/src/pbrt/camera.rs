@@ -6,24 +6,24 @@ use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::parameters::Parameters;
-use crate::scenery::{Graphics, Report, to_ours};
+use crate::scenery::{Graphics, ImportReport, to_ours};
 use crate::written::{ImportedCamera, View, pose_of};
 
 /// Field of view of the substitute for an unsupported camera, degrees along the shorter side: that of a normal lens.
-const STAND_IN_DEG: f64 = 40.0;
+const FALLBACK_FOV_DEG: f64 = 40.0;
 
 /// Image size.
-pub(super) struct Film {
+pub(super) struct PbrtFilm {
     size_px: [u64; 2],
 }
 
-impl Default for Film {
+impl Default for PbrtFilm {
     fn default() -> Self {
         Self { size_px: [1280, 720] }
     }
 }
 
-impl Film {
+impl PbrtFilm {
     pub(super) fn read(parameters: Parameters<'_>) -> Result<Self, String> {
         let pixels = |name: &str, default: f64| match parameters.number(name, default)? {
             n if (1.0..=65_536.0).contains(&n) && n.fract() == 0.0 => Ok(n as u64),
@@ -37,7 +37,7 @@ impl Film {
 pub(super) struct PbrtCamera {
     /// Transform from its axes (x right, y up, z forward) to pbrt's world.
     to_world: DAffine3,
-    kind: Kind,
+    kind: PbrtProjection,
     /// Radius of the lens and focus distance, both above 0.
     lens: Option<[f64; 2]>,
     frame_aspect: Option<f64>,
@@ -45,13 +45,13 @@ pub(super) struct PbrtCamera {
     outside: Rc<str>,
 }
 
-enum Kind {
+enum PbrtProjection {
     Perspective { fov_deg: f64 },
     Orthographic,
 }
 
 /// Camera, and the medium around it; empty for none.
-pub(super) struct Placed {
+pub(super) struct PlacedCamera {
     pub(super) camera: ImportedCamera,
     pub(super) outside: Rc<str>,
 }
@@ -60,7 +60,7 @@ impl PbrtCamera {
     /// Default camera of a file without one.
     pub(super) fn at_origin() -> Self {
         let (lens, frame_aspect, window) = (None, None, None);
-        let kind = Kind::Perspective { fov_deg: 90.0 };
+        let kind = PbrtProjection::Perspective { fov_deg: 90.0 };
         Self { to_world: DAffine3::IDENTITY, kind, lens, frame_aspect, window, outside: Rc::from("") }
     }
 
@@ -68,7 +68,7 @@ impl PbrtCamera {
         kind: &str,
         parameters: Parameters<'_>,
         graphics: &Graphics,
-        report: &mut Report,
+        report: &mut ImportReport,
     ) -> Result<Self, String> {
         let own = match kind {
             "perspective" => {
@@ -76,16 +76,16 @@ impl PbrtCamera {
                 if !(0.0..180.0).contains(&fov_deg) || fov_deg == 0.0 {
                     return Err(format!("the field of view is {fov_deg}°; expected an angle between 0° and 180°"));
                 }
-                Kind::Perspective { fov_deg }
+                PbrtProjection::Perspective { fov_deg }
             }
-            "orthographic" => Kind::Orthographic,
+            "orthographic" => PbrtProjection::Orthographic,
             other => {
                 parameters.0.iter().for_each(|p| p.used.set(true));
                 report.note(format!(
-                    "the camera \"{other}\" is not supported: a perspective camera of {STAND_IN_DEG}° at its position is used instead (convert a lens \
+                    "the camera \"{other}\" is not supported: a perspective camera of {FALLBACK_FOV_DEG}° at its position is used instead (convert a lens \
                         file to an Étendue lens)"
                 ));
-                Kind::Perspective { fov_deg: STAND_IN_DEG }
+                PbrtProjection::Perspective { fov_deg: FALLBACK_FOV_DEG }
             }
         };
         let window = parameters.numbers("screenwindow")?.map(<[f64; 4]>::try_from).transpose();
@@ -108,7 +108,7 @@ impl PbrtCamera {
         to_ours(self.to_world.matrix3)
     }
 
-    pub(super) fn imported(self, film: &Film, to_ours: DMat3, report: &mut Report) -> Placed {
+    pub(super) fn into_imported(self, film: &PbrtFilm, to_ours: DMat3, report: &mut ImportReport) -> PlacedCamera {
         let [width, height] = film.size_px;
         let aspect = self.frame_aspect.unwrap_or(width as f64 / height as f64);
         let [half_x, half_y] = match self.window {
@@ -127,7 +127,7 @@ impl PbrtCamera {
         let axis = |v: DVec3| to_ours * (self.to_world.matrix3 * v);
         let yfov_rad = |fov_deg: f64| 2.0 * maths::atan2(half_y * maths::tan(0.5 * fov_deg.to_radians()), 1.0);
         let view = match (self.kind, self.lens) {
-            (Kind::Perspective { fov_deg }, Some([radius_m, focus_m])) => {
+            (PbrtProjection::Perspective { fov_deg }, Some([radius_m, focus_m])) => {
                 let yfov_rad = yfov_rad(fov_deg);
                 let field = yfov_rad.to_degrees();
                 report.note(format!(
@@ -135,12 +135,12 @@ impl PbrtCamera {
                 ));
                 View::Lens { yfov_rad, radius_m, focus_m }
             }
-            (Kind::Perspective { fov_deg }, None) => {
+            (PbrtProjection::Perspective { fov_deg }, None) => {
                 let yfov_rad = yfov_rad(fov_deg);
                 report.note(format!("camera: perspective, vertical field of view {:.4}°", yfov_rad.to_degrees()));
                 View::Perspective { yfov_rad }
             }
-            (Kind::Orthographic, lens) => {
+            (PbrtProjection::Orthographic, lens) => {
                 if lens.is_some() {
                     report.note("the lens of an orthographic camera is not used: everything is in focus");
                 }
@@ -151,6 +151,6 @@ impl PbrtCamera {
         };
         let pose = pose_of(to_ours * self.to_world.translation, axis(DVec3::Z), axis(DVec3::Y));
         let camera = ImportedCamera { name: "camera".to_owned(), pose, view, size_px: film.size_px };
-        Placed { camera, outside: self.outside }
+        PlacedCamera { camera, outside: self.outside }
     }
 }

@@ -1,15 +1,15 @@
 //! Spectra: rgb, tables, black bodies and names.
 
 use etendue_scene::record::{Colour, LightColour};
-use etendue_spectra::{Outside, Spectrum, colour::BT709, illuminant};
+use etendue_spectra::{Extrapolation, Spectrum, colour::BT709, illuminant};
 
 use super::parameters::Parameters;
-use crate::scenery::{LightUnit, Scenery, coefficient_of_rgb, illuminant_of};
+use crate::scenery::{LightUnit, SceneBuilder, coefficient_from_rgb, illuminant_of};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
-    let found = numbers.len();
-    numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers in an rgb; expected three"))
+    let count = numbers.len();
+    numbers.try_into().map_err(|_| format!("\"{name}\": {count} numbers in an rgb; expected three"))
 }
 
 /// Distance beyond its ends at which a spectrum is 0, nm.
@@ -33,11 +33,11 @@ fn ended_points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> 
 }
 
 /// A spectrum of pairs of wavelength and value.
-pub(super) fn table(name: &str, numbers: &[f64], outside: Outside) -> Result<Spectrum, String> {
+pub(super) fn table(name: &str, numbers: &[f64], outside: Extrapolation) -> Result<Spectrum, String> {
     Spectrum::from_points(&points(name, numbers)?, outside).map_err(|e| format!("\"{name}\": {e}"))
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Light of the parameter `name`; white of luminance 1 if it is absent.
     pub(super) fn light(&mut self, parameters: Parameters<'_>, name: &str) -> Result<LightUnit, String> {
         let Some(parameter) = parameters.find(name) else {
@@ -81,16 +81,16 @@ impl Scenery {
     }
 
     /// Reflectance, 0 … 1.
-    pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
+    pub(super) fn reflectance_colour(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
         let name = &parameter.name;
         match (&*parameter.kind, &parameter.values) {
-            ("rgb" | "color", PbrtValues::Numbers(numbers)) => Ok(self.share_of_rgb(name, three(name, numbers)?)),
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => Ok(self.reflectance_from_rgb(name, three(name, numbers)?)),
             ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
-                Ok(Colour::Grey(self.cut(name, numbers[0]).into()))
+                Ok(Colour::Grey(self.limit_to_unit(name, numbers[0]).into()))
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
                 let points: Vec<(f64, f64)> =
-                    ended_points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.cut(name, v))).collect();
+                    ended_points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.limit_to_unit(name, v))).collect();
                 let file = self.spectrum_file(&points);
                 Ok(Colour::Spectrum(file.as_str().into()))
             }
@@ -117,12 +117,12 @@ impl Scenery {
             None => default,
             Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
             Some(("spectrum", PbrtValues::Numbers(numbers))) => {
-                return Ok((table(name, numbers, Outside::Zero)?, None));
+                return Ok((table(name, numbers, Extrapolation::Zero)?, None));
             }
             Some((kind, _)) => {
                 return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths and values"));
             }
         };
-        coefficient_of_rgb(name, rgb)
+        coefficient_from_rgb(name, rgb)
     }
 }

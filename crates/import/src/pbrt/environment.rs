@@ -7,14 +7,14 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI};
 
 use etendue_core::maths::f64 as maths;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_scene::{asset::ImageAsset, record::Environment, record::environment::EnvironmentImage};
 use etendue_spectra::colour::BT709;
 use glam::DVec3;
 
-use crate::scenery::{Graphics, Scenery, linear_pixels};
+use crate::scenery::{Graphics, SceneBuilder, linear_pixels};
 
-impl Scenery {
+impl SceneBuilder {
     /// Environment of an image whose numbers are cd/m² times `scale`, or times the factor that gives `lux` on a surface facing the image's +z; `None`, with a
     /// note, for an unsupported image.
     pub(super) fn environment(
@@ -25,8 +25,8 @@ impl Scenery {
         lux: Option<f64>,
     ) -> Result<Option<Environment>, String> {
         let path = self.source_folder.join(file);
-        let image = read_picture(&path).map_err(|e| e.to_string())?.in_rec_709();
-        let Some(texels) = Texels::of(&image) else {
+        let image = read_image(&path).map_err(|e| e.to_string())?.in_rec_709();
+        let Some(texels) = Texels::new(&image) else {
             self.report.note(format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)"));
             return Ok(None);
         };
@@ -47,8 +47,8 @@ impl Scenery {
         // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
         let rows = image.height as usize;
         let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
-        let found = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
-        let path = self.environment_file(rows, &found)?;
+        let radiance = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
+        let path = self.environment_file(rows, &radiance)?;
         self.report
             .note(format!("environment map `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
         Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
@@ -62,7 +62,7 @@ struct Texels<'a> {
 }
 
 impl<'a> Texels<'a> {
-    fn of(image: &'a ImageAsset) -> Option<Self> {
+    fn new(image: &'a ImageAsset) -> Option<Self> {
         Some(Self { size: image.width as usize, pixel: linear_pixels(image)? })
     }
 

@@ -5,46 +5,46 @@ use std::{collections::HashMap, path::Path, rc::Rc};
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 
-use super::camera::{Film, PbrtCamera};
+use super::camera::{PbrtFilm, PbrtCamera};
 use super::parameters::Parameters;
-use crate::scenery::{Graphics, Scenery};
+use crate::scenery::{Graphics, SceneBuilder};
 use crate::syntax::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};
-use crate::written::{Written, written};
+use crate::written::{ImportFiles, import_files};
 
 /// Maximum depth of nested blocks and of shapes of instances.
 const MAX_DEPTH: usize = 1 << 10;
 
 /// Shape of an object that is instanced later.
 #[derive(Clone)]
-struct Stored {
+struct StoredShape {
     kind: String,
     parameters: Rc<Vec<PbrtParameter>>,
     graphics: Graphics,
 }
 
 pub(super) struct Interpreter {
-    scenery: Scenery,
+    scenery: SceneBuilder,
     graphics: Graphics,
     blocks: Vec<(bool, Graphics)>,
     systems: HashMap<String, DAffine3>,
     camera: Option<PbrtCamera>,
-    film: Film,
+    film: PbrtFilm,
     in_world: bool,
     /// True while transforms apply to the start of the exposure.
     at_start: bool,
-    objects: HashMap<String, Vec<Stored>>,
+    objects: HashMap<String, Vec<StoredShape>>,
     open_object: Option<String>,
 }
 
 impl Interpreter {
     pub(super) fn new(file: &Path, folder: &Path) -> Self {
         Self {
-            scenery: Scenery::new(file, folder),
+            scenery: SceneBuilder::new(file, folder),
             graphics: Graphics::plain(),
             blocks: Vec::new(),
             systems: HashMap::new(),
             camera: None,
-            film: Film::default(),
+            film: PbrtFilm::default(),
             in_world: false,
             at_start: true,
             objects: HashMap::new(),
@@ -174,36 +174,36 @@ impl Interpreter {
     }
 
     fn typed(&mut self, name: &'static str, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
-        let given = Parameters(&parameters);
+        let arguments = Parameters(&parameters);
         let message = |what: String| format!("{name} \"{kind}\": {what}");
         match name {
             "Camera" => {
                 let camera =
-                    PbrtCamera::read(&kind, given, &self.graphics, &mut self.scenery.report).map_err(message)?;
+                    PbrtCamera::read(&kind, arguments, &self.graphics, &mut self.scenery.report).map_err(message)?;
                 self.systems.insert("camera".to_owned(), self.graphics.to_world.inverse());
                 self.camera = Some(camera);
             }
             "Film" => {
-                self.film = Film::read(given).map_err(message)?;
+                self.film = PbrtFilm::read(arguments).map_err(message)?;
                 self.scenery.report.note(format!("of the film \"{kind}\" only the image size is used"));
             }
             "Sampler" | "Integrator" | "PixelFilter" | "Accelerator" => {
                 self.scenery.report.note(format!("{name} \"{kind}\" is not used: the job has its own settings"));
             }
             "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not supported and left out")),
-            "Material" => self.graphics.material = self.scenery.material(&kind, given, None).map_err(message)?,
+            "Material" => self.graphics.material = self.scenery.material(&kind, arguments, None).map_err(message)?,
             "MakeNamedMaterial" => {
-                let of = given.text("type").map_err(message)?.unwrap_or("").to_owned();
-                self.scenery.material(&of, given, Some(&kind)).map_err(message)?;
+                let surface_kind = arguments.text("type").map_err(message)?.unwrap_or("").to_owned();
+                self.scenery.material(&surface_kind, arguments, Some(&kind)).map_err(message)?;
             }
-            "MakeNamedMedium" => self.scenery.medium(&kind, given).map_err(message)?,
-            "LightSource" => self.scenery.light_source(&kind, given, &self.graphics).map_err(message)?,
+            "MakeNamedMedium" => self.scenery.medium(&kind, arguments).map_err(message)?,
+            "LightSource" => self.scenery.light_source(&kind, arguments, &self.graphics).map_err(message)?,
             "AreaLightSource" => {
-                self.graphics.area_light = self.scenery.area_light(&kind, given).map_err(message)?.map(Rc::new);
+                self.graphics.area_light = self.scenery.area_light(&kind, arguments).map_err(message)?.map(Rc::new);
             }
             _ => return self.shape(kind, parameters),
         }
-        self.scenery.note_unused(&format!("{name} \"{kind}\""), given.unused());
+        self.scenery.note_unused(&format!("{name} \"{kind}\""), arguments.unused());
         Ok(())
     }
 
@@ -213,7 +213,7 @@ impl Interpreter {
         }
         if let Some(object) = &self.open_object {
             let graphics = self.graphics.clone();
-            let stored = Stored { kind, parameters: Rc::new(parameters), graphics };
+            let stored = StoredShape { kind, parameters: Rc::new(parameters), graphics };
             self.objects.entry(object.clone()).or_default().push(stored);
             return Ok(());
         }
@@ -226,19 +226,19 @@ impl Interpreter {
         }
         let stored =
             self.objects.get(word).ok_or_else(|| format!("the object \"{word}\" is not defined before this"))?;
-        for Stored { kind, parameters, graphics } in stored {
+        for StoredShape { kind, parameters, graphics } in stored {
             if graphics.area_light.is_some() {
                 self.scenery.report.note("shapes of instances emit no light, as in pbrt");
             }
             let to_world = self.graphics.to_world * graphics.to_world;
-            let placed = Graphics { to_world, area_light: None, ..graphics.clone() };
-            self.scenery.shape(kind, Parameters(parameters), &placed)?;
+            let instance_graphics = Graphics { to_world, area_light: None, ..graphics.clone() };
+            self.scenery.shape(kind, Parameters(parameters), &instance_graphics)?;
         }
         Ok(())
     }
 
     /// Files of the scene.
-    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+    pub(super) fn finish(mut self, file: &Path) -> Result<ImportFiles, String> {
         if !self.in_world {
             return Err(
                 "`WorldBegin` is missing: not a pbrt-v4 scene (upgrade older files with pbrt --upgrade)".to_owned()
@@ -249,18 +249,18 @@ impl Interpreter {
         }
         self.scenery.report.at(String::new());
         let camera = self.camera.take().unwrap_or_else(PbrtCamera::at_origin);
-        let camera = camera.imported(&self.film, self.scenery.to_ours, &mut self.scenery.report);
+        let camera = camera.into_imported(&self.film, self.scenery.to_ours, &mut self.scenery.report);
         self.scenery.fill_air(&camera.outside);
-        let Scenery { scene, mut report, files, .. } = self.scenery;
+        let SceneBuilder { scene, mut report, files, .. } = self.scenery;
         let counts =
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
         let [objects, materials, textures, lights, media] = counts;
         report.note(format!(
             "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
         ));
-        let mut made = written(file, &scene, &[camera.camera], report.lines());
-        made.files.extend(files);
-        Ok(made)
+        let mut result = import_files(file, &scene, &[camera.camera], report.lines());
+        result.files.extend(files);
+        Ok(result)
     }
 }
 

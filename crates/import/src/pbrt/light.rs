@@ -10,9 +10,9 @@ use glam::DVec3;
 
 use super::parameters::Parameters;
 use crate::lamps;
-use crate::scenery::{AreaLight, Graphics, Homogeneous, Scenery};
+use crate::scenery::{AreaLight, Graphics, Homogeneous, SceneBuilder};
 
-impl Scenery {
+impl SceneBuilder {
     pub(super) fn light_source(
         &mut self,
         kind: &str,
@@ -45,7 +45,7 @@ impl Scenery {
         let unit = self.light(parameters, "I")?;
         let from = DVec3::from_array(parameters.triple("from", [0.0; 3])?);
         let candela = Self::power(parameters)?.map_or(1.0, |lm| lm / (4.0 * PI)) * scale * unit.luminance;
-        let Some(candela) = self.lit("point", "cd", candela) else { return Ok(()) };
+        let Some(candela) = self.note_light("point", "cd", candela) else { return Ok(()) };
         let position = self.to_ours * graphics.to_world.transform_point3(from);
         let name = self.names.take("point", "point");
         self.scene.lights.push(lamps::point(&name, position, candela, unit.colour));
@@ -66,7 +66,7 @@ impl Scenery {
         let [inner, outer] = [inner_deg, outer_deg].map(|a| maths::cos(a.to_radians()));
         let solid_angle = TAU * ((1.0 - inner) + 0.5 * (inner - outer));
         let candela = Self::power(parameters)?.map_or(1.0, |lm| lm / solid_angle) * scale * unit.luminance;
-        let Some(candela) = self.lit("spot", "cd", candela) else { return Ok(()) };
+        let Some(candela) = self.note_light("spot", "cd", candela) else { return Ok(()) };
         let name = self.names.take("spot", "spot");
         let pose = (self.to_ours * from, ahead);
         self.scene.lights.push(lamps::spot(&name, pose.0, pose.1, [inner_deg, outer_deg], candela, unit.colour));
@@ -80,7 +80,7 @@ impl Scenery {
         let towards = self.to_ours * (graphics.to_world.matrix3 * (from - to));
         let towards = towards.try_normalize().ok_or("\"from\" and \"to\" coincide")?;
         let stated = parameters.numbers("illuminance")?.and_then(|n| n.first().copied()).filter(|e| *e > 0.0);
-        let Some(lux) = self.lit("distant", "lx", stated.unwrap_or(1.0) * scale * unit.luminance) else {
+        let Some(lux) = self.note_light("distant", "lx", stated.unwrap_or(1.0) * scale * unit.luminance) else {
             return Ok(());
         };
         let name = self.names.take("distant", "distant");
@@ -105,7 +105,7 @@ impl Scenery {
             None => {
                 let unit = self.light(parameters, "L")?;
                 let level = lux.map_or(1.0, |lux| lux / PI) * scale * unit.luminance;
-                let Some(level) = self.lit("infinite", "cd/m²", level) else { return Ok(()) };
+                let Some(level) = self.note_light("infinite", "cd/m²", level) else { return Ok(()) };
                 let emission = Emission::new(Level::Luminance(level.into()));
                 Some(Environment::Uniform(Emission { colour: Some(unit.colour), ..emission }))
             }
@@ -118,7 +118,7 @@ impl Scenery {
     }
 
     /// Notes a light; `None` for a dark one.
-    fn lit(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
+    fn note_light(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
         if level > 0.0 && level.is_finite() {
             self.report.note(format!("light \"{kind}\": {level} {unit}"));
             return Some(level);
@@ -128,7 +128,7 @@ impl Scenery {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// `None` for a dark light.
     pub(super) fn area_light(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<AreaLight>, String> {
         if kind != "diffuse" {
@@ -150,7 +150,7 @@ impl Scenery {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     pub(super) fn medium(&mut self, name: &str, parameters: Parameters<'_>) -> Result<(), String> {
         let kind = parameters.text("type")?.unwrap_or_default();
         if kind != "homogeneous" {
@@ -169,10 +169,10 @@ impl Scenery {
         let (scattered, even_s) = self.coefficient(parameters, "sigma_s", [2.55, 3.21, 3.77])?;
         let at = |s: &Spectrum, nm: f64| f64::from(s.at(nm as f32));
         let sum = Spectrum::from_fn(|nm| at(&absorbed, nm) + at(&scattered, nm));
-        let share = Spectrum::from_fn(|nm| if at(&sum, nm) > 0.0 { at(&scattered, nm) / at(&sum, nm) } else { 0.0 });
+        let fraction = Spectrum::from_fn(|nm| if at(&sum, nm) > 0.0 { at(&scattered, nm) / at(&sum, nm) } else { 0.0 });
         let even = even_a.zip(even_s);
         let extinction = self.curve(&sum, even.map(|(a, s)| a + s), scale);
-        let albedo = self.curve(&share, even.map(|(a, s)| if a + s > 0.0 { s / (a + s) } else { 0.0 }), 1.0);
+        let albedo = self.curve(&fraction, even.map(|(a, s)| if a + s > 0.0 { s / (a + s) } else { 0.0 }), 1.0);
         let stated = parameters.number("g", 0.0)?;
         let g = stated.clamp(-0.99, 0.99);
         if g != stated {

@@ -6,10 +6,10 @@ use etendue_scene::record::material::{
     Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
 use etendue_scene::{asset::COAT_INDICES, record::Colour};
-use etendue_spectra::{Outside, Spectrum, metal};
+use etendue_spectra::{Extrapolation, Spectrum, metal};
 
 use super::{colour::table, parameters::Parameters};
-use crate::scenery::{INTERFACE, KnownTexture, Scenery, plain};
+use crate::scenery::{INTERFACE, KnownTexture, SceneBuilder, plain};
 use crate::syntax::pbrt::PbrtValues;
 
 /// pbrt's α for a roughness.
@@ -17,11 +17,11 @@ fn remapped(roughness: f64) -> f64 {
     roughness.max(0.0).sqrt()
 }
 
-fn kept(roughness: f64) -> f64 {
+fn unmapped(roughness: f64) -> f64 {
     roughness
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Creates one of our materials; returns its name. `named` is its name in the file.
     pub(super) fn material(
         &mut self,
@@ -29,8 +29,8 @@ impl Scenery {
         parameters: Parameters<'_>,
         named: Option<&str>,
     ) -> Result<Rc<str>, String> {
-        let laid = self.known.pictures_laid;
-        let made: Rc<str> = match self.surface_of(kind, parameters)? {
+        let image_count = self.known.placed_images;
+        let result: Rc<str> = match self.surface_of(kind, parameters)? {
             None => INTERFACE.into(),
             Some(surface) => {
                 let own: Rc<str> = self.names.take(named.unwrap_or(kind), "material").into();
@@ -43,13 +43,13 @@ impl Scenery {
                 own
             }
         };
-        if self.known.pictures_laid > laid {
-            self.known.pictured.insert(made.clone());
+        if self.known.placed_images > image_count {
+            self.known.with_images.insert(result.clone());
         }
         if let Some(name) = named {
-            self.known.materials.insert(name.to_owned(), made.clone());
+            self.known.materials.insert(name.to_owned(), result.clone());
         }
-        Ok(made)
+        Ok(result)
     }
 
     /// Our material for a name of the file; grey if it is undefined.
@@ -57,7 +57,7 @@ impl Scenery {
         match self.known.materials.get(name) {
             Some(own) => {
                 let own = own.clone();
-                self.known.pictures_laid += usize::from(self.known.pictured.contains(&own));
+                self.known.placed_images += usize::from(self.known.with_images.contains(&own));
                 own
             }
             None => {
@@ -108,7 +108,7 @@ impl Scenery {
 
     /// α of an isotropic surface.
     fn alpha(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Factor, String> {
-        let map = if parameters.flag("remaproughness", true)? { remapped } else { kept };
+        let map = if parameters.flag("remaproughness", true)? { remapped } else { unmapped };
         let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let both = format!("{prefix}roughness");
         match (parameters.find(&u).is_some(), parameters.find(&v).is_some()) {
@@ -134,7 +134,7 @@ impl Scenery {
                 self.report.note(
                     "a spectral refractive index is replaced by its value at 587.6 nm: dielectrics are not dispersive",
                 );
-                f64::from(table("eta", numbers, Outside::Hold)?.at(587.56))
+                f64::from(table("eta", numbers, Extrapolation::Hold)?.at(587.56))
             }
             PbrtValues::Texts(texts) => {
                 let name = texts.first().map_or("", String::as_str);
@@ -148,8 +148,8 @@ impl Scenery {
                     ("glass-SF10", 1.72828),
                     ("glass-SF11", 1.78472),
                 ];
-                let found = known.iter().find(|(glass, _)| *glass == name);
-                match found {
+                let matching = known.iter().find(|(glass, _)| *glass == name);
+                match matching {
                     Some(_) => self.report.note(
                         "a glass is replaced by its refractive index at 587.6 nm: dielectrics are not dispersive",
                     ),
@@ -159,7 +159,7 @@ impl Scenery {
                         ));
                     }
                 }
-                found.map_or(1.5, |(_, index)| *index)
+                matching.map_or(1.5, |(_, index)| *index)
             }
             PbrtValues::Flags(_) => return Err("\"eta\": expected a number".to_owned()),
         };
@@ -194,13 +194,13 @@ impl Scenery {
     fn conductor(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Conductor, String> {
         let alpha = self.alpha(parameters, prefix)?;
         let metal = match parameters.find("reflectance") {
-            Some(_) => self.metal_of_reflectance(parameters)?,
-            None => self.metal_of_index(parameters, prefix)?,
+            Some(_) => self.metal_from_reflectance(parameters)?,
+            None => self.metal_from_index(parameters, prefix)?,
         };
         Ok(Conductor::new(metal, alpha))
     }
 
-    fn metal_of_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
+    fn metal_from_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
         let parameter = parameters.find("reflectance").ok_or("\"reflectance\" is missing")?;
         let rgb = match self.texture_of(parameter, true)? {
             Some(KnownTexture::Even(rgb)) => rgb,
@@ -208,7 +208,7 @@ impl Scenery {
                 self.report.note("the reflectance of a metal from an image is set to 0.5");
                 [0.5; 3]
             }
-            None => match self.share(parameter)? {
+            None => match self.reflectance_colour(parameter)? {
                 Colour::Grey(v) => [v.value; 3],
                 Colour::LinearSrgb(rgb) => rgb.value,
                 _ => {
@@ -217,10 +217,10 @@ impl Scenery {
                 }
             },
         };
-        Ok(self.metal_of_rgb(rgb))
+        Ok(self.metal_from_rgb(rgb))
     }
 
-    fn metal_of_index(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Metal, String> {
+    fn metal_from_index(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Metal, String> {
         let [eta, k] = ["eta", "k"].map(|name| parameters.find(&format!("{prefix}{name}")));
         match (eta.map(|p| &p.values), k.map(|p| &p.values)) {
             (None, None) => Ok(Metal::Named("Cu".into())),
@@ -235,12 +235,12 @@ impl Scenery {
             }
             (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
                 // A single number is constant over wavelength.
-                let of = |name: &str, numbers: &[f64]| match numbers {
+                let index_value = |name: &str, numbers: &[f64]| match numbers {
                     [even] => Ok(Spectrum::from_fn(|_| *even)),
                     // An exterior index of 0, as in pbrt, is not physical.
-                    pairs => table(name, pairs, Outside::Hold),
+                    pairs => table(name, pairs, Extrapolation::Hold),
                 };
-                let [n, k] = [of("eta", n)?, of("k", k)?];
+                let [n, k] = [index_value("eta", n)?, index_value("k", k)?];
                 Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))
             }
             _ => Err("\"eta\" and \"k\": expected the name of a metal, or a table of both".to_owned()),
@@ -254,7 +254,7 @@ impl Scenery {
             let own = self.named_material(name);
             self.known_material(if &*own == INTERFACE { "" } else { &own })
         });
-        let weight = self.factor(parameters, "amount", 0.5, kept)?;
+        let weight = self.factor(parameters, "amount", 0.5, unmapped)?;
         Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), weight)))
     }
 }

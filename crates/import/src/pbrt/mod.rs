@@ -20,15 +20,15 @@ use std::path::Path;
 use etendue_io::Sandbox;
 use etendue_io::failure::{Error, ErrorCode};
 
-use super::written::Written;
+use super::written::ImportFiles;
 use crate::syntax::pbrt::read_pbrt;
 use interpreter::Interpreter;
 
-pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {
     let mut interpreter = Interpreter::new(file, folder);
     read_pbrt(file, &Sandbox::NONE, &mut |directive, place| interpreter.take(directive, place))
         .map_err(Error::input)?;
     interpreter
         .finish(file)
-        .map_err(|told| Error::coded(ErrorCode::MalformedFile, format!("{}: {told}", file.display())))
+        .map_err(|problem| Error::coded(ErrorCode::MalformedFile, format!("{}: {problem}", file.display())))
 }

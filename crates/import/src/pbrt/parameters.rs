@@ -9,9 +9,9 @@ pub(super) struct Parameters<'a>(pub(super) &'a [PbrtParameter]);
 impl<'a> Parameters<'a> {
     /// The parameter of this name.
     pub(super) fn find(&self, name: &str) -> Option<&'a PbrtParameter> {
-        let found = self.0.iter().find(|p| p.name == name)?;
-        found.used.set(true);
-        Some(found)
+        let parameter = self.0.iter().find(|p| p.name == name)?;
+        parameter.used.set(true);
+        Some(parameter)
     }
 
     /// Numbers of a parameter; `None` if it is absent.
@@ -37,8 +37,8 @@ impl<'a> Parameters<'a> {
         match self.numbers(name)? {
             None => Ok(default),
             Some(numbers) => {
-                let found = numbers.len();
-                numbers.try_into().map_err(|_| format!("\"{name}\": expected three numbers, found {found}"))
+                let count = numbers.len();
+                numbers.try_into().map_err(|_| format!("\"{name}\": expected three numbers, found {count}"))
             }
         }
     }

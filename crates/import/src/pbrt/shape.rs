@@ -3,26 +3,26 @@
 use etendue_scene::record::material::Factor;
 
 use super::parameters::Parameters;
-use crate::scenery::{Graphics, Scenery, Triangles, above_zero};
+use crate::scenery::{Graphics, SceneBuilder, Triangles, above_zero};
 
-impl Scenery {
+impl SceneBuilder {
     pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let message = |what: String| format!("Shape \"{kind}\": {what}");
         let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(message)? else { return Ok(()) };
         match kind {
             "trianglemesh" => {
-                let mesh = Triangles::of(parameters).map_err(message)?;
-                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
+                let mesh = Triangles::from_parameters(parameters).map_err(message)?;
+                let mesh = if self.has_image(graphics) { mesh.with_default_uvs() } else { mesh };
                 self.mesh(mesh, graphics).map_err(message)?;
             }
             "plymesh" => {
                 let mesh = self.ply(parameters).map_err(message)?;
-                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
+                let mesh = if self.has_image(graphics) { mesh.with_default_uvs() } else { mesh };
                 self.mesh(mesh, graphics).map_err(message)?;
             }
             "bilinearmesh" => {
                 self.report.note("bilinear patches become two triangles each, which is exact for flat patches");
-                let mesh = Triangles::of_patches(parameters).map_err(message)?;
+                let mesh = Triangles::from_patches(parameters).map_err(message)?;
                 self.mesh(mesh, graphics).map_err(message)?;
             }
             "sphere" => self.sphere(parameters, graphics).map_err(message)?,
@@ -79,29 +79,29 @@ impl Scenery {
         let [a, b] = [parameters.number("zmin", -radius)?, parameters.number("zmax", radius)?];
         let heights = [a.min(b), a.max(b)].map(|z| z.clamp(-radius, radius));
         let turn_deg = turn_deg(parameters)?;
-        if heights == [-radius, radius] && turn_deg == 360.0 && !self.lays_picture(graphics) {
+        if heights == [-radius, radius] && turn_deg == 360.0 && !self.has_image(graphics) {
             self.whole_sphere(radius, graphics);
             return Ok(());
         }
-        self.round(Triangles::of_sphere(radius, heights, turn_deg.to_radians()), graphics)
+        self.round(Triangles::from_sphere(radius, heights, turn_deg.to_radians()), graphics)
     }
 
     fn disc(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
         let (inner, height) = (parameters.number("innerradius", 0.0)?, parameters.number("height", 0.0)?);
         let turn_deg = turn_deg(parameters)?;
-        if inner == 0.0 && turn_deg == 360.0 && !self.lays_picture(graphics) {
+        if inner == 0.0 && turn_deg == 360.0 && !self.has_image(graphics) {
             self.whole_disc(radius, height, graphics);
             return Ok(());
         }
-        self.round(Triangles::of_ring([radius, inner], height, turn_deg.to_radians(), |s, t| [s, t]), graphics)
+        self.round(Triangles::from_ring([radius, inner], height, turn_deg.to_radians(), |s, t| [s, t]), graphics)
     }
 
     fn cylinder(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
         let [a, b] = [parameters.number("zmin", -1.0)?, parameters.number("zmax", 1.0)?];
         let turn_deg = turn_deg(parameters)?;
-        self.round(Triangles::of_cylinder(radius, [a.min(b), a.max(b)], turn_deg.to_radians()), graphics)
+        self.round(Triangles::from_cylinder(radius, [a.min(b), a.max(b)], turn_deg.to_radians()), graphics)
     }
 
     /// Adds a round shape as one mesh.
@@ -111,8 +111,8 @@ impl Scenery {
     }
 
     /// Returns true if the texture coordinates of a shape place an image.
-    fn lays_picture(&self, graphics: &Graphics) -> bool {
-        matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.pictured.contains(&graphics.material)
+    fn has_image(&self, graphics: &Graphics) -> bool {
+        matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.with_images.contains(&graphics.material)
     }
 }
 
@@ -122,25 +122,25 @@ fn turn_deg(parameters: Parameters<'_>) -> Result<f64, String> {
 }
 
 impl Triangles {
-    fn of(parameters: Parameters<'_>) -> Result<Self, String> {
+    fn from_parameters(parameters: Parameters<'_>) -> Result<Self, String> {
         let mesh = Self::points(parameters)?;
         let triangles = indices::<3>(parameters, mesh.positions.len())?;
         Ok(Self { triangles, ..mesh })
     }
 
     /// Corners of a patch are in rows: (0, 0), (1, 0), (0, 1), (1, 1).
-    fn of_patches(parameters: Parameters<'_>) -> Result<Self, String> {
+    fn from_patches(parameters: Parameters<'_>) -> Result<Self, String> {
         let mesh = Self::points(parameters)?;
         let patches = indices::<4>(parameters, mesh.positions.len())?;
         if mesh.uvs.is_empty() {
-            return Ok(mesh.of_own_patches(&patches));
+            return Ok(mesh.with_own_vertices(&patches));
         }
         let triangles = patches.into_iter().flat_map(halves).collect();
         Ok(Self { triangles, ..mesh })
     }
 
     /// Patches with separate vertices and the texture coordinates of their corners: pbrt's default if a file has none.
-    fn of_own_patches(self, patches: &[[u32; 4]]) -> Self {
+    fn with_own_vertices(self, patches: &[[u32; 4]]) -> Self {
         let corners = patches.iter().flatten().map(|i| *i as usize);
         Self {
             normals: corners.clone().filter_map(|i| self.normals.get(i)).copied().collect(),
@@ -151,22 +151,22 @@ impl Triangles {
     }
 
     /// The same, with pbrt's default texture coordinates if it has none.
-    fn with_uv(self) -> Self {
+    fn with_default_uvs(self) -> Self {
         if self.uvs.is_empty() { self.with_corners_as_uv() } else { self }
     }
 
     fn points(parameters: Parameters<'_>) -> Result<Self, String> {
-        let positions = whole::<3, f64>("P", parameters.numbers("P")?.ok_or("no \"P\"")?)?.to_vec();
-        let normals = whole::<3, f64>("N", parameters.numbers("N")?.unwrap_or_default())?.to_vec();
+        let positions = tuples::<3, f64>("P", parameters.numbers("P")?.ok_or("no \"P\"")?)?.to_vec();
+        let normals = tuples::<3, f64>("N", parameters.numbers("N")?.unwrap_or_default())?.to_vec();
         let uvs = match parameters.numbers("uv")? {
             Some(uvs) => Some(uvs),
             None => parameters.numbers("st")?,
         };
-        let uvs = whole::<2, f64>("uv", uvs.unwrap_or_default())?.to_vec();
-        for (name, found) in [("N", normals.len()), ("uv", uvs.len())] {
-            if found != 0 && found != positions.len() {
+        let uvs = tuples::<2, f64>("uv", uvs.unwrap_or_default())?.to_vec();
+        for (name, count) in [("N", normals.len()), ("uv", uvs.len())] {
+            if count != 0 && count != positions.len() {
                 return Err(format!(
-                    "{found} values of \"{name}\" for {} values of \"P\"; expected as many",
+                    "{count} values of \"{name}\" for {} values of \"P\"; expected as many",
                     positions.len()
                 ));
             }
@@ -185,7 +185,7 @@ fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Resul
     match parameters.numbers("indices")? {
         Some(stated) => {
             let legal = stated.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?;
-            whole::<N, u32>("indices", &legal).map(<[_]>::to_vec)
+            tuples::<N, u32>("indices", &legal).map(<[_]>::to_vec)
         }
         None if vertices == N => Ok(vec![std::array::from_fn(|i| i as u32)]),
         None => Err("\"indices\" is missing".to_owned()),
@@ -199,7 +199,7 @@ fn index(value: f64, vertices: usize) -> Result<u32, String> {
     }
 }
 
-fn whole<'a, const N: usize, T>(name: &str, values: &'a [T]) -> Result<&'a [[T; N]], String> {
+fn tuples<'a, const N: usize, T>(name: &str, values: &'a [T]) -> Result<&'a [[T; N]], String> {
     match values.as_chunks::<N>() {
         (chunks, []) => Ok(chunks),
         _ => Err(format!("\"{name}\": {} numbers; expected a multiple of {N}", values.len())),

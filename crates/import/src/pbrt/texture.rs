@@ -1,6 +1,6 @@
 //! Textures.
 
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::material::factor::FactorTexture;
 use etendue_scene::record::material::{Channel, Factor};
@@ -8,7 +8,7 @@ use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
 
 use super::parameters::Parameters;
-use crate::scenery::{KnownTexture, Scenery, grey};
+use crate::scenery::{KnownTexture, SceneBuilder, grey};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 /// Returns true if an image has transparent parts: a fully opaque one has no opacity, as in pbrt.
@@ -21,7 +21,7 @@ fn has_opacity(image: &ImageAsset) -> bool {
 }
 
 /// File of a texture as named in the written scene, and its encoding.
-struct PictureFile {
+struct TextureFile {
     path: String,
     encoding: Encoding,
     has_alpha: bool,
@@ -29,7 +29,7 @@ struct PictureFile {
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 
-impl Scenery {
+impl SceneBuilder {
     pub(super) fn texture(
         &mut self,
         name: &str,
@@ -40,7 +40,7 @@ impl Scenery {
         let message = |what: String| format!("Texture \"{name}\": {what}");
         let is_colour = values != "float";
         let known = match kind {
-            "imagemap" => self.picture(name, is_colour, parameters).map_err(message)?,
+            "imagemap" => self.image_texture(name, is_colour, parameters).map_err(message)?,
             "constant" => match parameters.find("value") {
                 Some(value) => self.even(value).map_err(message)?,
                 None => Some(KnownTexture::Even([1.0; 3])),
@@ -68,7 +68,7 @@ impl Scenery {
         }
     }
 
-    fn picture(
+    fn image_texture(
         &mut self,
         name: &str,
         is_colour: bool,
@@ -113,9 +113,9 @@ impl Scenery {
         }
         let scale = parameters.number("scale", 1.0)?;
         let own = self.names.take(name, "texture");
-        let PictureFile { path, encoding, has_alpha } = match is_colour {
-            true => PictureFile { path: self.path_of(file), encoding, has_alpha: false },
-            false => self.numbers_picture(name, file, encoding)?,
+        let TextureFile { path, encoding, has_alpha } = match is_colour {
+            true => TextureFile { path: self.path_of(file), encoding, has_alpha: false },
+            false => self.numbers_image(name, file, encoding)?,
         };
         self.scene.textures.push(Texture {
             wrap: Some(wrap.into()),
@@ -128,15 +128,15 @@ impl Scenery {
 
     /// Image of numbers: its opacity if it has one (leaves are cut out so), else the mean of its colours, rewritten if they are encoded. The plan reports an
     /// unreadable image.
-    fn numbers_picture(&mut self, name: &str, file: &str, encoding: Encoding) -> Result<PictureFile, String> {
-        let image = read_picture(&self.source_folder.join(file)).ok();
+    fn numbers_image(&mut self, name: &str, file: &str, encoding: Encoding) -> Result<TextureFile, String> {
+        let image = read_image(&self.source_folder.join(file)).ok();
         let has_alpha = image.as_ref().is_some_and(has_opacity);
         match image.filter(|_| encoding == Encoding::Srgb && !has_alpha) {
             Some(image) => {
                 let path = self.numbers_file(&image, name, |rgb| rgb.iter().sum::<f32>() / 3.0)?;
-                Ok(PictureFile { path, encoding: Encoding::Data, has_alpha })
+                Ok(TextureFile { path, encoding: Encoding::Data, has_alpha })
             }
-            None => Ok(PictureFile { path: self.path_of(file), encoding, has_alpha }),
+            None => Ok(TextureFile { path: self.path_of(file), encoding, has_alpha }),
         }
     }
 
@@ -202,10 +202,10 @@ impl Scenery {
             return Ok(Reflectance::Plain(Colour::Grey(default.into())));
         };
         Ok(match self.texture_of(parameter, true)? {
-            None => Reflectance::Plain(self.share(parameter)?),
-            Some(KnownTexture::Even(rgb)) => Reflectance::Plain(self.share_of_rgb(name, rgb)),
+            None => Reflectance::Plain(self.reflectance_colour(parameter)?),
+            Some(KnownTexture::Even(rgb)) => Reflectance::Plain(self.reflectance_from_rgb(name, rgb)),
             Some(KnownTexture::Picture { name, scale, .. }) => {
-                self.known.pictures_laid += 1;
+                self.known.placed_images += 1;
                 let scale = self.legal_scale(scale).map(Into::into);
                 Reflectance::Texture { name: name.as_str().into(), scale }
             }
@@ -226,7 +226,7 @@ impl Scenery {
                 None => parameters.number(name, default)?,
                 Some(KnownTexture::Even(rgb)) => rgb[0],
                 Some(KnownTexture::Picture { name: texture, scale, has_alpha }) => {
-                    self.known.pictures_laid += 1;
+                    self.known.placed_images += 1;
                     if map(0.25) != 0.25 {
                         self.report.note(format!("an image of \"{name}\" is used as α directly, not as α²"));
                     }

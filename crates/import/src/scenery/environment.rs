@@ -4,16 +4,16 @@ use std::f64::consts::{PI, TAU};
 
 use etendue_core::maths::f64 as maths;
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
+use etendue_io::exr::{ExrLayer, encode_layers};
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::{record::Environment, record::environment::EnvironmentImage};
 use glam::{DMat3, DVec3};
 
-use super::stage::Scenery;
+use super::stage::SceneBuilder;
 use crate::naming::{azimuth_elevation_deg, rounded};
 
 /// Red, green and blue from a unit direction of our world.
-pub(crate) type Found<'a> = dyn Fn(DVec3) -> [f64; 3] + 'a;
+pub(crate) type RadianceFn<'a> = dyn Fn(DVec3) -> [f64; 3] + 'a;
 
 /// Pixel by its index, row by row.
 pub(crate) type Pixels<'a> = Box<dyn Fn(usize) -> [f32; 3] + 'a>;
@@ -27,14 +27,14 @@ pub(crate) fn linear_pixels(image: &ImageAsset) -> Option<Pixels<'_>> {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Writes an image of the sphere with `rows` rows; returns its path.
-    pub(crate) fn environment_file(&mut self, rows: usize, found: &Found<'_>) -> Result<String, String> {
-        let channels = resampled(rows, found);
-        let layers: Vec<(String, Layer<'_>)> = ["B", "G", "R"]
+    pub(crate) fn environment_file(&mut self, rows: usize, radiance: &RadianceFn<'_>) -> Result<String, String> {
+        let channels = resampled(rows, radiance);
+        let layers: Vec<(String, ExrLayer<'_>)> = ["B", "G", "R"]
             .iter()
             .zip([&channels[2], &channels[1], &channels[0]])
-            .map(|(n, c)| ((*n).to_owned(), Layer::Float(c)))
+            .map(|(n, c)| ((*n).to_owned(), ExrLayer::Float(c)))
             .collect();
         let bytes = encode_layers(2 * rows, rows, &layers, &Provenance::default()).map_err(|e| e.to_string())?;
         let name = self.file_names.take("environment", "environment");
@@ -45,7 +45,7 @@ impl Scenery {
 }
 
 /// Red, green and blue of `rows` rows and twice as many columns, each the mean of four by four points.
-pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
+pub(crate) fn resampled(rows: usize, radiance: &RadianceFn<'_>) -> [Vec<f32>; 3] {
     const POINTS: usize = 4;
     let columns = 2 * rows;
     let mut channels = [(); 3].map(|()| Vec::with_capacity(rows * columns));
@@ -57,7 +57,7 @@ pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
                 let azimuth = PI * (1.0 - along(column, point % POINTS) / rows as f64);
                 let elevation = PI * (0.5 - along(row, point / POINTS) / rows as f64);
                 let ((sa, ca), (se, ce)) = (maths::sin_cos(azimuth), maths::sin_cos(elevation));
-                let here = found(DVec3::new(ce * ca, ce * sa, se));
+                let here = radiance(DVec3::new(ce * ca, ce * sa, se));
                 sum = std::array::from_fn(|i| sum[i] + here[i]);
             }
             for (channel, sum) in channels.iter_mut().zip(sum) {
@@ -69,7 +69,7 @@ pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
 }
 
 /// Equirectangular image, with the first row at the top.
-pub(crate) struct LightPicture<'a> {
+pub(crate) struct LightImage<'a> {
     /// Name in the file.
     pub(crate) shown: &'a str,
     /// Name in the written scene.
@@ -79,32 +79,32 @@ pub(crate) struct LightPicture<'a> {
     pub(crate) pixel: &'a dyn Fn(usize) -> [f32; 3],
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Environment of an image of `rows` rows, in which 1 is `scale` cd/m². `turn` transforms our image space (the middle column is +x, the top +z) to our
     /// world, and may mirror. An upright image is referenced; others are resampled.
-    pub(crate) fn light_picture(
+    pub(crate) fn light_image(
         &mut self,
-        picture: &LightPicture<'_>,
+        image: &LightImage<'_>,
         rows: usize,
         turn: DMat3,
         scale: f64,
     ) -> Result<Environment, String> {
-        let LightPicture { shown, path, columns, pixel } = *picture;
+        let LightImage { shown, path, columns, pixel } = *image;
         if is_upright(&turn) {
             let [azimuth, _] = azimuth_elevation_deg(turn.x_axis);
             let [degrees, ..] = rounded([azimuth, 0.0, 0.0]);
             self.report.note(format!("environment map `{shown}`: 1 is {scale} cd/m²"));
-            let picture = EnvironmentImage::new(path, scale);
+            let image = EnvironmentImage::new(path, scale);
             let rotation_deg = (degrees != 0.0).then(|| degrees.into());
-            return Ok(Environment::Image(EnvironmentImage { rotation_deg, ..picture }));
+            return Ok(Environment::Image(EnvironmentImage { rotation_deg, ..image }));
         }
         let to_picture = turn.transpose();
-        let found = |direction: DVec3| {
+        let radiance = |direction: DVec3| {
             let d = to_picture * direction;
             let [across, down] = [0.5 - maths::atan2(d.y, d.x) / TAU, maths::acos(d.z.clamp(-1.0, 1.0)) / PI];
             bilinear(pixel, [columns, rows], [across * columns as f64 - 0.5, down * rows as f64 - 0.5])
         };
-        let written = self.environment_file(rows, &found)?;
+        let written = self.environment_file(rows, &radiance)?;
         self.report.note(format!("environment map `{shown}`: rotated and resampled, 1 is {scale} cd/m²"));
         Ok(Environment::Image(EnvironmentImage::new(written.as_str(), scale)))
     }

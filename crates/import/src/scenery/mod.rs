@@ -7,7 +7,7 @@ mod spectra;
 mod stage;
 mod surfaces;
 
-pub(super) use environment::LightPicture;
+pub(super) use environment::LightImage;
 #[cfg(feature = "usd")]
 pub(super) use environment::is_upright;
 #[cfg(test)]
@@ -17,8 +17,8 @@ pub(super) use objects::above_zero;
 pub(super) use round::Triangles;
 #[cfg(feature = "usd")]
 pub(super) use spectra::stored_pixels;
-pub(super) use spectra::{LightUnit, coefficient_of_rgb, illuminant_of};
+pub(super) use spectra::{LightUnit, coefficient_from_rgb, illuminant_of};
 pub(super) use stage::AreaLight;
-pub(super) use stage::{Graphics, Report, Scenery};
+pub(super) use stage::{Graphics, ImportReport, SceneBuilder};
 pub(super) use stage::{Homogeneous, INTERFACE, KnownTexture};
 pub(super) use surfaces::{grey, plain};

@@ -8,12 +8,12 @@ use etendue_scene::{record::material::Surface, record::mesh::Axis, record::trans
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::round::Triangles;
-use super::stage::{Graphics, INTERFACE, Scenery};
+use super::stage::{Graphics, INTERFACE, SceneBuilder};
 use crate::naming::rounded;
 
-impl Scenery {
+impl SceneBuilder {
     /// Transform from a shape's space to our world.
-    pub(crate) fn placed(&self, graphics: &Graphics) -> DAffine3 {
+    pub(crate) fn placement(&self, graphics: &Graphics) -> DAffine3 {
         DAffine3::from_mat3(self.to_ours) * graphics.to_world
     }
 
@@ -29,17 +29,17 @@ impl Scenery {
             self.report.note("a mesh without triangles is left out");
             return Ok(());
         }
-        let placed = mesh.placed(self.placed(graphics), graphics.reverse_orientation);
-        let wish = if graphics.name.is_empty() { "mesh" } else { &graphics.name };
-        let file = self.file_names.take(wish, "mesh");
-        if self.is_seen(graphics) {
-            let path = self.add_file(format!("meshes/{file}.ply"), encode_ply(&placed));
+        let placed_mesh = mesh.placed(self.placement(graphics), graphics.reverse_orientation);
+        let preferred = if graphics.name.is_empty() { "mesh" } else { &graphics.name };
+        let file = self.file_names.take(preferred, "mesh");
+        if self.is_visible(graphics) {
+            let path = self.add_file(format!("meshes/{file}.ply"), encode_ply(&placed_mesh));
             let up_axis = Some(Axis::Z.into());
             self.scene.meshes.push(Mesh { up_axis, ..Mesh::new(file.as_str(), path.as_str()) });
             self.object("mesh", Body::Mesh(file.as_str().into()), Transform::default(), graphics, count);
         }
         if fills(graphics) {
-            let path = self.add_file(format!("meshes/{file}-medium.obj"), encode_obj(&placed));
+            let path = self.add_file(format!("meshes/{file}-medium.obj"), encode_obj(&placed_mesh));
             let shape = MediumShape::Mesh(MediumMesh::new(path.as_str()));
             self.fill_inside(graphics, shape, Transform::default());
         }
@@ -48,21 +48,21 @@ impl Scenery {
 
     /// Adds a sphere about the origin of a shape's space.
     pub(crate) fn whole_sphere(&mut self, radius: f64, graphics: &Graphics) {
-        let Some((rotation, scale)) = orthogonal(self.placed(graphics).matrix3) else {
+        let Some((rotation, scale)) = orthogonal(self.placement(graphics).matrix3) else {
             self.report.note("a sheared sphere is left out");
             return;
         };
-        let placed = self.placed(graphics).translation;
+        let position = self.placement(graphics).translation;
         if graphics.reverse_orientation && graphics.area_light.is_some() {
             self.report.note("a sphere that emits inwards emits outwards here");
         }
         let is_even = (scale.max_element() - scale.min_element()).abs() <= 1e-9 * scale.max_element();
         let (radius, transform) = match is_even {
-            true => (radius * scale.x, place(placed, DMat3::IDENTITY, DVec3::ONE)),
-            false => (radius, place(placed, rotation, scale)),
+            true => (radius * scale.x, place(position, DMat3::IDENTITY, DVec3::ONE)),
+            false => (radius, place(position, rotation, scale)),
         };
         let body = Body::Shape(Shape::Sphere(Sphere::new(radius)));
-        if self.is_seen(graphics) {
+        if self.is_visible(graphics) {
             self.object("sphere", body, transform.clone(), graphics, 1);
         }
         if fills(graphics) {
@@ -85,8 +85,8 @@ impl Scenery {
     }
 
     fn flat(&mut self, kind: &str, shape: Shape, height: f64, graphics: &Graphics) {
-        let placed = self.placed(graphics);
-        let Some((rotation, scale)) = orthogonal(placed.matrix3) else {
+        let to_scene = self.placement(graphics);
+        let Some((rotation, scale)) = orthogonal(to_scene.matrix3) else {
             self.report.note(format!("a sheared {kind} is left out"));
             return;
         };
@@ -95,8 +95,8 @@ impl Scenery {
             true => DMat3::from_cols(-rotation.x_axis, rotation.y_axis, -rotation.z_axis),
             false => rotation,
         };
-        let centre = placed.transform_point3(DVec3::new(0.0, 0.0, height));
-        if self.is_seen(graphics) {
+        let centre = to_scene.transform_point3(DVec3::new(0.0, 0.0, height));
+        if self.is_visible(graphics) {
             let scale = DVec3::new(scale.x, scale.y, 1.0);
             self.object(kind, Body::Shape(shape), place(centre, rotation, scale), graphics, 1);
         }
@@ -117,7 +117,7 @@ impl Scenery {
     }
 
     /// Returns true for a visible surface, false for a mere medium boundary.
-    fn is_seen(&mut self, graphics: &Graphics) -> bool {
+    fn is_visible(&mut self, graphics: &Graphics) -> bool {
         let is_border = &*graphics.material == INTERFACE;
         if is_border && graphics.area_light.is_some() {
             self.report.note("a shape that is only the interface of a medium emits no light here");
@@ -133,15 +133,15 @@ impl Scenery {
                 if light.has_flux() && count > 1 {
                     self.report.note("\"power\" of an area light applies to each triangle of a mesh, as in pbrt; all triangles are assumed equally bright");
                 }
-                self.glowing(&graphics.material, light.emission(count))
+                self.emissive_copy(&graphics.material, light.emission(count))
             }
         };
         let material = match &graphics.opacity {
             None => material,
-            Some(opacity) => self.thinned(&material, opacity.clone()),
+            Some(opacity) => self.translucent_copy(&material, opacity.clone()),
         };
-        let wish = if graphics.name.is_empty() { kind } else { &graphics.name };
-        let name = self.names.take(wish, "object");
+        let preferred = if graphics.name.is_empty() { kind } else { &graphics.name };
+        let name = self.names.take(preferred, "object");
         let material = Some(material.as_str().into());
         self.scene.objects.push(Object { material, ..Object::new(name.as_str(), body, transform) });
     }

@@ -12,7 +12,7 @@ const SIDES: u32 = 256;
 const RINGS: u32 = 128;
 
 /// Point of a surface.
-pub(crate) struct Point {
+pub(crate) struct VertexPoint {
     pub(crate) position: DVec3,
     /// Unit normal.
     pub(crate) normal: DVec3,
@@ -22,15 +22,15 @@ pub(crate) struct Point {
 
 impl Triangles {
     /// Surface over the unit square, which `point` evaluates at (s, t); triangles of zero area are omitted.
-    fn over_square(columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) -> Self {
-        let mut made = Self::default();
+    fn over_square(columns: u32, rows: u32, point: impl Fn(f64, f64) -> VertexPoint) -> Self {
+        let mut mesh = Self::default();
         for row in 0..=rows {
             for column in 0..=columns {
-                let Point { position, normal, uv } =
+                let VertexPoint { position, normal, uv } =
                     point(f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
-                made.positions.push(position.to_array());
-                made.normals.push(normal.to_array());
-                made.uvs.push(uv);
+                mesh.positions.push(position.to_array());
+                mesh.normals.push(normal.to_array());
+                mesh.uvs.push(uv);
             }
         }
         let at = |row: u32, column: u32| row * (columns + 1) + column;
@@ -38,12 +38,12 @@ impl Triangles {
             let [a, b] = [at(row, column), at(row, column + 1)];
             let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
             for corners in [[a, b, d], [a, d, c]] {
-                if made.has_area(corners) {
-                    made.triangles.push(corners);
+                if mesh.has_area(corners) {
+                    mesh.triangles.push(corners);
                 }
             }
         }
-        made
+        mesh
     }
 
     fn has_area(&self, corners: [u32; 3]) -> bool {
@@ -54,28 +54,28 @@ impl Triangles {
 
     /// Part of a sphere about the origin between two heights z, over `turn_rad` from +x towards +y. u is the fraction of the turn, v that of the angle from the
     /// lower to the upper border. (Mitsuba's whole sphere has the same.)
-    pub(crate) fn of_sphere(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
+    pub(crate) fn from_sphere(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
         let polar = |z: f64| maths::acos((z / radius).clamp(-1.0, 1.0));
         let (from, to) = (polar(low), polar(high));
         Self::over_square(SIDES, RINGS, |s, t| {
             let (sin, cos) = maths::sin_cos(from + (to - from) * t);
             let around = around(s * turn_rad);
             let normal = DVec3::new(sin * around.x, sin * around.y, cos);
-            Point { position: radius * normal, normal, uv: [s, t] }
+            VertexPoint { position: radius * normal, normal, uv: [s, t] }
         })
     }
 
     /// Lateral surface of a cylinder about z between two heights, over `turn_rad` from +x towards +y. u is the fraction of the turn, v that of the height.
-    pub(crate) fn of_cylinder(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
+    pub(crate) fn from_cylinder(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
         Self::over_square(SIDES, 1, |s, t| {
             let normal = around(s * turn_rad);
-            Point { position: radius * normal + DVec3::Z * (low + (high - low) * t), normal, uv: [s, t] }
+            VertexPoint { position: radius * normal + DVec3::Z * (low + (high - low) * t), normal, uv: [s, t] }
         })
     }
 
     /// Ring between an outer and an inner radius (0: a disc) in the plane z = `height`, with its front towards +z, over `turn_rad` from +x towards +y. `uv`
     /// gives the texture coordinates at the fractions of the turn and of the distance from the outer border to the inner.
-    pub(crate) fn of_ring(
+    pub(crate) fn from_ring(
         [outer, inner]: [f64; 2],
         height: f64,
         turn_rad: f64,
@@ -84,7 +84,7 @@ impl Triangles {
         // One row would interpolate a texture linearly across triangles that meet in the centre.
         Self::over_square(SIDES, RINGS, |s, t| {
             let position = around(s * turn_rad) * (outer + (inner - outer) * t) + DVec3::Z * height;
-            Point { position, normal: DVec3::Z, uv: uv(s, t) }
+            VertexPoint { position, normal: DVec3::Z, uv: uv(s, t) }
         })
     }
 
@@ -189,21 +189,21 @@ mod tests {
     #[test]
     fn parts_have_their_areas() {
         let parts = [
-            (Triangles::of_sphere(2.0, [-2.0, 2.0], TAU), 2.0 * TAU * 4.0),
-            (Triangles::of_sphere(2.0, [-1.0, 0.5], 0.25 * TAU), 0.25 * TAU * 2.0 * 1.5),
-            (Triangles::of_cylinder(0.5, [1.0, 4.0], 0.5 * TAU), 0.5 * TAU * 0.5 * 3.0),
-            (Triangles::of_ring([3.0, 1.0], 2.0, TAU, |s, t| [s, t]), 0.5 * TAU * 8.0),
-            (Triangles::of_ring([3.0, 0.0], 2.0, 0.3 * TAU, |s, t| [s, t]), 0.15 * TAU * 9.0),
+            (Triangles::from_sphere(2.0, [-2.0, 2.0], TAU), 2.0 * TAU * 4.0),
+            (Triangles::from_sphere(2.0, [-1.0, 0.5], 0.25 * TAU), 0.25 * TAU * 2.0 * 1.5),
+            (Triangles::from_cylinder(0.5, [1.0, 4.0], 0.5 * TAU), 0.5 * TAU * 0.5 * 3.0),
+            (Triangles::from_ring([3.0, 1.0], 2.0, TAU, |s, t| [s, t]), 0.5 * TAU * 8.0),
+            (Triangles::from_ring([3.0, 0.0], 2.0, 0.3 * TAU, |s, t| [s, t]), 0.15 * TAU * 9.0),
         ];
         for (mesh, expected) in parts {
-            let found = area(&mesh);
-            assert!((found / expected - 1.0).abs() < 2e-4, "{found} for {expected}");
+            let actual = area(&mesh);
+            assert!((actual / expected - 1.0).abs() < 2e-4, "{actual} for {expected}");
         }
     }
 
     #[test]
     fn coordinates_of_a_sphere_begin_at_its_south_pole_and_at_x() {
-        let ball = Triangles::of_sphere(1.0, [-1.0, 1.0], TAU);
+        let ball = Triangles::from_sphere(1.0, [-1.0, 1.0], TAU);
         let find = |at: DVec3| {
             let near = |p: &&([f64; 3], &[f64; 2])| DVec3::from_array(p.0).distance(at) < 1e-9;
             *ball.positions.iter().copied().zip(&ball.uvs).collect::<Vec<_>>().iter().find(near).expect("a vertex").1

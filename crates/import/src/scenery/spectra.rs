@@ -5,12 +5,12 @@
 use std::fmt::Write as _;
 
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
+use etendue_io::exr::{ExrLayer, encode_layers};
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::{Curve, LightColour};
 use etendue_spectra::{Spectrum, colour::decode, upsample::reflectance_spectrum};
 
-use super::{stage::Scenery, surfaces::grey};
+use super::{stage::SceneBuilder, surfaces::grey};
 
 /// Light: colour, and luminance of one unit, cd/m². Zero luminance means no light.
 pub(crate) struct LightUnit {
@@ -23,7 +23,7 @@ pub(crate) fn illuminant_of(name: &str) -> LightColour {
     LightColour::Illuminant(name.into())
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Writes a file of a spectrum next to the scene; returns its path.
     pub(crate) fn spectrum_file(&mut self, points: &[(f64, f64)]) -> String {
         let mut text = "wavelength_nm,value\n".to_owned();
@@ -49,12 +49,12 @@ impl Scenery {
 }
 
 /// Coefficient, 0 or more, from three numbers; the second value is the number if they are equal.
-pub(crate) fn coefficient_of_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectrum, Option<f64>), String> {
+pub(crate) fn coefficient_from_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectrum, Option<f64>), String> {
     if rgb.iter().any(|v| *v < 0.0) {
         return Err(format!("\"{name}\" is below 0"));
     }
     // Like pbrt's colours beyond 1: a reflectance of half the largest, times twice that.
-    let largest = rgb.iter().fold(0.0_f64, |most, v| most.max(*v));
+    let largest = rgb.iter().fold(0.0_f64, |max_so_far, v| max_so_far.max(*v));
     if let Some(even) = grey(rgb) {
         return Ok((Spectrum::from_fn(|_| even), Some(even)));
     }
@@ -76,21 +76,21 @@ pub(crate) fn stored_pixels(image: &ImageAsset) -> Vec<[f32; 4]> {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Writes an image of numbers computed by `number` from the linear red, green and blue of an sRGB-encoded image; returns the path of the file, which is
     /// grey.
     pub(crate) fn numbers_file(
         &mut self,
         image: &ImageAsset,
-        wish: &str,
+        preferred: &str,
         number: fn([f32; 3]) -> f32,
     ) -> Result<String, String> {
-        let of = |[r, g, b, _]: [f32; 4]| number([r, g, b].map(decode));
-        let numbers: Vec<f32> = stored_pixels(image).into_iter().map(of).collect();
-        let layers = ["B", "G", "R"].map(|name| (name.to_owned(), Layer::Float(&numbers)));
+        let gray = |[r, g, b, _]: [f32; 4]| number([r, g, b].map(decode));
+        let numbers: Vec<f32> = stored_pixels(image).into_iter().map(gray).collect();
+        let layers = ["B", "G", "R"].map(|name| (name.to_owned(), ExrLayer::Float(&numbers)));
         let (width, height) = (image.width as usize, image.height as usize);
         let bytes = encode_layers(width, height, &layers, &Provenance::default()).map_err(|e| e.to_string())?;
-        let own = self.file_names.take(wish, "numbers");
+        let own = self.file_names.take(preferred, "numbers");
         let path = self.add_file(format!("textures/{own}.exr"), bytes);
         self.check_size()?;
         Ok(path)

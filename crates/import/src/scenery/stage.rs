@@ -9,7 +9,7 @@ use etendue_scene::record::material::{Factor, Sides};
 use etendue_scene::record::{Curve, Emission, Level, LightColour, Scene, SurfaceEmission};
 use glam::{DAffine3, DMat3};
 
-use crate::naming::{Names, path_between};
+use crate::naming::{UniqueNames, path_between};
 
 /// Placeholder for the material of a surface that only separates two media.
 pub(crate) const INTERFACE: &str = "interface/";
@@ -38,17 +38,17 @@ pub(crate) struct Homogeneous {
 
 /// Named definitions.
 #[derive(Default)]
-pub(crate) struct Known {
+pub(crate) struct SceneDefinitions {
     /// Textures; those of colours (true) and those of numbers are separate.
     pub(crate) textures: HashMap<(bool, String), KnownTexture>,
     /// Our names of the file's materials; the empty name is the grey one.
     pub(crate) materials: HashMap<String, Rc<str>>,
     /// Our names of the materials that place an image by texture coordinates.
-    pub(crate) pictured: HashSet<Rc<str>>,
+    pub(crate) with_images: HashSet<Rc<str>>,
     /// Number of images placed by materials so far.
-    pub(crate) pictures_laid: usize,
+    pub(crate) placed_images: usize,
     /// Names of partly transparent copies, by the original and the opacity.
-    pub(crate) thinned: HashMap<String, Rc<str>>,
+    pub(crate) translucent_copies: HashMap<String, Rc<str>>,
     /// Supported media.
     pub(crate) media: HashMap<String, Homogeneous>,
 }
@@ -85,14 +85,14 @@ impl AreaLight {
 const MAX_OBJECTS: usize = 1_000_000;
 
 /// Scene under construction.
-pub(crate) struct Scenery {
+pub(crate) struct SceneBuilder {
     pub(crate) scene: Scene,
-    pub(crate) report: Report,
-    pub(crate) file_names: Names,
-    pub(crate) names: Names,
+    pub(crate) report: ImportReport,
+    pub(crate) file_names: UniqueNames,
+    pub(crate) names: UniqueNames,
     /// Rotation from the file's world to ours.
     pub(crate) to_ours: DMat3,
-    pub(crate) known: Known,
+    pub(crate) known: SceneDefinitions,
     /// Folder of the scene file.
     pub(crate) source_folder: PathBuf,
     /// Folder of the written files.
@@ -118,15 +118,15 @@ impl Graphics {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     pub(crate) fn new(file: &Path, folder: &Path) -> Self {
         Self {
             scene: Scene::default(),
-            report: Report::default(),
-            file_names: Names::default(),
-            names: Names::default(),
+            report: ImportReport::default(),
+            file_names: UniqueNames::default(),
+            names: UniqueNames::default(),
             to_ours: DMat3::IDENTITY,
-            known: Known::default(),
+            known: SceneDefinitions::default(),
             source_folder: file.parent().unwrap_or(Path::new("")).to_owned(),
             folder: folder.to_owned(),
             files: Vec::new(),
@@ -153,18 +153,18 @@ impl Scenery {
 
     /// Path, as in the written scene, of a file that the scene file names.
     pub(crate) fn path_of(&self, name: &str) -> String {
-        self.way_to(&self.source_folder.join(name))
+        self.relative_path(&self.source_folder.join(name))
     }
 
     /// Path of a file as in the written scene.
-    pub(crate) fn way_to(&self, file: &Path) -> String {
+    pub(crate) fn relative_path(&self, file: &Path) -> String {
         path_between(&self.folder, file).to_string_lossy().into_owned()
     }
 
     /// Notes the unused parameters.
-    pub(crate) fn note_unused<'a>(&mut self, of: &str, unused: impl Iterator<Item = &'a str>) {
+    pub(crate) fn note_unused<'a>(&mut self, subject: &str, unused: impl Iterator<Item = &'a str>) {
         for name in unused {
-            self.report.note(format!("{of}: \"{name}\" is not used"));
+            self.report.note(format!("{subject}: \"{name}\" is not used"));
         }
     }
 }
@@ -187,14 +187,14 @@ pub(crate) struct Graphics {
 
 /// Notes, in the order of occurrence.
 #[derive(Debug, Default)]
-pub(crate) struct Report {
+pub(crate) struct ImportReport {
     order: Vec<String>,
     counts: HashMap<String, (usize, String)>,
     /// File and line in progress.
     place: String,
 }
 
-impl Report {
+impl ImportReport {
     /// Sets the place of the notes that follow.
     pub(crate) fn at(&mut self, place: String) {
         self.place = place;

@@ -7,31 +7,31 @@ use etendue_scene::record::medium::{Extinction, HenyeyGreenstein, Isotropic, Med
 use etendue_scene::record::{Colour, Medium, Reflectance, SurfaceEmission, Transform};
 use etendue_spectra::upsample;
 
-use super::stage::{Homogeneous, Scenery};
+use super::stage::{Homogeneous, SceneBuilder};
 
 /// Value of three equal numbers.
 pub(crate) fn grey(values: [f64; 3]) -> Option<f64> {
     (values[0] == values[1] && values[1] == values[2]).then_some(values[0])
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Reflectance of a parameter called `name`, clamped to 0 … 1 with a note.
-    pub(crate) fn cut(&mut self, name: &str, share: f64) -> f64 {
-        let legal = share.clamp(0.0, 1.0);
-        if legal != share {
+    pub(crate) fn limit_to_unit(&mut self, name: &str, value: f64) -> f64 {
+        let legal = value.clamp(0.0, 1.0);
+        if legal != value {
             self.report.note(format!("\"{name}\" is limited to 0 … 1"));
         }
         legal
     }
 
     /// The same for linear sRGB.
-    pub(crate) fn share_of_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
-        let legal = rgb.map(|v| self.cut(name, v));
+    pub(crate) fn reflectance_from_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
+        let legal = rgb.map(|v| self.limit_to_unit(name, v));
         grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into()))
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Fills a part of the world with a medium; does nothing if the name is empty or not supported.
     pub(crate) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
         let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
@@ -53,7 +53,7 @@ impl Scenery {
     }
 }
 
-impl Scenery {
+impl SceneBuilder {
     /// Material by our name; the grey one if it is empty.
     pub(crate) fn known_material(&mut self, own: &str) -> String {
         if !own.is_empty() {
@@ -81,37 +81,37 @@ impl Scenery {
     }
 
     /// Emissive copy of a material.
-    pub(crate) fn glowing(&mut self, own: &str, emission: SurfaceEmission) -> String {
+    pub(crate) fn emissive_copy(&mut self, own: &str, emission: SurfaceEmission) -> String {
         let own = self.known_material(own);
         let name = self.names.take(&format!("{own}-light"), "light");
-        let found = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
-        let own = found.unwrap_or_else(|| Material::new(name.as_str(), Surface::Diffuse(Diffuse::new(plain(0.5)))));
+        let base = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
+        let own = base.unwrap_or_else(|| Material::new(name.as_str(), Surface::Diffuse(Diffuse::new(plain(0.5)))));
         self.scene.materials.push(Material { name: name.as_str().into(), emission: Some(emission), ..own });
         name
     }
 
     /// Partly transparent copy of a material.
-    pub(crate) fn thinned(&mut self, own: &str, opacity: Factor) -> String {
-        let told = match &opacity {
-            Factor::Number(share) => format!("{own} {}", share.value),
+    pub(crate) fn translucent_copy(&mut self, own: &str, opacity: Factor) -> String {
+        let key = match &opacity {
+            Factor::Number(number) => format!("{own} {}", number.value),
             Factor::Texture(texture) => {
                 let channel = texture.channel.as_ref().map(|c| c.value);
                 format!("{own} {} {channel:?} {:?}", texture.texture.value, texture.scale.as_ref().map(|s| s.value))
             }
         };
-        if let Some(known) = self.known.thinned.get(&told) {
+        if let Some(known) = self.known.translucent_copies.get(&key) {
             return known.to_string();
         }
         let name = self.names.take(&format!("{own}-thin"), "thin");
-        let found = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
-        let copy = found.map(|m| Material { name: name.as_str().into(), opacity: Some(opacity), ..m });
+        let base = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
+        let copy = base.map(|m| Material { name: name.as_str().into(), opacity: Some(opacity), ..m });
         self.scene.materials.extend(copy);
-        self.known.thinned.insert(told, name.as_str().into());
+        self.known.translucent_copies.insert(key, name.as_str().into());
         name
     }
 
     /// Metal with the reflectance of linear sRGB at normal incidence, as in pbrt: n = 1 and the matching k.
-    pub(crate) fn metal_of_rgb(&mut self, rgb: [f64; 3]) -> Metal {
+    pub(crate) fn metal_from_rgb(&mut self, rgb: [f64; 3]) -> Metal {
         let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
         let k = |nm: f32| {
             let r = f64::from(reflectance.at(nm)).clamp(0.0, 0.9999);

@@ -80,7 +80,7 @@ pub(super) fn vector(prim: &UsdPrim, name: &str) -> Option<DVec3> {
 }
 
 /// Marks all properties of a prim as used: omitted content is reported once.
-pub(super) fn leave(prim: &UsdPrim) {
+pub(super) fn mark_used(prim: &UsdPrim) {
     prim.attributes.values().for_each(|attribute| attribute.used.set(true));
     prim.relations.values().for_each(|relation| relation.used.set(true));
 }
@@ -89,7 +89,7 @@ pub(super) fn leave(prim: &UsdPrim) {
 pub(super) struct Paths<'a>(HashMap<&'a str, &'a UsdPrim>);
 
 impl<'a> Paths<'a> {
-    pub(super) fn of(roots: &'a [UsdPrim]) -> Self {
+    pub(super) fn new(roots: &'a [UsdPrim]) -> Self {
         fn add<'a>(prims: &'a [UsdPrim], all: &mut HashMap<&'a str, &'a UsdPrim>) {
             for prim in prims {
                 all.insert(&prim.path, prim);

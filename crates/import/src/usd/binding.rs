@@ -89,7 +89,7 @@ impl BoundMaterial {
     }
 
     /// Returns true if it has images.
-    pub(super) fn has_pictures(&self) -> bool {
+    pub(super) fn has_images(&self) -> bool {
         !self.primvar.is_empty()
     }
 

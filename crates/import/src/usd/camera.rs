@@ -4,16 +4,16 @@ use etendue_core::maths::f64 as maths;
 use glam::DVec3;
 
 use super::access::{number, text, tuple};
-use super::importer::{Importer, State};
+use super::importer::{Importer, TraversalState};
 use crate::syntax::usd::UsdPrim;
 use crate::written::{ImportedCamera, View, pose_of, size_of};
 
 /// Plausible focal lengths, mm.
-const USUAL_MM: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
+const PLAUSIBLE_MM: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
 impl<'a> Importer<'a> {
     /// Converts a camera. Focal length and apertures are in tenths of the stage's unit; it looks along −z.
-    pub(super) fn camera(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+    pub(super) fn camera(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
         let above_zero = |name: &str, usual: f64| match number(prim, name, usual) {
             v if v > 0.0 && v.is_finite() => Ok(v),
             v => Err(format!("{}: \"{name}\" is {v}; expected a number above 0", prim.path)),
@@ -56,7 +56,7 @@ impl<'a> Importer<'a> {
                 View::Perspective { yfov_rad }
             }
         };
-        if !USUAL_MM.contains(&focal_mm) && text(prim, "projection") != "orthographic" {
+        if !PLAUSIBLE_MM.contains(&focal_mm) && text(prim, "projection") != "orthographic" {
             self.scenery.report.note(format!(
                 "camera \"{name}\": a focal length of {focal_mm} mm is unusual: check metersPerUnit (focal lengths are in tenths of a unit)"
             ));

@@ -6,25 +6,25 @@ use etendue_scene::record::{Emission, Environment, Level, LightColour};
 use glam::{DMat3, DVec3};
 
 use super::access::{asset, text};
-use super::importer::{Importer, State};
-use crate::scenery::{LightPicture, LightUnit, grey, is_upright, linear_pixels};
+use super::importer::{Importer, TraversalState};
+use crate::scenery::{LightImage, LightUnit, grey, is_upright, linear_pixels};
 use crate::syntax::usd::{UsdAxis, UsdFile, UsdPrim};
 
 /// Rotation from the space of a dome, with its top at +y, to that of our images: the middle of its image is seen along +z, the quarter to the left along +x
 /// (OpenEXR's convention).
-fn picture_axes() -> DMat3 {
+fn image_axes() -> DMat3 {
     DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
 }
 
 impl<'a> Importer<'a> {
-    pub(super) fn dome(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) -> Result<(), String> {
+    pub(super) fn dome(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, unit: LightUnit) -> Result<(), String> {
         let environment = match asset(prim, "inputs:texture:file") {
             None => {
                 self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));
                 let emission = Emission::new(Level::Luminance(unit.luminance.into()));
                 Some(Environment::Uniform(Emission { colour: Some(unit.colour), ..emission }))
             }
-            Some(_) => self.dome_picture(prim, state, &unit)?,
+            Some(_) => self.dome_image(prim, state, &unit)?,
         };
         if let Some(environment) = environment
             && self.scenery.scene.environment.replace(environment).is_some()
@@ -35,10 +35,10 @@ impl<'a> Importer<'a> {
     }
 
     /// `None`, with a note, for an unused image.
-    fn dome_picture(
+    fn dome_image(
         &mut self,
         prim: &'a UsdPrim,
-        state: &State<'a>,
+        state: &TraversalState<'a>,
         unit: &LightUnit,
     ) -> Result<Option<Environment>, String> {
         let Some(stated) = asset(prim, "inputs:texture:file") else { return Ok(None) };
@@ -69,7 +69,7 @@ impl<'a> Importer<'a> {
             _ => UsdAxis::Y,
         };
         // A pole along z is a rotation by 90° about x.
-        let stand =
+        let pole_axes =
             if pole == UsdAxis::Z { DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y) } else { DMat3::IDENTITY };
         let axes = state.to_world.matrix3;
         let own = DMat3::from_cols(
@@ -77,14 +77,14 @@ impl<'a> Importer<'a> {
             axes.y_axis.normalize_or_zero(),
             axes.z_axis.normalize_or_zero(),
         );
-        let turn = self.scenery.to_ours * own * stand * picture_axes().transpose();
+        let turn = self.scenery.to_ours * own * pole_axes * image_axes().transpose();
         // A resampled image need not also be written next to the scene.
         let path = match (&stated.file, is_upright(&turn)) {
             (Some(UsdFile::Packed(..)), false) => String::new(),
             _ => self.file(stated)?,
         };
-        let picture = LightPicture { shown, path: &path, columns: image.width as usize, pixel: &*pixel };
-        self.scenery.light_picture(&picture, image.height as usize, turn, unit.luminance).map(Some)
+        let picture = LightImage { shown, path: &path, columns: image.width as usize, pixel: &*pixel };
+        self.scenery.light_image(&picture, image.height as usize, turn, unit.luminance).map(Some)
     }
 }
 

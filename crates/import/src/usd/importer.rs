@@ -7,17 +7,17 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::access::{Paths, text};
 use super::binding::{Bindings, BoundMaterial, binds_collections, bound};
 use super::transform::transform_of;
-use crate::scenery::{KnownTexture, Scenery};
+use crate::scenery::{KnownTexture, SceneBuilder};
 use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
 use crate::without::{even_sky, whole_view};
-use crate::written::{ImportedCamera, Written, written};
+use crate::written::{ImportedCamera, ImportFiles, import_files};
 
 /// Maximum visited prims, counting those of each instance.
 const MAX_VISITS: usize = 1_000_000;
 
 /// Scene under construction.
 pub(super) struct Importer<'a> {
-    pub(super) scenery: Scenery,
+    pub(super) scenery: SceneBuilder,
     pub(super) stage: &'a UsdStage,
     pub(super) paths: Paths<'a>,
     /// Transform from the stage's space to metres.
@@ -40,7 +40,7 @@ pub(super) struct Importer<'a> {
 
 /// State inherited by a prim.
 #[derive(Clone)]
-pub(super) struct State<'a> {
+pub(super) struct TraversalState<'a> {
     pub(super) to_world: DAffine3,
     is_visible: bool,
     purpose: &'a str,
@@ -50,7 +50,7 @@ pub(super) struct State<'a> {
     pub(super) depth: usize,
 }
 
-impl State<'_> {
+impl TraversalState<'_> {
     /// Returns true if it is visible in an image.
     pub(super) fn is_drawn(&self) -> bool {
         self.is_visible && matches!(self.purpose, "" | "default" | "render")
@@ -59,7 +59,7 @@ impl State<'_> {
 
 impl<'a> Importer<'a> {
     pub(super) fn new(file: &Path, folder: &Path, stage: &'a UsdStage) -> Self {
-        let mut scenery = Scenery::new(file, folder);
+        let mut scenery = SceneBuilder::new(file, folder);
         scenery.to_ours = match stage.up {
             UsdAxis::Y => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
             UsdAxis::Z => DMat3::IDENTITY,
@@ -67,7 +67,7 @@ impl<'a> Importer<'a> {
         Self {
             scenery,
             stage,
-            paths: Paths::of(&stage.roots),
+            paths: Paths::new(&stage.roots),
             root: DAffine3::from_scale(DVec3::splat(stage.metres_per_unit)),
             materials: HashMap::new(),
             black_outside: Vec::new(),
@@ -89,7 +89,7 @@ impl<'a> Importer<'a> {
         self.scenery.report.note(format!("one unit is {metres} m ({by}); {up} is up"));
         self.stage.notes.iter().for_each(|note| self.scenery.report.note(note.as_str()));
         let bindings = Bindings::default();
-        let state = State { to_world: self.root, is_visible: true, purpose: "", bindings, depth: 0 };
+        let state = TraversalState { to_world: self.root, is_visible: true, purpose: "", bindings, depth: 0 };
         for prim in &self.stage.roots {
             self.prim(prim, &state)?;
         }
@@ -98,12 +98,12 @@ impl<'a> Importer<'a> {
     }
 
     /// Files of the scene.
-    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+    pub(super) fn finish(mut self, file: &Path) -> Result<ImportFiles, String> {
         self.read()?;
-        let Scenery { scene, report, .. } = &mut self.scenery;
+        let SceneBuilder { scene, report, .. } = &mut self.scenery;
         if scene.lights.is_empty() && scene.environment.is_none() && !self.shines {
-            let told = even_sky(scene);
-            report.note(told);
+            let message = even_sky(scene);
+            report.note(message);
         }
         if self.cameras.is_empty() {
             report.note("it has no cameras: \"view\" is added, which shows the whole scene from the front");
@@ -114,13 +114,13 @@ impl<'a> Importer<'a> {
         let counts = [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len()];
         let [objects, materials, textures, lights] = counts;
         report.note(format!("written: {objects} objects, {materials} materials, {textures} textures, {lights} lights"));
-        let mut made = written(file, &self.scenery.scene, &self.cameras, self.scenery.report.lines());
-        made.files.extend(self.scenery.files);
-        Ok(made)
+        let mut result = import_files(file, &self.scenery.scene, &self.cameras, self.scenery.report.lines());
+        result.files.extend(self.scenery.files);
+        Ok(result)
     }
 
     /// Converts a prim and all its descendants.
-    pub(super) fn prim(&mut self, prim: &'a UsdPrim, about: &State<'a>) -> Result<(), String> {
+    pub(super) fn prim(&mut self, prim: &'a UsdPrim, about: &TraversalState<'a>) -> Result<(), String> {
         self.visits += 1;
         if self.visits > MAX_VISITS {
             return Err(format!("it has more than {MAX_VISITS} prims, counting each instance; use fewer instances"));
@@ -141,7 +141,7 @@ impl<'a> Importer<'a> {
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
             "Camera" => self.camera(prim, &state)?,
             "" | "Xform" | "Scope" | "SkelRoot" => {}
-            _ if !state.is_drawn() => self.leave_undrawn(prim),
+            _ if !state.is_drawn() => self.note_undrawn(prim),
             kind if kind.ends_with("Light") || kind == "DomeLight_1" => self.light(prim, &state)?,
             _ => self.shape(prim, &state)?,
         }
@@ -163,10 +163,10 @@ impl<'a> Importer<'a> {
     }
 
     /// Notes that a prim is not drawn.
-    pub(super) fn leave_undrawn(&mut self, prim: &UsdPrim) {
-        super::access::leave(prim);
-        let told = "prims that are invisible, or have a purpose other than rendering (guide, proxy), are left out";
-        self.scenery.report.note(told);
+    pub(super) fn note_undrawn(&mut self, prim: &UsdPrim) {
+        super::access::mark_used(prim);
+        let message = "prims that are invisible, or have a purpose other than rendering (guide, proxy), are left out";
+        self.scenery.report.note(message);
     }
 
     /// Name of a shape.
@@ -175,7 +175,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Extends the bounding box to a position of the file's world.
-    pub(super) fn reaches(&mut self, place: DVec3) {
+    pub(super) fn extend_bounds(&mut self, place: DVec3) {
         let ours = self.scenery.to_ours * place;
         (self.low, self.high) = (self.low.min(ours), self.high.max(ours));
     }

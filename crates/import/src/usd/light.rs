@@ -7,8 +7,8 @@ use etendue_scene::record::{Light, LightColour};
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::access::{flag, number};
-use super::importer::{Importer, State};
-use super::shape::{about, cylinder};
+use super::importer::{Importer, TraversalState};
+use super::shape::{axis_rotation, cylinder};
 use crate::scenery::{AreaLight, Graphics, LightUnit};
 use crate::{lamps, syntax::usd::UsdPrim};
 
@@ -18,13 +18,13 @@ const PARALLEL_DEG: f64 = 0.01;
 const MAX_SUN_DEG: f64 = 20.0;
 
 impl<'a> Importer<'a> {
-    pub(super) fn light(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+    pub(super) fn light(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
         let message = |what: String| format!("{}: {what}", prim.path);
         let usual = if prim.kind == "DistantLight" { 50_000.0 } else { 1.0 };
         let kinds =
             ["DistantLight", "SphereLight", "DiskLight", "RectLight", "CylinderLight", "DomeLight", "DomeLight_1"];
         if !kinds.contains(&prim.kind.as_str()) {
-            super::access::leave(prim);
+            super::access::mark_used(prim);
             self.scenery.report.note(format!("a \"{}\" is not supported and left out", prim.kind));
             return Ok(());
         }
@@ -63,13 +63,13 @@ impl<'a> Importer<'a> {
     }
 
     /// Lengths of a light's axes in the stage's unit.
-    fn scales(&self, state: &State<'a>) -> [f64; 3] {
+    fn scales(&self, state: &TraversalState<'a>) -> [f64; 3] {
         let m = state.to_world.matrix3;
         [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length() / self.stage.metres_per_unit)
     }
 
     /// Adds an emissive surface with a black BSDF.
-    fn area(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) -> Result<(), String> {
+    fn area(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, unit: LightUnit) -> Result<(), String> {
         self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));
         if super::access::asset(prim, "inputs:texture:file").is_some() {
             self.scenery.report.note("the texture of a RectLight is not used: it is a uniform white of 1");
@@ -96,17 +96,17 @@ impl<'a> Importer<'a> {
             _ => {
                 let radius = number(prim, "inputs:radius", 0.5).abs();
                 let tube = cylinder([radius; 2], number(prim, "inputs:length", 1.0).abs(), false);
-                let along = DAffine3::from_mat3(about("X"));
+                let along = DAffine3::from_mat3(axis_rotation("X"));
                 self.add(tube, &Graphics { to_world: state.to_world * along, ..graphics })?;
             }
         }
-        self.reaches(state.to_world.translation);
+        self.extend_bounds(state.to_world.translation);
         self.scenery.check_size()
     }
 
     /// Intensity of a sphere of this luminance from afar, cd: L π r². With "normalize", which divides by its surface 4 π r², a quarter of L unit², whatever its
     /// radius.
-    fn candela(&self, prim: &UsdPrim, state: &State<'a>, luminance: f64) -> f64 {
+    fn candela(&self, prim: &UsdPrim, state: &TraversalState<'a>, luminance: f64) -> f64 {
         if flag(prim, "inputs:normalize", false) {
             let _ = number(prim, "inputs:radius", 0.5);
             return 0.25 * luminance * self.stage.metres_per_unit * self.stage.metres_per_unit;
@@ -116,7 +116,7 @@ impl<'a> Importer<'a> {
         luminance * PI * (radius * scale) * (radius * scale)
     }
 
-    fn point(&mut self, prim: &'a UsdPrim, state: &State<'a>, candela: f64, colour: LightColour) {
+    fn point(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, candela: f64, colour: LightColour) {
         if candela <= 0.0 {
             self.note_dark_point();
             return;
@@ -127,7 +127,7 @@ impl<'a> Importer<'a> {
         self.scenery.scene.lights.push(lamps::point(&name, position, candela, colour));
     }
 
-    fn spot(&mut self, prim: &'a UsdPrim, state: &State<'a>, cone: [f64; 2], candela: f64, colour: LightColour) {
+    fn spot(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, cone: [f64; 2], candela: f64, colour: LightColour) {
         if candela <= 0.0 {
             self.note_dark_point();
             return;
@@ -149,7 +149,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Disc at infinity: its illuminance is its luminance times its projected solid angle.
-    fn distant(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit, is_divided: bool) {
+    fn distant(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, unit: LightUnit, is_divided: bool) {
         let angle_deg = number(prim, "inputs:angle", 0.53).clamp(0.0, 360.0);
         let half = maths::sin(0.5 * angle_deg.min(180.0).to_radians());
         let lux = if is_divided || half == 0.0 { unit.luminance } else { unit.luminance * PI * half * half };

@@ -19,7 +19,7 @@ impl<'a> Importer<'a> {
         let exposure = number(prim, "inputs:exposure", 0.0).clamp(-100.0, 100.0);
         let strength = number(prim, "inputs:intensity", usual) * maths::pow(2.0, exposure);
         let rgb = tuple::<3>(prim, "inputs:color").unwrap_or([1.0; 3]).map(|v| v.max(0.0));
-        let share: f64 = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+        let colour_luminance: f64 = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
         let kelvin = number(prim, "inputs:colorTemperature", 6500.0);
         let has_temperature = flag(prim, "inputs:enableColorTemperature", false);
         let connected = ["inputs:intensity", "inputs:color", "inputs:exposure"];
@@ -32,8 +32,8 @@ impl<'a> Importer<'a> {
             }
         }
         let unit = match (has_temperature, grey(rgb)) {
-            (false, Some(_)) => LightUnit { colour: illuminant_of("D65"), luminance: strength * share },
-            (false, None) => LightUnit { colour: LightColour::Rgb(rgb.into()), luminance: strength * share },
+            (false, Some(_)) => LightUnit { colour: illuminant_of("D65"), luminance: strength * colour_luminance },
+            (false, None) => LightUnit { colour: LightColour::Rgb(rgb.into()), luminance: strength * colour_luminance },
             (true, even) => {
                 let legal = kelvin.clamp(500.0, 20_000.0);
                 if legal != kelvin {

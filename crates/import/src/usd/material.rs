@@ -9,14 +9,14 @@ use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEm
 use etendue_scene::{asset::COAT_INDICES, record::material::factor::FactorTexture};
 use etendue_spectra::colour::BT709;
 
-use super::texture::{ColourRule, Picture};
-use super::{binding::BoundMaterial, importer::Importer, network::Input};
+use super::texture::{ColourRule, ImageInput};
+use super::{binding::BoundMaterial, importer::Importer, network::NodeInput};
 use crate::scenery::{KnownTexture, grey};
 use crate::syntax::usd::{UsdPrim, UsdValue};
 
 /// Refractive index of a given reflectance at normal incidence.
-fn index_of(share: f64) -> f64 {
-    let root = share.clamp(0.0, 0.36).sqrt();
+fn index_of(reflectance: f64) -> f64 {
+    let root = reflectance.clamp(0.0, 0.36).sqrt();
     (1.0 + root) / (1.0 - root)
 }
 
@@ -36,18 +36,18 @@ impl<'a> Importer<'a> {
         let named = prim.attributes.keys().filter(|name| name.starts_with("outputs:") && name.ends_with("surface"));
         // The output for all renderers comes first.
         let outputs = std::iter::once("outputs:surface").chain(named.map(String::as_str));
-        let found = outputs.filter_map(|name| self.input(prim, name)).find_map(|input| match input {
-            Input::Shader(shader, _) => Some(shader),
-            Input::Value(_) => None,
+        let surface_shader = outputs.filter_map(|name| self.input(prim, name)).find_map(|input| match input {
+            NodeInput::Shader(shader, _) => Some(shader),
+            NodeInput::Value(_) => None,
         });
-        let id = found.and_then(|shader| self.plain_text(shader, "info:id")).unwrap_or_default();
-        let (Some(shader), "UsdPreviewSurface") = (found, id) else {
+        let id = surface_shader.and_then(|shader| self.plain_text(shader, "info:id")).unwrap_or_default();
+        let (Some(shader), "UsdPreviewSurface") = (surface_shader, id) else {
             self.scenery.report.at(prim.path.clone());
-            let told = match id {
+            let message = match id {
                 "" => "a material without a surface becomes a diffuse grey of 0.5".to_owned(),
                 id => format!("the surface \"{id}\" is not supported: a diffuse grey of 0.5 is used instead"),
             };
-            self.scenery.report.note(told);
+            self.scenery.report.note(message);
             return Ok(BoundMaterial::default());
         };
         self.scenery.report.at(shader.path.clone());
@@ -73,7 +73,7 @@ impl<'a> Importer<'a> {
     fn note_left_out(&mut self, shader: &'a UsdPrim) {
         let stands = |importer: &Self, name: &str, usual: f64| match importer.input(shader, name) {
             None => false,
-            Some(Input::Value(UsdValue::Number(v))) => *v != usual,
+            Some(NodeInput::Value(UsdValue::Number(v))) => *v != usual,
             Some(_) => true,
         };
         if stands(self, "inputs:clearcoat", 0.0) {
@@ -110,7 +110,7 @@ impl<'a> Importer<'a> {
             return Ok(coated);
         }
         let colour = self.mean_colour(shader, "inputs:diffuseColor", [0.18; 3])?;
-        let metal = Surface::Conductor(Conductor::new(self.scenery.metal_of_rgb(colour), alpha));
+        let metal = Surface::Conductor(Conductor::new(self.scenery.metal_from_rgb(colour), alpha));
         if matches!(&metallic, Factor::Number(m) if m.value == 1.0) {
             return Ok(metal);
         }
@@ -125,15 +125,15 @@ impl<'a> Importer<'a> {
     /// Surface with a stated reflectance at normal incidence.
     fn specular(&mut self, shader: &'a UsdPrim, base: Reflectance, alpha: Factor) -> Result<Surface, String> {
         let colour = self.mean_colour(shader, "inputs:specularColor", [0.0; 3])?;
-        let share: f64 = colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
-        if share > 0.25 {
+        let mean_reflectance: f64 = colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+        if mean_reflectance > 0.25 {
             self.scenery.report.note("a surface with a specular reflectance above 0.25 becomes a metal of this colour");
-            return Ok(Surface::Conductor(Conductor::new(self.scenery.metal_of_rgb(colour), alpha)));
+            return Ok(Surface::Conductor(Conductor::new(self.scenery.metal_from_rgb(colour), alpha)));
         }
         if grey(colour).is_none() {
             self.scenery.report.note("the specular colour (specularColor) becomes white of the same luminance");
         }
-        Ok(self.coated(base, "specularColor", index_of(share), &alpha))
+        Ok(self.coated(base, "specularColor", index_of(mean_reflectance), &alpha))
     }
 
     /// Base under a coat. An index within its range is used as stated; an index of 1 reflects nothing and leaves the base alone.
@@ -192,13 +192,13 @@ impl<'a> Importer<'a> {
 
     fn emission(&mut self, shader: &'a UsdPrim) -> Result<Option<SurfaceEmission>, String> {
         let name = "inputs:emissiveColor";
-        let picture = match self.input(shader, name) {
-            Some(Input::Shader(node, output)) => self.picture(node, &output, name)?,
-            _ => Picture::Even(self.plain_tuple(shader, name).unwrap_or([0.0; 3])),
+        let image = match self.input(shader, name) {
+            Some(NodeInput::Shader(node, output)) => self.image_input(node, &output, name)?,
+            _ => ImageInput::Even(self.plain_tuple(shader, name).unwrap_or([0.0; 3])),
         };
-        let (rgb, texture) = match picture {
-            Picture::Even(rgb) => (rgb.map(|v| v.max(0.0)), None),
-            Picture::Node(node) => match self.colours(&node, ColourRule::Light)? {
+        let (rgb, texture) = match image {
+            ImageInput::Even(rgb) => (rgb.map(|v| v.max(0.0)), None),
+            ImageInput::Node(node) => match self.colours(&node, ColourRule::Light)? {
                 KnownTexture::Even(rgb) => (rgb, None),
                 KnownTexture::Picture { name, scale, .. } => ([scale; 3], Some(name)),
             },
@@ -219,30 +219,30 @@ impl<'a> Importer<'a> {
     }
 
     fn normal_map(&mut self, shader: &'a UsdPrim) -> Result<Option<NormalMap>, String> {
-        let Some(Input::Shader(node, output)) = self.input(shader, "inputs:normal") else { return Ok(None) };
-        let Picture::Node(node) = self.picture(node, &output, "inputs:normal")? else { return Ok(None) };
+        let Some(NodeInput::Shader(node, output)) = self.input(shader, "inputs:normal") else { return Ok(None) };
+        let ImageInput::Node(node) = self.image_input(node, &output, "inputs:normal")? else { return Ok(None) };
         let is_down = node.scale[1] < 0.0;
         let expected = |i: usize| (node.scale[i].abs() - 2.0).abs() < 1e-6 && (node.bias[i].abs() - 1.0).abs() < 1e-6;
         if !(0..3).all(expected) {
             self.scenery.report.note("a normal map is read as 2 v − 1; its scale and bias are not used");
         }
         let y = is_down.then(|| Green::Down.into());
-        let name = self.data_picture(&node)?;
+        let name = self.data_image(&node)?;
         Ok(name.map(|name| NormalMap { y, ..NormalMap::new(name.as_str()) }))
     }
 
     /// Reflectance over wavelength.
     fn reflectance(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<Reflectance, String> {
-        let picture = match self.input(shader, name) {
-            Some(Input::Shader(node, output)) => self.picture(node, &output, name)?,
-            _ => Picture::Even(self.plain_tuple(shader, name).unwrap_or(usual)),
+        let image = match self.input(shader, name) {
+            Some(NodeInput::Shader(node, output)) => self.image_input(node, &output, name)?,
+            _ => ImageInput::Even(self.plain_tuple(shader, name).unwrap_or(usual)),
         };
-        let known = match picture {
-            Picture::Even(rgb) => KnownTexture::Even(rgb),
-            Picture::Node(node) => self.colours(&node, ColourRule::Share)?,
+        let known = match image {
+            ImageInput::Even(rgb) => KnownTexture::Even(rgb),
+            ImageInput::Node(node) => self.colours(&node, ColourRule::Share)?,
         };
         Ok(match known {
-            KnownTexture::Even(rgb) => Reflectance::Plain(self.scenery.share_of_rgb(name, rgb)),
+            KnownTexture::Even(rgb) => Reflectance::Plain(self.scenery.reflectance_from_rgb(name, rgb)),
             KnownTexture::Picture { name, scale, .. } => {
                 Reflectance::Texture { name: name.as_str().into(), scale: (scale != 1.0).then(|| scale.into()) }
             }
@@ -252,16 +252,16 @@ impl<'a> Importer<'a> {
     /// Mean of a colour where only one value is supported.
     fn mean_colour(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<[f64; 3], String> {
         let rgb = match self.input(shader, name) {
-            Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
-                Picture::Even(rgb) => rgb,
-                Picture::Node(node) => {
+            Some(NodeInput::Shader(node, output)) => match self.image_input(node, &output, name)? {
+                ImageInput::Even(rgb) => rgb,
+                ImageInput::Node(node) => {
                     self.scenery.report.note("the colour image of a metal is replaced by its mean");
                     self.mean(&node)?
                 }
             },
             _ => self.plain_tuple(shader, name).unwrap_or(usual),
         };
-        Ok(rgb.map(|v| self.scenery.cut(name, v)))
+        Ok(rgb.map(|v| self.scenery.limit_to_unit(name, v)))
     }
 
     /// Number, 0 … 1, after a rule.
@@ -273,9 +273,9 @@ impl<'a> Importer<'a> {
         rule: &dyn Fn(f64) -> f64,
     ) -> Result<Factor, String> {
         let even = match self.input(shader, name) {
-            Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
-                Picture::Even([v, ..]) => v,
-                Picture::Node(node) => match self.numbers(&node, rule)? {
+            Some(NodeInput::Shader(node, output)) => match self.image_input(node, &output, name)? {
+                ImageInput::Even([v, ..]) => v,
+                ImageInput::Node(node) => match self.numbers(&node, rule)? {
                     KnownTexture::Even([v, ..]) => return Ok(Factor::Number(v.into())),
                     KnownTexture::Picture { name, .. } => {
                         let channel = Some(Channel::Red.into());
@@ -285,8 +285,8 @@ impl<'a> Importer<'a> {
             },
             _ => self.plain_number(shader, name).unwrap_or(usual),
         };
-        let share = self.scenery.cut(name, even);
-        Ok(Factor::Number(rule(share).into()))
+        let limited = self.scenery.limit_to_unit(name, even);
+        Ok(Factor::Number(rule(limited).into()))
     }
 }
 

@@ -77,7 +77,7 @@ impl<'a> PolygonMesh<'a> {
         if normals.is_none() {
             normals = Primvar::read(prim, "normals", "vertex", counts)?;
         }
-        let mut made = Self {
+        let mut polygon_mesh = Self {
             points,
             begins,
             corners,
@@ -89,9 +89,9 @@ impl<'a> PolygonMesh<'a> {
             is_left_handed: text(prim, "orientation") == "leftHanded",
         };
         if scheme == Scheme::Smooth {
-            made.smooth = made.smoothed();
+            polygon_mesh.smooth = polygon_mesh.smoothed();
         }
-        Ok(made)
+        Ok(polygon_mesh)
     }
 
     /// Mean normal of each point's faces, in the mesh's own space.
@@ -127,7 +127,7 @@ impl<'a> PolygonMesh<'a> {
         faces: impl Iterator<Item = usize>,
         uvs: Option<&Primvar<'a, 2>>,
     ) -> (Triangles, usize) {
-        let mut made = Triangles::default();
+        let mut mesh = Triangles::default();
         let mut known: HashMap<[usize; 3], u32> = HashMap::new();
         let mut refused = 0;
         for face in faces.filter(|face| *face < self.faces() && !self.holes.contains(face)) {
@@ -141,11 +141,11 @@ impl<'a> PolygonMesh<'a> {
                 continue;
             };
             for triangle in cut {
-                let vertex = triangle.map(|i| self.vertex([face, own.start + i], uvs, &mut made, &mut known));
-                made.triangles.push(vertex);
+                let vertex = triangle.map(|i| self.vertex([face, own.start + i], uvs, &mut mesh, &mut known));
+                mesh.triangles.push(vertex);
             }
         }
-        (made, refused)
+        (mesh, refused)
     }
 
     /// Index of a corner's vertex, shared by all equal corners.
@@ -153,7 +153,7 @@ impl<'a> PolygonMesh<'a> {
         &self,
         [face, corner]: [usize; 2],
         uvs: Option<&Primvar<'a, 2>>,
-        made: &mut Triangles,
+        mesh: &mut Triangles,
         known: &mut HashMap<[usize; 3], u32>,
     ) -> u32 {
         let point = self.corners[corner];
@@ -161,11 +161,11 @@ impl<'a> PolygonMesh<'a> {
         let normal = self.normals.as_ref().map(|normals| normals.index(place));
         let uv = uvs.map(|uvs| uvs.index(place));
         *known.entry([point, normal.unwrap_or_default(), uv.unwrap_or_default()]).or_insert_with(|| {
-            made.positions.push(self.points[point]);
-            made.normals.extend(self.normals.iter().zip(normal).map(|(normals, index)| normals.value(index)));
-            made.normals.extend(self.smooth.get(point));
-            made.uvs.extend(uvs.iter().zip(uv).map(|(uvs, index)| uvs.value(index)));
-            made.positions.len() as u32 - 1
+            mesh.positions.push(self.points[point]);
+            mesh.normals.extend(self.normals.iter().zip(normal).map(|(normals, index)| normals.value(index)));
+            mesh.normals.extend(self.smooth.get(point));
+            mesh.uvs.extend(uvs.iter().zip(uv).map(|(uvs, index)| uvs.value(index)));
+            mesh.positions.len() as u32 - 1
         })
     }
 }
@@ -223,9 +223,9 @@ impl<'a, const N: usize> Primvar<'a, N> {
             true => Some(indices(prim, &by).ok_or_else(|| format!("\"{by}\" has a value below 0"))?),
             false => None,
         };
-        let found = indices.as_ref().map_or(values.len(), Vec::len);
-        if found < count {
-            return Err(format!("\"{name}\" has {found} values; the mesh needs {count}"));
+        let available = indices.as_ref().map_or(values.len(), Vec::len);
+        if available < count {
+            return Err(format!("\"{name}\" has {available} values; the mesh needs {count}"));
         }
         if indices.iter().flatten().take(count).any(|index| *index >= values.len()) {
             return Err(format!("\"{by}\" has an index beyond the {} values", values.len()));

@@ -27,12 +27,12 @@ use std::path::Path;
 use etendue_io::Sandbox;
 use etendue_io::failure::{Error, ErrorCode};
 
-use super::written::Written;
+use super::written::ImportFiles;
 use crate::syntax::usd::read_usd;
 use importer::Importer;
 
-pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {
     let stage = read_usd(file, &Sandbox::NONE).map_err(Error::input)?;
-    let made = Importer::new(file, folder, &stage).finish(file);
-    made.map_err(|told| Error::coded(ErrorCode::MalformedFile, format!("{}: {told}", file.display())))
+    let result = Importer::new(file, folder, &stage).finish(file);
+    result.map_err(|problem| Error::coded(ErrorCode::MalformedFile, format!("{}: {problem}", file.display())))
 }

@@ -4,13 +4,13 @@ use std::{collections::BTreeMap, rc::Rc};
 
 use super::access::{flag, indices, text};
 use super::binding::is_bound;
-use super::importer::{Importer, State};
+use super::importer::{Importer, TraversalState};
 use super::mesh::{PolygonMesh, Primvar, Scheme};
 use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::usd::UsdPrim;
 
 /// Faces of a mesh.
-struct Parts<'a> {
+struct FaceGroups<'a> {
     /// Faces of subsets, by the paths of their materials.
     by_material: BTreeMap<&'a str, Vec<usize>>,
     /// Faces of no subset, which have the mesh's own material.
@@ -20,7 +20,7 @@ struct Parts<'a> {
 /// Prim that is a mesh.
 struct MeshPrim<'p, 'a> {
     prim: &'a UsdPrim,
-    state: &'p State<'a>,
+    state: &'p TraversalState<'a>,
     mesh: PolygonMesh<'a>,
     /// Texture coordinates requested by materials, by name.
     uvs: BTreeMap<String, Option<Primvar<'a, 2>>>,
@@ -38,22 +38,22 @@ impl<'a> MeshPrim<'_, 'a> {
 }
 
 impl<'a> Importer<'a> {
-    pub(super) fn polygons(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+    pub(super) fn polygons(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
         let mesh = PolygonMesh::read(prim)?;
-        let Parts { by_material, rest } = self.parts(prim, state, mesh.faces())?;
+        let FaceGroups { by_material, rest } = self.parts(prim, state, mesh.faces())?;
         self.scenery.report.at(prim.path.clone());
         self.note_scheme(mesh.scheme);
-        let light = self.light_of_shape(prim).map(|light| self.spread(light, &mesh, prim, state));
-        let mut of = MeshPrim { prim, state, mesh, uvs: BTreeMap::new(), light };
+        let light = self.light_of_shape(prim).map(|light| self.normalised_light(light, &mesh, prim, state));
+        let mut mesh_prim = MeshPrim { prim, state, mesh, uvs: BTreeMap::new(), light };
         if !rest.is_empty() || by_material.is_empty() {
-            self.part(&mut of, state.bindings.material(), rest)?;
+            self.part(&mut mesh_prim, state.bindings.material(), rest)?;
         }
-        by_material.into_iter().try_for_each(|(path, faces)| self.part(&mut of, Some(path), faces))
+        by_material.into_iter().try_for_each(|(path, faces)| self.part(&mut mesh_prim, Some(path), faces))
     }
 
-    fn parts(&mut self, prim: &'a UsdPrim, state: &State<'a>, faces: usize) -> Result<Parts<'a>, String> {
+    fn parts(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, faces: usize) -> Result<FaceGroups<'a>, String> {
         let mut by_material: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-        let mut taken = vec![false; faces];
+        let mut assigned = vec![false; faces];
         for subset in prim.children.iter().filter(|child| child.kind == "GeomSubset") {
             let bindings = self.bindings(subset, &state.bindings);
             let Some(path) = bindings.material().filter(|_| is_bound(subset)) else { continue };
@@ -64,15 +64,15 @@ impl<'a> Importer<'a> {
             for face in
                 indices(subset, "indices").ok_or_else(|| format!("{}: \"indices\" has a value below 0", subset.path))?
             {
-                if taken.get(face) == Some(&false) {
-                    taken[face] = true;
+                if assigned.get(face) == Some(&false) {
+                    assigned[face] = true;
                     by_material.entry(path).or_default().push(face);
                 }
             }
             self.note_unused(subset);
         }
-        let rest = (0..taken.len()).filter(|face| !taken[*face]).collect();
-        Ok(Parts { by_material, rest })
+        let rest = (0..assigned.len()).filter(|face| !assigned[*face]).collect();
+        Ok(FaceGroups { by_material, rest })
     }
 
     fn note_scheme(&mut self, scheme: Scheme) {
@@ -86,10 +86,10 @@ impl<'a> Importer<'a> {
     }
 
     /// Adds the faces of a mesh with one material.
-    fn part(&mut self, of: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
-        let (graphics, material) = self.graphics(of.prim, of.state, material)?;
-        let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
-        if material.has_pictures() && triangles.uvs.is_empty() {
+    fn part(&mut self, mesh_prim: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
+        let (graphics, material) = self.graphics(mesh_prim.prim, mesh_prim.state, material)?;
+        let (mut triangles, refused) = mesh_prim.triangles(faces, material.primvar())?;
+        if material.has_images() && triangles.uvs.is_empty() {
             let name = material.primvar();
             let message = format!(
                 "a mesh lacks the texture coordinates \"{name}\": its textures have the value of their corner everywhere"
@@ -104,13 +104,13 @@ impl<'a> Importer<'a> {
             self.scenery.report.note(format!("{refused} self-intersecting polygons are left out"));
         }
         // Normals define the front; those of a control mesh follow its winding.
-        let has_own = !triangles.normals.is_empty() && of.mesh.scheme == Scheme::None;
-        let reverse_orientation = of.mesh.is_left_handed && !has_own;
-        self.add(triangles, &Graphics { reverse_orientation, area_light: of.light.clone(), ..graphics })
+        let has_own = !triangles.normals.is_empty() && mesh_prim.mesh.scheme == Scheme::None;
+        let reverse_orientation = mesh_prim.mesh.is_left_handed && !has_own;
+        self.add(triangles, &Graphics { reverse_orientation, area_light: mesh_prim.light.clone(), ..graphics })
     }
 
     /// Light of a mesh; with "normalize" divided by the area of all its faces in the world of the stage.
-    fn spread(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &State<'a>) -> Rc<AreaLight> {
+    fn normalised_light(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &TraversalState<'a>) -> Rc<AreaLight> {
         if !flag(prim, "inputs:normalize", false) {
             return light;
         }

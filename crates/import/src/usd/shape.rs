@@ -9,14 +9,14 @@ use etendue_scene::record::material::{Diffuse, Factor, Material, Surface};
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::access::{indices, number, numbers, text, tuples};
-use super::importer::{Importer, State};
+use super::importer::{Importer, TraversalState};
 use super::{binding::BoundMaterial, mesh::Primvar, transform::rotation};
 use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::usd::UsdPrim;
 
 impl<'a> Importer<'a> {
     /// Converts the shape of a prim.
-    pub(super) fn shape(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+    pub(super) fn shape(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
         let message = |what: String| format!("{}: {what}", prim.path);
         let axis = text(prim, "axis");
         // Cylinders, cones and capsules are along z by default.
@@ -32,23 +32,23 @@ impl<'a> Importer<'a> {
             }
             "Cylinder" => {
                 let mesh = cylinder([radius("radius", 1.0); 2], radius("height", 2.0), true);
-                (mesh, turn(about(axis)))
+                (mesh, turn(axis_rotation(axis)))
             }
             "Cylinder_1" => {
                 let radii = [radius("radiusBottom", 1.0), radius("radiusTop", 1.0)];
-                (cylinder(radii, radius("height", 2.0), true), turn(about(axis)))
+                (cylinder(radii, radius("height", 2.0), true), turn(axis_rotation(axis)))
             }
             "Cone" => {
                 let mesh = cylinder([radius("radius", 1.0), 0.0], radius("height", 2.0), true);
-                (mesh, turn(about(axis)))
+                (mesh, turn(axis_rotation(axis)))
             }
-            "Capsule" => (capsule([radius("radius", 0.5); 2], radius("height", 1.0)), turn(about(axis))),
+            "Capsule" => (capsule([radius("radius", 0.5); 2], radius("height", 1.0)), turn(axis_rotation(axis))),
             "Capsule_1" => {
                 let radii = [radius("radiusBottom", 0.5), radius("radiusTop", 0.5)];
-                (capsule(radii, radius("height", 1.0)), turn(about(axis)))
+                (capsule(radii, radius("height", 1.0)), turn(axis_rotation(axis)))
             }
             kind => {
-                super::access::leave(prim);
+                super::access::mark_used(prim);
                 self.scenery.report.note(format!("a \"{kind}\" is not supported and left out"));
                 return Ok(());
             }
@@ -69,7 +69,7 @@ impl<'a> Importer<'a> {
     pub(super) fn graphics(
         &mut self,
         prim: &'a UsdPrim,
-        state: &State<'a>,
+        state: &TraversalState<'a>,
         material: Option<&str>,
     ) -> Result<(Graphics, BoundMaterial), String> {
         let mut graphics = Graphics { to_world: state.to_world, name: Self::name(prim), ..Graphics::plain() };
@@ -92,8 +92,8 @@ impl<'a> Importer<'a> {
     /// Colour of a prim without a material.
     fn display(&mut self, prim: &'a UsdPrim, graphics: &mut Graphics) {
         // Only its mean is used: the interpolation does not matter.
-        let whole = super::mesh::Counts { faces: 1, points: 1, corners: 1 };
-        if let Ok(Some(colour)) = Primvar::<3>::read(prim, "primvars:displayColor", "constant", whole) {
+        let single = super::mesh::Counts { faces: 1, points: 1, corners: 1 };
+        if let Ok(Some(colour)) = Primvar::<3>::read(prim, "primvars:displayColor", "constant", single) {
             if !colour.is_even() {
                 self.scenery.report.note("a varying displayColor is replaced by its mean");
             }
@@ -102,8 +102,8 @@ impl<'a> Importer<'a> {
         }
         let opacity = super::access::numbers(prim, "primvars:displayOpacity");
         if let Some(first) = opacity.first().filter(|opacity| **opacity < 1.0) {
-            let share = self.scenery.cut("primvars:displayOpacity", *first);
-            graphics.opacity = Some(Factor::Number(share.into()));
+            let limited = self.scenery.limit_to_unit("primvars:displayOpacity", *first);
+            graphics.opacity = Some(Factor::Number(limited.into()));
         }
     }
 
@@ -113,7 +113,7 @@ impl<'a> Importer<'a> {
         if let Some(known) = self.scenery.known.materials.get(&key) {
             return known.clone();
         }
-        let colour = self.scenery.share_of_rgb("primvars:displayColor", rgb);
+        let colour = self.scenery.reflectance_from_rgb("primvars:displayColor", rgb);
         let name: Rc<str> = self.scenery.names.take("display", "display").into();
         let surface = Surface::Diffuse(Diffuse::new(Reflectance::Plain(colour)));
         self.scenery.scene.materials.push(Material::new(&*name, surface));
@@ -121,7 +121,7 @@ impl<'a> Importer<'a> {
         name
     }
 
-    fn sphere(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+    fn sphere(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
         let radius = number(prim, "radius", 1.0);
         if radius <= 0.0 {
             return Err(format!("\"radius\" is {radius}; expected a number above 0"));
@@ -139,7 +139,7 @@ impl<'a> Importer<'a> {
     pub(super) fn round(&mut self, radius: f64, graphics: &Graphics) {
         self.shines |= graphics.area_light.is_some();
         for corner in [DVec3::splat(radius), DVec3::splat(-radius)] {
-            self.reaches(graphics.to_world.transform_point3(corner));
+            self.extend_bounds(graphics.to_world.transform_point3(corner));
         }
         self.scenery.whole_sphere(radius, graphics);
     }
@@ -148,7 +148,7 @@ impl<'a> Importer<'a> {
     pub(super) fn add(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         self.shines |= graphics.area_light.is_some();
         for position in &mesh.positions {
-            self.reaches(graphics.to_world.transform_point3(DVec3::from_array(*position)));
+            self.extend_bounds(graphics.to_world.transform_point3(DVec3::from_array(*position)));
         }
         self.scenery.mesh(mesh, graphics)
     }
@@ -159,17 +159,17 @@ const MAX_DEPTH: usize = 8;
 
 impl<'a> Importer<'a> {
     /// Converts an instancer. Each instance applies its scale, its orientation, its position, and the instancer's own transform.
-    pub(super) fn instancer(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
-        let told = |what: String| Err(format!("{}: {what}", prim.path));
+    pub(super) fn instancer(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>) -> Result<(), String> {
+        let failed = |what: String| Err(format!("{}: {what}", prim.path));
         if state.depth >= MAX_DEPTH {
-            return told(format!("instancers are nested more than {MAX_DEPTH} levels deep, or form a cycle"));
+            return failed(format!("instancers are nested more than {MAX_DEPTH} levels deep, or form a cycle"));
         }
         if !state.is_drawn() {
-            self.leave_undrawn(prim);
+            self.note_undrawn(prim);
             return Ok(());
         }
         let Some(which) = indices(prim, "protoIndices") else {
-            return told("\"protoIndices\" has a value below 0".to_owned());
+            return failed("\"protoIndices\" has a value below 0".to_owned());
         };
         let positions = tuples::<3>(prim, "positions");
         let scales = tuples::<3>(prim, "scales");
@@ -180,7 +180,7 @@ impl<'a> Importer<'a> {
         let hidden = numbers(prim, "invisibleIds").iter().copied().chain(inactive);
         let hidden: HashSet<u64> = hidden.map(f64::to_bits).collect();
         if positions.len() < which.len() {
-            return told(format!("{} positions for {} instances; expected one each", positions.len(), which.len()));
+            return failed(format!("{} positions for {} instances; expected one each", positions.len(), which.len()));
         }
         let targets = prim.relation("prototypes").map_or(&[][..], |relation| &relation.targets);
         for (number, prototype) in which.iter().enumerate() {
@@ -189,9 +189,9 @@ impl<'a> Importer<'a> {
                 continue;
             }
             let Some(path) = targets.get(*prototype) else {
-                return told(format!("an instance refers to prototype {prototype}, and there are {}", targets.len()));
+                return failed(format!("an instance refers to prototype {prototype}, and there are {}", targets.len()));
             };
-            let Some(found) = self.paths.prim(path) else {
+            let Some(prototype_prim) = self.paths.prim(path) else {
                 self.scenery.report.note(format!("the prototype <{path}> does not exist, or is a class or an over"));
                 continue;
             };
@@ -203,11 +203,11 @@ impl<'a> Importer<'a> {
                 translation: DVec3::from_array(positions[number]),
             };
             if !own.is_finite() {
-                return told(format!("the transform of instance {number} is not finite"));
+                return failed(format!("the transform of instance {number} is not finite"));
             }
             let mut inner = state.clone();
             (inner.to_world, inner.depth) = (state.to_world * own, state.depth + 1);
-            self.prim(found, &inner)?;
+            self.prim(prototype_prim, &inner)?;
         }
         self.scenery.report.at(prim.path.clone());
         self.scenery.report.note("instances become copies, one mesh each");
@@ -222,7 +222,7 @@ pub(super) const SIDES: u32 = 128;
 const RINGS: u32 = 32;
 
 /// Rotation from a shape about z to one about another axis, as in UsdGeom: x, y, z are permuted cyclically.
-pub(super) fn about(axis: &str) -> DMat3 {
+pub(super) fn axis_rotation(axis: &str) -> DMat3 {
     match axis {
         "X" => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
         "Y" => DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y),
@@ -241,21 +241,21 @@ fn plane_about(axis: &str) -> DMat3 {
 
 /// Cube about the origin.
 pub(super) fn cube(size: f64) -> Triangles {
-    let mut made = Triangles::default();
+    let mut mesh = Triangles::default();
     for axis in ["X", "Y", "Z"] {
         for side in [1.0, -1.0] {
-            let turn = about(axis);
-            let first = made.positions.len() as u32;
+            let turn = axis_rotation(axis);
+            let first = mesh.positions.len() as u32;
             for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
                 let place = DVec3::new(side * (2.0 * u - 1.0), 2.0 * v - 1.0, side);
-                made.positions.push((0.5 * size * (turn * place)).to_array());
-                made.normals.push((side * (turn * DVec3::Z)).to_array());
-                made.uvs.push([u, v]);
+                mesh.positions.push((0.5 * size * (turn * place)).to_array());
+                mesh.normals.push((side * (turn * DVec3::Z)).to_array());
+                mesh.uvs.push([u, v]);
             }
-            made.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+            mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
         }
     }
-    made
+    mesh
 }
 
 /// Rectangle with the normal z.
@@ -270,27 +270,27 @@ fn plane([width, length]: [f64; 2]) -> Triangles {
 }
 
 /// Surface of revolution about z: rings with radius, height, and the normal's radial and axial components, from bottom to top.
-fn turned(rings: &[[f64; 4]]) -> Triangles {
-    let mut made = Triangles::default();
+fn revolved(rings: &[[f64; 4]]) -> Triangles {
+    let mut mesh = Triangles::default();
     let rows = rings.len() as u32;
     for i in 0..=SIDES {
-        let share = f64::from(i) / f64::from(SIDES);
-        let (sin, cos) = maths::sin_cos(share * TAU);
+        let fraction = f64::from(i) / f64::from(SIDES);
+        let (sin, cos) = maths::sin_cos(fraction * TAU);
         for (row, [radius, height, out, up]) in rings.iter().enumerate() {
-            made.positions.push([radius * cos, radius * sin, *height]);
-            made.normals.push([out * cos, out * sin, *up]);
-            made.uvs.push([share, row as f64 / (rings.len() - 1) as f64]);
+            mesh.positions.push([radius * cos, radius * sin, *height]);
+            mesh.normals.push([out * cos, out * sin, *up]);
+            mesh.uvs.push([fraction, row as f64 / (rings.len() - 1) as f64]);
         }
     }
     for side in 0..SIDES {
         for row in (0..rows - 1).filter(|row| rings[*row as usize][..2] != rings[*row as usize + 1][..2]) {
             let (here, next) = (side * rows + row, (side + 1) * rows + row);
             let at_pole = |row: u32| rings[row as usize][0] == 0.0;
-            made.triangles.extend((!at_pole(row)).then_some([here, next, next + 1]));
-            made.triangles.extend((!at_pole(row + 1)).then_some([here, next + 1, here + 1]));
+            mesh.triangles.extend((!at_pole(row)).then_some([here, next, next + 1]));
+            mesh.triangles.extend((!at_pole(row + 1)).then_some([here, next + 1, here + 1]));
         }
     }
-    made
+    mesh
 }
 
 /// Cylinder with its caps; radii at its lower and its upper end.
@@ -299,11 +299,11 @@ pub(super) fn cylinder([lower, upper]: [f64; 2], height: f64, has_caps: bool) ->
     let slope = DVec3::new(height, lower - upper, 0.0).normalize_or(DVec3::X);
     let wall = [[lower, -half, slope.x, slope.y], [upper, half, slope.x, slope.y]];
     if !has_caps {
-        return turned(&wall);
+        return revolved(&wall);
     }
     let floor = [[0.0, -half, 0.0, -1.0], [lower, -half, 0.0, -1.0]];
     let ceiling = [[upper, half, 0.0, 1.0], [0.0, half, 0.0, 1.0]];
-    turned(&[floor, wall, ceiling].concat())
+    revolved(&[floor, wall, ceiling].concat())
 }
 
 /// Cylinder of this height between two hemispheres.
@@ -317,7 +317,7 @@ fn capsule([lower, upper]: [f64; 2], height: f64) -> Triangles {
         [radius, -z, out, -up]
     });
     let above = (0..=RINGS).map(|i| ring(upper, 0.5 * height, i));
-    turned(&below.chain(above).collect::<Vec<_>>())
+    revolved(&below.chain(above).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -341,11 +341,11 @@ mod tests {
         use std::f64::consts::PI;
         assert!((volume(&cube(3.0)) - 27.0).abs() < 1e-9);
         // A polygon of 128 sides has 0.9996 of the circle's area.
-        let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+        let near = |actual: f64, expected: f64| assert!((actual / expected - 1.0).abs() < 2e-3, "{actual} {expected}");
         near(volume(&cylinder([2.0, 2.0], 3.0, true)), 12.0 * PI);
         near(volume(&cylinder([2.0, 0.0], 3.0, true)), 4.0 * PI);
         near(volume(&capsule([1.0, 1.0], 3.0)), 3.0 * PI + 4.0 / 3.0 * PI);
-        assert!((about("X") * DVec3::Z - DVec3::X).length() < 1e-12);
-        assert!((about("Y") * DVec3::Z - DVec3::Y).length() < 1e-12);
+        assert!((axis_rotation("X") * DVec3::Z - DVec3::X).length() < 1e-12);
+        assert!((axis_rotation("Y") * DVec3::Z - DVec3::Y).length() < 1e-12);
     }
 }

@@ -9,13 +9,13 @@ use std::io::{BufReader, Cursor};
 use std::{fs::File, path::Path, rc::Rc};
 
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
-use etendue_io::picture::{decode_picture, has_colours_of_8_bits, read_picture};
+use etendue_io::exr::{ExrLayer, encode_layers};
+use etendue_io::picture::{decode_image, has_colours_of_8_bits, read_image};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::{asset::ImageAsset, record::Texture};
 use etendue_spectra::colour;
 
-use super::{importer::Importer, network::Input};
+use super::{importer::Importer, network::NodeInput};
 use crate::scenery::{KnownTexture, stored_pixels};
 use crate::syntax::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
 
@@ -24,11 +24,11 @@ const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 const MAX_STEPS: usize = 8;
 
 /// Source of a connected input.
-pub(super) enum Picture<'a> {
+pub(super) enum ImageInput<'a> {
     /// Constant.
     Even([f64; 3]),
     /// An image.
-    Node(PictureNode<'a>),
+    Node(ImageNode<'a>),
 }
 
 /// Use of the colours of an image.
@@ -41,7 +41,7 @@ pub(super) enum ColourRule {
 }
 
 impl ColourRule {
-    fn of(self, v: f64) -> f64 {
+    fn apply(self, v: f64) -> f64 {
         match self {
             Self::Share => v.clamp(0.0, 1.0),
             Self::Light => v.max(0.0),
@@ -50,7 +50,7 @@ impl ColourRule {
 }
 
 /// Image and its sampling.
-pub(super) struct PictureNode<'a> {
+pub(super) struct ImageNode<'a> {
     asset: &'a UsdAsset,
     pub(super) scale: [f64; 4],
     pub(super) bias: [f64; 4],
@@ -62,7 +62,7 @@ pub(super) struct PictureNode<'a> {
     uv_transform: [[f64; 2]; 2],
 }
 
-impl PictureNode<'_> {
+impl ImageNode<'_> {
     fn is_plain(&self) -> bool {
         self.bias == [0.0; 4] && self.channel.is_none()
     }
@@ -82,47 +82,47 @@ impl PictureNode<'_> {
 impl<'a> Importer<'a> {
     /// Primvar of the texture coordinates of a surface's images, "st" if none is named; empty without images.
     pub(super) fn primvar_of(&mut self, shader: &'a UsdPrim) -> Rc<str> {
-        let (mut found, mut has_pictures) = (Vec::<&'a str>::new(), false);
+        let (mut primvars, mut has_pictures) = (Vec::<&'a str>::new(), false);
         for name in shader.attributes.keys().filter(|name| name.starts_with("inputs:")) {
-            let Some(Input::Shader(mut node, _)) = self.input(shader, name) else { continue };
+            let Some(NodeInput::Shader(mut node, _)) = self.input(shader, name) else { continue };
             has_pictures = true;
             for _ in 0..MAX_STEPS {
                 match self.plain_text(node, "info:id").unwrap_or_default() {
                     "UsdPrimvarReader_float2" => {
-                        found.extend(self.plain_text(node, "inputs:varname").filter(|name| !found.contains(name)));
+                        primvars.extend(self.plain_text(node, "inputs:varname").filter(|name| !primvars.contains(name)));
                         break;
                     }
                     id => {
                         let next = if id == "UsdTransform2d" { "inputs:in" } else { "inputs:st" };
-                        let Some(Input::Shader(inner, _)) = self.input(node, next) else { break };
+                        let Some(NodeInput::Shader(inner, _)) = self.input(node, next) else { break };
                         node = inner;
                     }
                 }
             }
         }
-        if found.len() > 1 {
+        if primvars.len() > 1 {
             self.scenery
                 .report
-                .note(format!("of several texture coordinates of a surface only \"{}\" are used", found[0]));
+                .note(format!("of several texture coordinates of a surface only \"{}\" are used", primvars[0]));
         }
         let usual = if has_pictures { "st" } else { "" };
-        found.first().copied().unwrap_or(usual).into()
+        primvars.first().copied().unwrap_or(usual).into()
     }
 
     /// Output of a node.
-    pub(super) fn picture(&mut self, node: &'a UsdPrim, output: &str, of: &str) -> Result<Picture<'a>, String> {
-        let of = of.trim_start_matches("inputs:");
+    pub(super) fn image_input(&mut self, node: &'a UsdPrim, output: &str, input_name: &str) -> Result<ImageInput<'a>, String> {
+        let input_name = input_name.trim_start_matches("inputs:");
         let id = self.plain_text(node, "info:id").unwrap_or_default();
         if id != "UsdUVTexture" {
-            self.scenery.report.note(format!("\"{of}\" of a node \"{id}\" is not supported: 0.5 is used instead"));
-            return Ok(Picture::Even([0.5; 3]));
+            self.scenery.report.note(format!("\"{input_name}\" of a node \"{id}\" is not supported: 0.5 is used instead"));
+            return Ok(ImageInput::Even([0.5; 3]));
         }
         let channel = ["r", "g", "b", "a"].iter().position(|name| *name == output);
         let four = |name: &str, usual: f64| self.plain_tuple::<4>(node, name).unwrap_or([usual; 4]);
         let (scale, bias) = (four("inputs:scale", 1.0), four("inputs:bias", 0.0));
         let fallback = self.plain_tuple::<4>(node, "inputs:fallback").unwrap_or([0.0, 0.0, 0.0, 1.0]);
         let asset = match self.input(node, "inputs:file") {
-            Some(Input::Value(UsdValue::Asset(asset))) if !asset.stated.is_empty() => Some(asset),
+            Some(NodeInput::Value(UsdValue::Asset(asset))) if !asset.stated.is_empty() => Some(asset),
             _ => None,
         };
         let ending = asset.map(|asset| asset.stated.rsplit('.').next().unwrap_or_default().to_ascii_lowercase());
@@ -131,7 +131,7 @@ impl<'a> Importer<'a> {
             let shown = asset.map_or("", |asset| asset.stated.as_str());
             let why = if is_read { "does not exist" } else { "has an unsupported format; convert it to PNG or EXR" };
             self.scenery.report.note(format!("the image `{shown}` {why}: its fallback is used instead"));
-            return Ok(Picture::Even(match channel {
+            return Ok(ImageInput::Even(match channel {
                 Some(channel) => [fallback[channel]; 3],
                 None => [fallback[0], fallback[1], fallback[2]],
             }));
@@ -145,13 +145,13 @@ impl<'a> Importer<'a> {
         let ((wrap, is_black_outside), uv_transform) = (self.wrap(node), self.uv_transform(node));
         self.black_outside.extend(is_black_outside.then_some(uv_transform));
         self.note_unused(node);
-        Ok(Picture::Node(PictureNode { asset, scale, bias, channel, is_encoded, wrap, uv_transform }))
+        Ok(ImageInput::Node(ImageNode { asset, scale, bias, channel, is_encoded, wrap, uv_transform }))
     }
 
     /// Transform of u, v by a UsdTransform2d.
     fn uv_transform(&mut self, node: &'a UsdPrim) -> [[f64; 2]; 2] {
         let none = [[1.0; 2], [0.0; 2]];
-        let Some(Input::Shader(inner, _)) = self.input(node, "inputs:st") else { return none };
+        let Some(NodeInput::Shader(inner, _)) = self.input(node, "inputs:st") else { return none };
         if self.plain_text(inner, "info:id") != Some("UsdTransform2d") {
             return none;
         }
@@ -166,12 +166,12 @@ impl<'a> Importer<'a> {
     }
 
     /// Colours: the image itself if it needs no change, else a new one of linear numbers.
-    pub(super) fn colours(&mut self, node: &PictureNode<'a>, rule: ColourRule) -> Result<KnownTexture, String> {
+    pub(super) fn colours(&mut self, node: &ImageNode<'a>, rule: ColourRule) -> Result<KnownTexture, String> {
         let factor = node.scale[0];
         let is_even = node.scale[..3] == [factor; 3] && factor > 0.0 && factor <= 1.0;
         let is_as_it_is = node.is_plain() && is_even;
-        let made = if is_as_it_is { "as it is".to_owned() } else { format!("{rule:?}") };
-        let key = format!("colours {made} {}", node.key());
+        let rule_name = if is_as_it_is { "as it is".to_owned() } else { format!("{rule:?}") };
+        let key = format!("colours {rule_name} {}", node.key());
         if let Some(known) = self.textures.get(&key) {
             return Ok(known.clone());
         }
@@ -182,7 +182,7 @@ impl<'a> Importer<'a> {
             KnownTexture::Picture { name, scale: factor, has_alpha: false }
         } else {
             let image = self.image(node.asset)?;
-            let pixels = values(&image, node, &|v| rule.of(v));
+            let pixels = values(&image, node, &|v| rule.apply(v));
             let name = self.baked(node, &image, &pixels, Encoding::Linear)?;
             KnownTexture::Picture { name, scale: 1.0, has_alpha: false }
         };
@@ -193,7 +193,7 @@ impl<'a> Importer<'a> {
     /// Numbers after a rule, as the red of a new image.
     pub(super) fn numbers(
         &mut self,
-        node: &PictureNode<'a>,
+        node: &ImageNode<'a>,
         rule: &dyn Fn(f64) -> f64,
     ) -> Result<KnownTexture, String> {
         // A rule is identified by its results for a few numbers.
@@ -216,7 +216,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Mean colour of an image.
-    pub(super) fn mean(&mut self, node: &PictureNode<'a>) -> Result<[f64; 3], String> {
+    pub(super) fn mean(&mut self, node: &ImageNode<'a>) -> Result<[f64; 3], String> {
         let image = self.image(node.asset)?;
         let pixels = values(&image, node, &|v| v.clamp(0.0, 1.0));
         let sum = pixels.iter().fold([0.0; 3], |sum, p| std::array::from_fn(|i| sum[i] + f64::from(p[i])));
@@ -224,7 +224,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Image of numbers that are not colours; returns the name of its texture.
-    pub(super) fn data_picture(&mut self, node: &PictureNode<'a>) -> Result<Option<String>, String> {
+    pub(super) fn data_image(&mut self, node: &ImageNode<'a>) -> Result<Option<String>, String> {
         let path = self.file(node.asset)?;
         Ok(Some(self.texture(node, &path, Encoding::Data)))
     }
@@ -232,7 +232,7 @@ impl<'a> Importer<'a> {
     /// Path of an image as in the written scene; those of packages are written.
     pub(super) fn file(&mut self, asset: &UsdAsset) -> Result<String, String> {
         match &asset.file {
-            Some(UsdFile::Plain(path)) => Ok(self.scenery.way_to(path)),
+            Some(UsdFile::Plain(path)) => Ok(self.scenery.relative_path(path)),
             Some(UsdFile::Packed(name, bytes)) => {
                 if let Some(known) = self.unpacked.get(name) {
                     return Ok(known.clone());
@@ -253,14 +253,14 @@ impl<'a> Importer<'a> {
     /// Pixels of an image.
     pub(super) fn image(&self, asset: &UsdAsset) -> Result<ImageAsset, String> {
         let read = match &asset.file {
-            Some(UsdFile::Plain(path)) => read_picture(path),
-            Some(UsdFile::Packed(name, bytes)) => decode_picture(Path::new(name), bytes),
+            Some(UsdFile::Plain(path)) => read_image(path),
+            Some(UsdFile::Packed(name, bytes)) => decode_image(Path::new(name), bytes),
             None => return Err(format!("the image `{}` does not exist", asset.stated)),
         };
         read.map_err(|error| error.to_string())
     }
 
-    fn texture(&mut self, node: &PictureNode<'a>, path: &str, encoding: Encoding) -> String {
+    fn texture(&mut self, node: &ImageNode<'a>, path: &str, encoding: Encoding) -> String {
         let stem = Path::new(&node.asset.stated).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = self.scenery.names.take(&stem, "texture");
         let [scale, offset] = node.uv_transform;
@@ -277,14 +277,14 @@ impl<'a> Importer<'a> {
     /// Writes an image of linear numbers; returns the name of its texture.
     fn baked(
         &mut self,
-        node: &PictureNode<'a>,
+        node: &ImageNode<'a>,
         image: &ImageAsset,
         pixels: &[[f32; 3]],
         encoding: Encoding,
     ) -> Result<String, String> {
         let channels = [2, 1, 0].map(|i| pixels.iter().map(|pixel| pixel[i]).collect::<Vec<f32>>());
-        let layers: Vec<(String, Layer<'_>)> =
-            ["B", "G", "R"].iter().zip(&channels).map(|(name, c)| ((*name).to_owned(), Layer::Float(c))).collect();
+        let layers: Vec<(String, ExrLayer<'_>)> =
+            ["B", "G", "R"].iter().zip(&channels).map(|(name, c)| ((*name).to_owned(), ExrLayer::Float(c))).collect();
         let (width, height) = (image.width as usize, image.height as usize);
         let bytes = encode_layers(width, height, &layers, &Provenance::default()).map_err(|e| e.to_string())?;
         let stem = Path::new(&node.asset.stated).file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -308,7 +308,7 @@ fn has_encoded_colours(asset: &UsdAsset) -> bool {
 }
 
 /// Pixels of an image after its scale and bias, and a rule; a single channel gives all three.
-fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64) -> Vec<[f32; 3]> {
+fn values(image: &ImageAsset, node: &ImageNode<'_>, rule: &dyn Fn(f64) -> f64) -> Vec<[f32; 3]> {
     let decoded = |v: f32| if node.is_encoded { colour::decode(v) } else { v };
     let value = |p: [f32; 4]| {
         let linear = [decoded(p[0]), decoded(p[1]), decoded(p[2]), p[3]];
@@ -323,13 +323,13 @@ fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64)
 
 /// Continuation of an image outside.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Outside {
+enum WrapMode {
     Black,
     Again(Wrap),
 }
 
-impl Outside {
-    fn of(word: &str) -> Self {
+impl WrapMode {
+    fn from_word(word: &str) -> Self {
         match word {
             "repeat" => Self::Again(Wrap::Repeat),
             "clamp" => Self::Again(Wrap::Clamp),
@@ -343,20 +343,20 @@ impl<'a> Importer<'a> {
     /// Continuation of an image outside; the second value is true if it is black there.
     pub(super) fn wrap(&mut self, node: &'a UsdPrim) -> (Wrap, bool) {
         let [s, t] =
-            ["inputs:wrapS", "inputs:wrapT"].map(|name| Outside::of(self.plain_text(node, name).unwrap_or("")));
+            ["inputs:wrapS", "inputs:wrapT"].map(|name| WrapMode::from_word(self.plain_text(node, name).unwrap_or("")));
         if s != t {
             self.scenery.report.note("wrapS and wrapT of an image differ: wrapS is used for both");
         }
         match s {
-            Outside::Black => (Wrap::Clamp, true),
-            Outside::Again(wrap) => (wrap, false),
+            WrapMode::Black => (Wrap::Clamp, true),
+            WrapMode::Again(wrap) => (wrap, false),
         }
     }
 
     /// Notes that a shape shows the outside of an image that is black there.
     pub(super) fn note_outside(&mut self) {
-        let told = "an image with wrap mode black (also if wrapS and wrapT are not stated or useMetadata) is clamped to its edge outside u, v = 0 … 1, \
+        let message = "an image with wrap mode black (also if wrapS and wrapT are not stated or useMetadata) is clamped to its edge outside u, v = 0 … 1, \
             which the shape shows";
-        self.scenery.report.note(told);
+        self.scenery.report.note(message);
     }
 }

@@ -14,10 +14,10 @@ const INVERSE: &str = "!invert!";
 /// Transform from the space of a prim to its parent's; true if it is relative to the world instead, whatever the parent.
 pub(super) fn transform_of(prim: &UsdPrim) -> Result<(DAffine3, bool), String> {
     let Some(UsdValue::Texts(order)) = prim.value("xformOpOrder") else { return Ok((DAffine3::IDENTITY, false)) };
-    let (mut made, mut is_reset) = (DAffine3::IDENTITY, false);
+    let (mut composed, mut is_reset) = (DAffine3::IDENTITY, false);
     for name in order {
         if name == RESET {
-            (made, is_reset) = (DAffine3::IDENTITY, true);
+            (composed, is_reset) = (DAffine3::IDENTITY, true);
             continue;
         }
         let (own, is_inverse) = name.strip_prefix(INVERSE).map_or((name.as_str(), false), |own| (own, true));
@@ -25,9 +25,9 @@ pub(super) fn transform_of(prim: &UsdPrim) -> Result<(DAffine3, bool), String> {
         if is_inverse && operation.matrix3.determinant() == 0.0 {
             return Err(format!("{}: \"{name}\" inverts a singular transform", prim.path));
         }
-        made *= if is_inverse { operation.inverse() } else { operation };
+        composed *= if is_inverse { operation.inverse() } else { operation };
     }
-    Ok((made, is_reset))
+    Ok((composed, is_reset))
 }
 
 fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
@@ -43,7 +43,7 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
         'Y' => DVec3::Y,
         _ => DVec3::Z,
     };
-    let made = match kind {
+    let result = match kind {
         "translate" => vector(prim, name).map(DAffine3::from_translation),
         "scale" => vector(prim, name).map(DAffine3::from_scale),
         "translateX" | "translateY" | "translateZ" => {
@@ -56,27 +56,27 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
         "orient" => {
             tuple::<4>(prim, name).map(|[w, x, y, z]| DAffine3::from_mat3(DMat3::from_quat(rotation([w, x, y, z]))))
         }
-        "transform" => tuple::<16>(prim, name).map(|m| of_rows(&m)),
+        "transform" => tuple::<16>(prim, name).map(|m| from_rows(&m)),
         "rotateX" | "rotateY" | "rotateZ" => {
             one().map(|v| DAffine3::from_mat3(turn(axis(kind.chars().last().unwrap_or('Z')), v)))
         }
         "rotateXYZ" | "rotateXZY" | "rotateYXZ" | "rotateYZX" | "rotateZXY" | "rotateZYX" => {
             vector(prim, name).map(|degrees| {
                 // The axis named first is applied first.
-                let made = kind
+                let matrix = kind
                     .chars()
                     .skip(6)
-                    .fold(DMat3::IDENTITY, |made, letter| turn(axis(letter), degrees.dot(axis(letter))) * made);
-                DAffine3::from_mat3(made)
+                    .fold(DMat3::IDENTITY, |result, letter| turn(axis(letter), degrees.dot(axis(letter))) * result);
+                DAffine3::from_mat3(matrix)
             })
         }
         other => return Err(format!("{}: \"{name}\": unknown transform \"{other}\"", prim.path)),
     };
     // An operation without a value is ignored.
-    let made = made.unwrap_or(DAffine3::IDENTITY);
-    let size = made.matrix3.to_cols_array().iter().fold(made.translation.length(), |most, v| most.max(v.abs()));
+    let result = result.unwrap_or(DAffine3::IDENTITY);
+    let size = result.matrix3.to_cols_array().iter().fold(result.translation.length(), |most, v| most.max(v.abs()));
     match size < 1e12 {
-        true => Ok(made),
+        true => Ok(result),
         false => {
             Err(format!("{}: \"{name}\" has an entry of {size:e}; expected lengths and scales below 1e12", prim.path))
         }
@@ -90,7 +90,7 @@ pub(super) fn rotation([w, x, y, z]: [f64; 4]) -> DQuat {
 }
 
 /// Matrix for multiplication of row vectors.
-fn of_rows(m: &[f64; 16]) -> DAffine3 {
+fn from_rows(m: &[f64; 16]) -> DAffine3 {
     let row = |i: usize| DVec3::new(m[i], m[i + 1], m[i + 2]);
     DAffine3 { matrix3: DMat3::from_cols(row(0), row(4), row(8)), translation: row(12) }
 }
@@ -122,13 +122,13 @@ mod tests {
             ("xformOp:rotateZ", UsdValue::Number(90.0)),
             ("!invert!xformOp:translate:pivot", at),
         ]);
-        let (made, is_reset) = transform_of(&own).expect("a transform");
-        assert!((made.transform_point3(DVec3::new(2.0, 0.0, 5.0)) - DVec3::new(1.0, 1.0, 5.0)).length() < 1e-12);
+        let (composed, is_reset) = transform_of(&own).expect("a transform");
+        assert!((composed.transform_point3(DVec3::new(2.0, 0.0, 5.0)) - DVec3::new(1.0, 1.0, 5.0)).length() < 1e-12);
         assert!(!is_reset);
         let order = prim(&[("xformOp:rotateXYZ", UsdValue::Tuple(vec![90.0, 0.0, 90.0]))]);
-        let (made, _) = transform_of(&order).expect("a transform");
+        let (composed, _) = transform_of(&order).expect("a transform");
         // About x first: y goes to z and stays there.
-        assert!((made.transform_point3(DVec3::Y) - DVec3::Z).length() < 1e-12);
+        assert!((composed.transform_point3(DVec3::Y) - DVec3::Z).length() < 1e-12);
     }
 
     #[test]

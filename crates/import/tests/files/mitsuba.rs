@@ -6,16 +6,16 @@ use std::fs;
 
 /// Root of the first file; the others are next to it.
 fn read(files: &[(&str, &str)]) -> Result<MitsubaElement, String> {
-    read_given(files, &[]).map(|scene| scene.root)
+    read_with(files, &[]).map(|scene| scene.root)
 }
 
 /// The same with values of parameters.
-fn read_given(files: &[(&str, &str)], given: &[(&str, &str)]) -> Result<MitsubaScene, String> {
+fn read_with(files: &[(&str, &str)], parameters: &[(&str, &str)]) -> Result<MitsubaScene, String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     files.iter().for_each(|(name, text)| fs::write(folder.path().join(name), text).expect("written"));
-    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
-    let given: Vec<_> = given.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-    read_mitsuba(&folder.path().join(files[0].0), &given, &Sandbox::NONE).map_err(told)
+    let relative_text = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    let parameters: Vec<_> = parameters.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    read_mitsuba(&folder.path().join(files[0].0), &parameters, &Sandbox::NONE).map_err(relative_text)
 }
 
 #[test]
@@ -39,8 +39,8 @@ fn elements_have_parameters_and_included_files_in_their_places() {
 }
 
 #[track_caller]
-fn refused(text: &str, told: &str) {
-    assert_eq!(read(&[("a.xml", text)]).expect_err("damaged"), told);
+fn refused(text: &str, expected: &str) {
+    assert_eq!(read(&[("a.xml", text)]).expect_err("damaged"), expected);
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn included_files_lie_in_the_sandbox() {
     fs::write(folder.path().join("secret.xml"), "<scene version=\"3.0.0\"/>").expect("written");
     let file = inner.join("a.xml");
     fs::write(&file, "<scene version=\"3.0.0\"><include filename=\"../secret.xml\"/></scene>").expect("written");
-    let sandbox = Sandbox::about(&file, &[]).expect("a sandbox");
+    let sandbox = Sandbox::for_job(&file, &[]).expect("a sandbox");
     let message = read_mitsuba(&file, &[], &sandbox).expect_err("outside").to_string();
     assert!(message.contains("a.xml:1: ") && message.contains("is outside"), "{message}");
 }
@@ -109,17 +109,17 @@ fn values_that_are_given_hold_in_place_of_defaults() {
     let scene = |body: &str| format!("<scene version=\"3.0.0\">{body}</scene>");
     let ball = |value: &str| format!("<shape type=\"sphere\"><float name=\"radius\" value=\"{value}\"/></shape>");
     let two = "<default name=\"r\" value=\"2\"/>";
-    for (body, given, radius) in [
+    for (body, inputs, radius) in [
         (format!("{two}{}", ball("$r")), &[][..], "2"),
         (format!("{two}{}", ball("$r")), &[("r", "5")], "5"),
         (ball("$r"), &[("r", "7")], "7"),
         (format!("{two}<default name=\"rr\" value=\"$r.5\"/>{}", ball("$rr")), &[("r", "7")], "7.5"),
         (format!("{two}{}", ball("$r$s")), &[("s", "=4"), ("r", "")], "=4"),
     ] {
-        let read = read_given(&[("a.xml", &scene(&body))], given).expect("read");
-        assert_eq!(read.root.children[0].children[0].attribute("value"), Some(radius), "{body}, {given:?}");
+        let read = read_with(&[("a.xml", &scene(&body))], inputs).expect("read");
+        assert_eq!(read.root.children[0].children[0].attribute("value"), Some(radius), "{body}, {inputs:?}");
     }
-    for (body, given, told) in [
+    for (body, inputs, expected) in [
         (
             format!("{two}<default name=\"q\" value=\"0\"/>{}", ball("$r")),
             &[("r", "5"), ("q", "5")][..],
@@ -132,7 +132,7 @@ fn values_that_are_given_hold_in_place_of_defaults() {
         ),
         (ball("$r"), &[("r", "5"), ("r", "6")], "a.xml: the parameter \"r\" has two values; give one"),
     ] {
-        assert_eq!(read_given(&[("a.xml", &scene(&body))], given).expect_err("refused"), told, "{body}");
+        assert_eq!(read_with(&[("a.xml", &scene(&body))], inputs).expect_err("refused"), expected, "{body}");
     }
 }
 
@@ -150,7 +150,7 @@ fn tree(files: &[(&str, &str)]) -> tempfile::TempDir {
 /// Search order: next to the including file, then the folders of its `<path>`, last first, then the folders of the file that includes it. These are the files
 /// that Mitsuba 3.9.1 finds.
 #[test]
-fn included_files_are_sought_beside_the_file_that_includes_them() {
+fn included_files_are_searched_next_to_the_file_that_includes_them() {
     let folder = tree(&[
         ("a.xml", "<path value=\"store\"/><path value=\"deep\"/><include filename=\"parts/b.xml\"/>"),
         (
@@ -178,7 +178,7 @@ fn included_files_are_sought_beside_the_file_that_includes_them() {
 
 #[test]
 fn folders_that_are_not_there_are_refused() {
-    for (body, told) in [
+    for (body, message) in [
         (
             "<path value=\"none\"/>",
             "a.xml:1: <path value=\"none\">: no such folder next to the file or in an earlier <path>; correct it, or remove it",
@@ -189,7 +189,7 @@ fn folders_that_are_not_there_are_refused() {
         ),
         ("<path/>", "a.xml:1: <path> without \"value\""),
     ] {
-        refused(&format!("<scene version=\"3.0.0\">{body}</scene>"), told);
+        refused(&format!("<scene version=\"3.0.0\">{body}</scene>"), message);
     }
     let many = "<path value=\".\"/>".repeat(65);
     refused(

@@ -9,15 +9,15 @@ use std::path::Path;
 fn read(files: &[(&str, &str)]) -> Result<Vec<(String, usize, PbrtDirective)>, String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     files.iter().for_each(|(name, text)| fs::write(folder.path().join(name), text).expect("written"));
-    let mut found = Vec::new();
+    let mut directives = Vec::new();
     let mut take = |directive: PbrtDirective, place: etendue_import::syntax::pbrt::PbrtPlace<'_>| {
         let name = place.file.file_name().expect("a name").to_string_lossy().into_owned();
-        found.push((name, place.line, directive));
+        directives.push((name, place.line, directive));
         Ok(())
     };
-    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
-    read_pbrt(&folder.path().join(files[0].0), &Sandbox::NONE, &mut take).map_err(told)?;
-    Ok(found)
+    let relative_text = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    read_pbrt(&folder.path().join(files[0].0), &Sandbox::NONE, &mut take).map_err(relative_text)?;
+    Ok(directives)
 }
 
 #[test]
@@ -26,16 +26,16 @@ fn directives_have_their_arguments() {
         Texture \"wood\" \"spectrum\" \"imagemap\" \"string filename\" \"a b.png\" \"bool invert\" false\n\
         MediumInterface \"fog\" \"\"\nMediumInterface \"fog\"\nInclude \"more.pbrt\"\nActiveTransform All\nOption \"bool disablepixeljitter\" true\n\
         Shape \"sphere\" # the end has no line";
-    let found = read(&[
+    let directives = read(&[
         ("a.pbrt", text),
         ("more.pbrt", "WorldBegin\n\nMaterial \"diffuse\" \"rgb reflectance\" [ .5 1e-1\n+0.25 ]"),
     ]);
-    let found = found.expect("read");
-    let lines: Vec<(&str, usize)> = found.iter().map(|(name, line, _)| (name.as_str(), *line)).collect();
+    let directives = directives.expect("read");
+    let lines: Vec<(&str, usize)> = directives.iter().map(|(name, line, _)| (name.as_str(), *line)).collect();
     let expected = [2, 4, 4, 5, 6, 7].map(|line| ("a.pbrt", line));
     assert_eq!(lines[..6], expected);
     assert_eq!(lines[6..], [("more.pbrt", 1), ("more.pbrt", 3), ("a.pbrt", 9), ("a.pbrt", 10), ("a.pbrt", 11)]);
-    let directive = |i: usize| &found[i].2;
+    let directive = |i: usize| &directives[i].2;
     assert_eq!(*directive(0), PbrtDirective::Numbers("LookAt", vec![0., 0., -5., 0., 0., 0., 0., 1., 0.]));
     assert_eq!(*directive(2), PbrtDirective::Plain("Identity"));
     let PbrtDirective::Texture(words, parameters) = directive(3) else { panic!("{:?}", directive(3)) };
@@ -50,8 +50,8 @@ fn directives_have_their_arguments() {
 }
 
 #[track_caller]
-fn refused(text: &str, told: &str) {
-    assert_eq!(read(&[("a.pbrt", text)]).expect_err("damaged"), told);
+fn refused(text: &str, expected: &str) {
+    assert_eq!(read(&[("a.pbrt", text)]).expect_err("damaged"), expected);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn included_files_lie_in_the_sandbox() {
     fs::write(folder.path().join("secret.pbrt"), "WorldBegin").expect("written");
     let file = inner.join("a.pbrt");
     fs::write(&file, "Include \"../secret.pbrt\"").expect("written");
-    let sandbox = Sandbox::about(Path::new(&file), &[]).expect("a sandbox");
+    let sandbox = Sandbox::for_job(Path::new(&file), &[]).expect("a sandbox");
     let message = read_pbrt(&file, &sandbox, &mut |_, _| Ok(())).expect_err("outside").to_string();
     assert!(message.contains("a.pbrt:1: ") && message.contains("is outside"), "{message}");
 }

@@ -9,7 +9,7 @@ use etendue_projection::model::{
 };
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::{ErrorCode, Fault, Found, Read, of_camera, opencv::wrong};
+use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, opencv::wrong};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [
@@ -36,19 +36,19 @@ const TWO_FOCALS: [(&str, usize); 10] = [
 /// Its two parameters are the image size.
 const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
-    let cameras: Vec<Line<'_>> = lines
+    let cameras: Vec<CameraLine<'_>> = lines
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
-        .map(|(number, line)| Line::read(number, line))
+        .map(|(number, line)| CameraLine::read(number, line))
         .collect::<Read<_>>()?;
     let line = chosen(&cameras, camera)?;
     let (model, matrix) = line.camera()?;
-    let calibration = Calibration::new(model, matrix, line.size_px).map_err(of_camera(line.number))?;
-    Ok(Found { name: line.id.to_owned(), calibration, notes: Vec::new() })
+    let calibration = Calibration::new(model, matrix, line.size_px).map_err(camera_error(line.number))?;
+    Ok(ReaderResult { name: line.id.to_owned(), calibration, notes: Vec::new() })
 }
 
-struct Line<'a> {
+struct CameraLine<'a> {
     number: usize,
     id: &'a str,
     model: &'a str,
@@ -56,26 +56,26 @@ struct Line<'a> {
     parameters: Vec<f64>,
 }
 
-fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Line<'a>> {
+fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> Read<&'b CameraLine<'a>> {
     let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
     match (cameras, camera) {
-        ([], _) => Err(Fault::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
-        (all, Some(asked)) => all.iter().find(|c| c.id == asked).ok_or_else(|| {
-            Fault::coded(ErrorCode::UnknownName, 0, format!("contains no camera \"{asked}\"; it contains {names}"))
+        ([], _) => Err(TreeError::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
+        (all, Some(requested)) => all.iter().find(|c| c.id == requested).ok_or_else(|| {
+            TreeError::coded(ErrorCode::UnknownName, 0, format!("contains no camera \"{requested}\"; it contains {names}"))
         }),
         ([one], None) => Ok(one),
         _ => {
-            Err(Fault::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id")))
+            Err(TreeError::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id")))
         }
     }
 }
 
-impl<'a> Line<'a> {
+impl<'a> CameraLine<'a> {
     fn read(number: usize, text: &'a str) -> Read<Self> {
         let mut words = text.split_whitespace();
         let mut word = |what: &str| {
             words.next().ok_or_else(|| {
-                Fault::at(number, format!("the line ends before {what}; expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS…"))
+                TreeError::at(number, format!("the line ends before {what}; expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS…"))
             })
         };
         let (id, model) = (word("the id")?, word("the model")?);
@@ -88,7 +88,7 @@ impl<'a> Line<'a> {
         let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
         let Some((_, count)) = all.clone().find(|(name, _)| *name == self.model) else {
             let known = all.map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            return Err(Fault::coded(
+            return Err(TreeError::coded(
                 ErrorCode::UnsupportedFile,
                 self.number,
                 format!("unknown camera model {}; expected one of {known}", self.model),
@@ -96,7 +96,7 @@ impl<'a> Line<'a> {
         };
         if self.parameters.len() != *count {
             let what = format!("found {} parameters; the model {} has {count}", self.parameters.len(), self.model);
-            return Err(Fault::at(self.number, what));
+            return Err(TreeError::at(self.number, what));
         }
         let (matrix, k) = self.matrix();
         Ok((model(self.model, k).map_err(wrong(self.number))?, matrix))
@@ -105,14 +105,14 @@ impl<'a> Line<'a> {
     /// The camera matrix and the coefficients after it.
     fn matrix(&self) -> (CameraMatrix, &[f64]) {
         let p = &self.parameters;
-        let of = |fx, fy, cx, cy| CameraMatrix { fx, fy, skew: 0.0, cx, cy };
+        let camera_matrix = |fx, fy, cx, cy| CameraMatrix { fx, fy, skew: 0.0, cx, cy };
         if self.model == PANORAMA.0 {
-            return (of(p[0] / TAU, p[1] / PI, 0.5 * p[0], 0.5 * p[1]), &[]);
+            return (camera_matrix(p[0] / TAU, p[1] / PI, 0.5 * p[0], 0.5 * p[1]), &[]);
         }
         if ONE_FOCAL.iter().any(|(name, _)| *name == self.model) {
-            return (of(p[0], p[0], p[1], p[2]), &p[3..]);
+            return (camera_matrix(p[0], p[0], p[1], p[2]), &p[3..]);
         }
-        (of(p[0], p[1], p[2], p[3]), &p[4..])
+        (camera_matrix(p[0], p[1], p[2], p[3]), &p[4..])
     }
 }
 
@@ -151,10 +151,10 @@ fn thin_prism(k: &[f64], terms: DistortionTerms) -> Result<Model, ModelError> {
 
 fn count(line: usize, word: &str) -> Read<usize> {
     let count = word.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-    count.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a number of pixels of at least 1")))
+    count.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected a number of pixels of at least 1")))
 }
 
 fn finite(line: usize, word: &str) -> Read<f64> {
     let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
-    number.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a finite number")))
+    number.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected a finite number")))
 }

@@ -19,8 +19,8 @@ use core::f64::consts::PI;
 use etendue_projection::model::{FTheta, FThetaSense};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::Affine};
 
-use super::yaml::{self, Node};
-use super::{ErrorCode, Fault, Found, Read, of_camera, opencv::wrong, passed_over};
+use super::yaml::{self, TreeNode};
+use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, opencv::wrong, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",
@@ -39,43 +39,43 @@ const NCORE: [&str; 6] =
     ["resolution", "principal_point", "reference_poly", "max_angle", "linear_cde", "external_distortion_parameters"];
 const POLYNOMIALS: [&str; 2] = ["pixeldist_to_angle_poly", "angle_to_pixeldist_poly"];
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
     let root = yaml::parse(text)?;
     if let Some(rig) = root.find("rig") {
         let (name, properties) = sensor(rig, camera)?;
-        return Ok(Found { name, ..drive_works(properties)? });
+        return Ok(ReaderResult { name, ..drive_works(properties)? });
     }
     let node = root.find("properties").or_else(|| root.find("camera_model_parameters")).unwrap_or(&root);
     if node.find("resolution").is_some() { ncore(node) } else { drive_works(node) }
 }
 
 /// Camera of a rig: the named one, or the only f-theta camera.
-fn sensor<'a>(rig: &'a Node, camera: Option<&str>) -> Read<(String, &'a Node)> {
+fn sensor<'a>(rig: &'a TreeNode, camera: Option<&str>) -> Read<(String, &'a TreeNode)> {
     let sensors = rig.key("sensors")?.items().unwrap_or_default();
     let cameras = sensors.iter().filter_map(|sensor| {
         let (name, properties) = (sensor.find("name")?.text().ok()?, sensor.find("properties")?);
         is_f_theta(properties).then_some((name, properties))
     });
-    let cameras: Vec<(&str, &Node)> = cameras.collect();
+    let cameras: Vec<(&str, &TreeNode)> = cameras.collect();
     let names = cameras.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let chosen = match (camera, &cameras[..]) {
-        (_, []) => return Err(Fault::at(rig.line, "contains no f-theta camera (properties with Model = \"ftheta\")")),
+        (_, []) => return Err(TreeError::at(rig.line, "contains no f-theta camera (properties with Model = \"ftheta\")")),
         (None, [only]) => Some(only),
         (None, _) => {
-            return Err(Fault::coded(
+            return Err(TreeError::coded(
                 ErrorCode::UnknownName,
                 rig.line,
                 format!("contains the f-theta cameras {names}; select one by its name"),
             ));
         }
-        (Some(asked), _) => cameras.iter().find(|(name, _)| *name == asked),
+        (Some(wanted), _) => cameras.iter().find(|(name, _)| *name == wanted),
     };
-    let asked = camera.unwrap_or_default();
-    let what = || format!("contains no f-theta camera \"{asked}\"; it contains {names}");
-    chosen.map(|(name, properties)| ((*name).to_owned(), *properties)).ok_or_else(|| Fault::at(rig.line, what()))
+    let requested = camera.unwrap_or_default();
+    let what = || format!("contains no f-theta camera \"{requested}\"; it contains {names}");
+    chosen.map(|(name, properties)| ((*name).to_owned(), *properties)).ok_or_else(|| TreeError::at(rig.line, what()))
 }
 
-fn is_f_theta(properties: &Node) -> bool {
+fn is_f_theta(properties: &TreeNode) -> bool {
     properties.find("Model").and_then(|model| model.text().ok()) == Some("ftheta")
 }
 
@@ -90,12 +90,12 @@ struct Numbers {
     linear: [f64; 3],
 }
 
-fn drive_works(node: &Node) -> Read<Found> {
+fn drive_works(node: &TreeNode) -> Read<ReaderResult> {
     let model = node.key("Model")?;
     if !is_f_theta(node) {
-        return Err(Fault::coded(ErrorCode::UnsupportedFile, model.line, "expected the model \"ftheta\""));
+        return Err(TreeError::coded(ErrorCode::UnsupportedFile, model.line, "expected the model \"ftheta\""));
     }
-    let or_zero = |key: &str| node.find(key).map_or(Ok(0.0), Node::number);
+    let or_zero = |key: &str| node.find(key).map_or(Ok(0.0), TreeNode::number);
     let (sense, polynomial) = match node.find("polynomial") {
         Some(polynomial) => (sense(node.key("polynomial-type")?)?, polynomial),
         None => (FThetaSense::RadiusToAngle, node.any(&["polynomial", "bw-poly"])?),
@@ -109,21 +109,21 @@ fn drive_works(node: &Node) -> Read<Found> {
         greatest_angle_rad: PI,
         linear: [or_zero("linear-c")?, or_zero("linear-d")?, or_zero("linear-e")?],
     };
-    found(numbers, passed_over(&node.others(&DRIVE_WORKS)))
+    reader_result(numbers, passed_over(&node.others(&DRIVE_WORKS)))
 }
 
-fn ncore(node: &Node) -> Read<Found> {
+fn ncore(node: &TreeNode) -> Read<ReaderResult> {
     if let Some(external) = node.find("external_distortion_parameters")
         && external.text().ok().is_none_or(|text| !matches!(text, "" | "null"))
     {
-        return Err(Fault::coded(
+        return Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
             external.line,
             "distortion by a windscreen is not supported; expected null",
         ));
     }
     let [width, height] = node.key("resolution")?.items().unwrap_or_default() else {
-        return Err(Fault::at(node.key("resolution")?.line, "expected [width, height]"));
+        return Err(TreeError::at(node.key("resolution")?.line, "expected [width, height]"));
     };
     let sense = sense(node.key("reference_poly")?)?;
     let read = POLYNOMIALS[usize::from(sense == FThetaSense::AngleToRadius)];
@@ -134,19 +134,19 @@ fn ncore(node: &Node) -> Read<Found> {
         centre_px: node.key("principal_point")?.exactly("u, v")?,
         sense,
         polynomial: polynomial.numbers()?,
-        greatest_angle_rad: node.find("max_angle").map_or(Ok(PI), Node::number)?,
+        greatest_angle_rad: node.find("max_angle").map_or(Ok(PI), TreeNode::number)?,
         linear: node.find("linear_cde").map_or(Ok([0.0; 3]), |node| node.exactly("c, d, e"))?,
     };
-    found(numbers, passed_over(&node.others(&[&NCORE[..], &[read]].concat())))
+    reader_result(numbers, passed_over(&node.others(&[&NCORE[..], &[read]].concat())))
 }
 
-fn sense(node: &Node) -> Read<FThetaSense> {
+fn sense(node: &TreeNode) -> Read<FThetaSense> {
     match node.text()? {
         "pixeldistance-to-angle" | "PIXELDIST_TO_ANGLE" => Ok(FThetaSense::RadiusToAngle),
         "angle-to-pixeldistance" | "ANGLE_TO_PIXELDIST" => Ok(FThetaSense::AngleToRadius),
         other => {
             let known = "pixeldistance-to-angle, angle-to-pixeldistance, PIXELDIST_TO_ANGLE, ANGLE_TO_PIXELDIST";
-            Err(Fault::coded(
+            Err(TreeError::coded(
                 ErrorCode::UnsupportedFile,
                 node.line,
                 format!("unknown polynomial type {other}; expected one of {known}"),
@@ -156,29 +156,29 @@ fn sense(node: &Node) -> Read<FThetaSense> {
 }
 
 /// Numbers of a list, or of one text.
-fn words(node: &Node) -> Read<Vec<f64>> {
+fn words(node: &TreeNode) -> Read<Vec<f64>> {
     let Ok(text) = node.text() else { return node.numbers() };
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
         number.ok_or_else(|| {
-            Fault::at(node.line, format!("found \"{word}\"; expected a coefficient of the polynomial, a number"))
+            TreeError::at(node.line, format!("found \"{word}\"; expected a coefficient of the polynomial, a number"))
         })
     };
     text.split_whitespace().map(number).collect()
 }
 
-fn found(numbers: Numbers, notes: Vec<String>) -> Read<Found> {
+fn reader_result(numbers: Numbers, notes: Vec<String>) -> Read<ReaderResult> {
     let Numbers { line, size_px, centre_px: [cx, cy], sense, polynomial, greatest_angle_rad, linear } = numbers;
     let [c, d, e] = if linear == [0.0; 3] { [1.0, 0.0, 0.0] } else { linear };
     if c <= 0.0 {
-        return Err(Fault::at(line, format!("the linear term c is {c}; expected a positive number")));
+        return Err(TreeError::at(line, format!("the linear term c is {c}; expected a positive number")));
     }
     // (c x + d y, e x + y) stretches columns; `Affine` stretches rows: c goes into the unit of the radius.
     let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };
     let model = FTheta::new(sense, enlarged(sense, polynomial, c), greatest_angle_rad, stretch).map_err(wrong(line))?;
     let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx, cy }.from_opencv();
-    let calibration = Calibration::new(Model::FTheta(model), matrix, size_px).map_err(of_camera(line))?;
-    Ok(Found { name: String::new(), calibration, notes })
+    let calibration = Calibration::new(Model::FTheta(model), matrix, size_px).map_err(camera_error(line))?;
+    Ok(ReaderResult { name: String::new(), calibration, notes })
 }
 
 /// Polynomial of a radius that is `ratio` times as large.

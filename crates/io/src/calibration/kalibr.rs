@@ -11,40 +11,40 @@ use etendue_projection::model::{DoubleSphere, ExtendedUnified, FieldOfView, Pers
 use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::{fisheye, unified, wrong};
-use super::yaml::{self, Node, list};
-use super::{ErrorCode, Fault, Found, Read, of_camera, passed_over};
+use super::yaml::{self, TreeNode, list};
+use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, passed_over};
 
 const KNOWN: [&str; 5] = ["camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "resolution"];
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
     let root = yaml::parse(text)?;
     let (name, node) = chosen(&root, camera)?;
     let resolution = node.key("resolution")?;
     let size_px = match resolution.items() {
         Some([width, height]) => [width.count()?, height.count()?],
-        _ => return Err(Fault::at(resolution.line, "expected [width, height]")),
+        _ => return Err(TreeError::at(resolution.line, "expected [width, height]")),
     };
     let (model, focal_and_centre) = model(node)?;
     let [fx, fy, cx, cy] = focal_and_centre;
     let matrix = CameraMatrix { fx, fy, skew: 0.0, cx, cy }.from_opencv();
-    let calibration = Calibration::new(model, matrix, size_px).map_err(of_camera(node.line))?;
-    Ok(Found { name: name.to_owned(), calibration, notes: passed_over(&node.others(&KNOWN)) })
+    let calibration = Calibration::new(model, matrix, size_px).map_err(camera_error(node.line))?;
+    Ok(ReaderResult { name: name.to_owned(), calibration, notes: passed_over(&node.others(&KNOWN)) })
 }
 
-fn chosen<'a>(root: &'a Node, camera: Option<&str>) -> Read<(&'a str, &'a Node)> {
+fn chosen<'a>(root: &'a TreeNode, camera: Option<&str>) -> Read<(&'a str, &'a TreeNode)> {
     let names = root.keys();
     match (root.entries(), camera) {
-        (entries, Some(asked)) => {
-            entries.iter().find(|(name, _)| name == asked).map(|(name, node)| (name.as_str(), node)).ok_or_else(|| {
-                Fault::coded(
+        (entries, Some(requested)) => {
+            entries.iter().find(|(name, _)| name == requested).map(|(name, node)| (name.as_str(), node)).ok_or_else(|| {
+                TreeError::coded(
                     ErrorCode::UnknownName,
                     0,
-                    format!("contains no camera \"{asked}\"; it contains {}", list(&names)),
+                    format!("contains no camera \"{requested}\"; it contains {}", list(&names)),
                 )
             })
         }
         ([(name, node)], None) => Ok((name, node)),
-        _ => Err(Fault::coded(
+        _ => Err(TreeError::coded(
             ErrorCode::UnknownName,
             0,
             format!("contains the cameras {}; select one by its name", list(&names)),
@@ -53,7 +53,7 @@ fn chosen<'a>(root: &'a Node, camera: Option<&str>) -> Read<(&'a str, &'a Node)>
 }
 
 /// The model, and fx, fy, cx, cy.
-fn model(node: &Node) -> Read<(Model, [f64; 4])> {
+fn model(node: &TreeNode) -> Read<(Model, [f64; 4])> {
     let camera = node.key("camera_model")?;
     let intrinsics = node.key("intrinsics")?;
     match camera.text()? {
@@ -74,7 +74,7 @@ fn model(node: &Node) -> Read<(Model, [f64; 4])> {
             let model = DoubleSphere::new(xi, alpha).map_err(wrong(intrinsics.line))?;
             Ok((Model::DoubleSphere(model), rest))
         }
-        other => Err(Fault::coded(
+        other => Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
             camera.line,
             format!("unknown camera model \"{other}\"; expected \"pinhole\", \"omni\", \"eucm\" or \"ds\""),
@@ -82,7 +82,7 @@ fn model(node: &Node) -> Read<(Model, [f64; 4])> {
     }
 }
 
-fn pinhole(node: &Node) -> Read<Model> {
+fn pinhole(node: &TreeNode) -> Read<Model> {
     let name = node.key("distortion_model")?;
     match name.text()? {
         "radtan" => {
@@ -104,7 +104,7 @@ fn pinhole(node: &Node) -> Read<Model> {
     }
 }
 
-fn omni(node: &Node, xi: f64) -> Read<Model> {
+fn omni(node: &TreeNode, xi: f64) -> Read<Model> {
     let name = node.key("distortion_model")?;
     let k = match name.text()? {
         "radtan" => node.key("distortion_coeffs")?.exactly("k1, k2, p1, p2")?,
@@ -115,14 +115,14 @@ fn omni(node: &Node, xi: f64) -> Read<Model> {
 }
 
 /// Refuses any distortion except `none`, and coefficients of `none`.
-fn no_distortion(node: &Node) -> Read<()> {
+fn no_distortion(node: &TreeNode) -> Read<()> {
     let name = node.key("distortion_model")?;
-    let found = name.text()?;
-    if found != "none" {
-        return Err(unknown(name, found, "for this camera model, expected \"none\""));
+    let stated = name.text()?;
+    if stated != "none" {
+        return Err(unknown(name, stated, "for this camera model, expected \"none\""));
     }
     match node.find("distortion_coeffs") {
-        Some(list) if !list.numbers()?.is_empty() => Err(Fault::coded(
+        Some(list) if !list.numbers()?.is_empty() => Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
             list.line,
             "the distortion model \"none\" has no coefficients; expected []",
@@ -131,10 +131,10 @@ fn no_distortion(node: &Node) -> Read<()> {
     }
 }
 
-fn unknown(name: &Node, found: &str, known: &str) -> Fault {
-    Fault::coded(
+fn unknown(name: &TreeNode, stated: &str, known: &str) -> TreeError {
+    TreeError::coded(
         ErrorCode::UnsupportedFile,
         name.line,
-        format!("the distortion model \"{found}\" is not supported; {known}"),
+        format!("the distortion model \"{stated}\" is not supported; {known}"),
     )
 }

@@ -12,7 +12,7 @@
 
 use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
-use super::{Fault, Found, Read, of_camera, opencv::wrong};
+use super::{TreeError, ReaderResult, Read, camera_error, opencv::wrong};
 
 const LINES: [&str; 5] = [
     "the direct polynomial: count a0 a1 …",
@@ -22,7 +22,7 @@ const LINES: [&str; 5] = [
     "the image size: height width",
 ];
 
-pub(super) fn read(text: &str) -> Read<Found> {
+pub(super) fn read(text: &str) -> Read<ReaderResult> {
     let rows = rows(text)?;
     let direct = counted(&rows[0])?;
     let inverse = counted(&rows[1])?;
@@ -32,61 +32,61 @@ pub(super) fn read(text: &str) -> Read<Found> {
     let note = note(direct, inverse, size_px);
     let model = Ocam::new(direct.to_vec(), Affine { c, d, e }).map_err(wrong(rows[0].line))?;
     let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: column, cy: row }.from_opencv();
-    let calibration = Calibration::new(Model::Ocam(model), matrix, size_px).map_err(of_camera(rows[2].line))?;
-    Ok(Found { name: String::new(), calibration, notes: note.into_iter().collect() })
+    let calibration = Calibration::new(Model::Ocam(model), matrix, size_px).map_err(camera_error(rows[2].line))?;
+    Ok(ReaderResult { name: String::new(), calibration, notes: note.into_iter().collect() })
 }
 
-struct Row {
+struct OcamRow {
     line: usize,
     what: &'static str,
     numbers: Vec<f64>,
 }
 
 /// The five lines of numbers.
-fn rows(text: &str) -> Read<[Row; 5]> {
+fn rows(text: &str) -> Read<[OcamRow; 5]> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
     if lines.len() > LINES.len() {
-        return Err(Fault::at(lines[LINES.len()].0, "a sixth line of numbers; expected five"));
+        return Err(TreeError::at(lines[LINES.len()].0, "a sixth line of numbers; expected five"));
     }
     let rows = LINES.iter().enumerate().map(|(i, what)| match lines.get(i) {
         Some((line, text)) => row(*line, what, text),
-        None => Err(Fault::at(0, format!("ends before {what}; expected five lines of numbers"))),
+        None => Err(TreeError::at(0, format!("ends before {what}; expected five lines of numbers"))),
     });
-    let rows: Vec<Row> = rows.collect::<Read<_>>()?;
-    rows.try_into().map_err(|_| Fault::at(0, "expected five lines of numbers"))
+    let rows: Vec<OcamRow> = rows.collect::<Read<_>>()?;
+    rows.try_into().map_err(|_| TreeError::at(0, "expected five lines of numbers"))
 }
 
-fn row(line: usize, what: &'static str, text: &str) -> Read<Row> {
+fn row(line: usize, what: &'static str, text: &str) -> Read<OcamRow> {
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
-        number.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected {what}")))
+        number.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected {what}")))
     };
-    Ok(Row { line, what, numbers: text.split_whitespace().map(number).collect::<Read<_>>()? })
+    Ok(OcamRow { line, what, numbers: text.split_whitespace().map(number).collect::<Read<_>>()? })
 }
 
 /// Numbers after their count.
-fn counted(row: &Row) -> Read<&[f64]> {
+fn counted(row: &OcamRow) -> Read<&[f64]> {
     match &row.numbers[..] {
         [count, rest @ ..] if *count == rest.len() as f64 => Ok(rest),
         [count, rest @ ..] => {
-            Err(Fault::at(row.line, format!("the count is {count}, but {} numbers follow: {}", rest.len(), row.what)))
+            Err(TreeError::at(row.line, format!("the count is {count}, but {} numbers follow: {}", rest.len(), row.what)))
         }
-        [] => Err(Fault::at(row.line, format!("expected {}", row.what))),
+        [] => Err(TreeError::at(row.line, format!("expected {}", row.what))),
     }
 }
 
-fn exactly<const N: usize>(row: &Row) -> Read<[f64; N]> {
-    let found = row.numbers.len();
-    let fault = || Fault::at(row.line, format!("found {found} numbers; expected {N}: {}", row.what));
-    row.numbers.clone().try_into().map_err(|_| fault())
+fn exactly<const N: usize>(row: &OcamRow) -> Read<[f64; N]> {
+    let count = row.numbers.len();
+    let error = || TreeError::at(row.line, format!("found {count} numbers; expected {N}: {}", row.what));
+    row.numbers.clone().try_into().map_err(|_| error())
 }
 
-fn size(row: &Row) -> Read<[usize; 2]> {
+fn size(row: &OcamRow) -> Read<[usize; 2]> {
     let [height, width] = exactly(row)?;
     let pixels = |x: f64| (1.0..=1e6).contains(&x) && x.fract() == 0.0;
     if !(pixels(height) && pixels(width)) {
-        return Err(Fault::at(
+        return Err(TreeError::at(
             row.line,
             format!("found {height} {width}; expected whole numbers of pixels of at least 1"),
         ));

@@ -17,20 +17,20 @@
 use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::yaml::{self, Node};
-use super::{ErrorCode, Fault, Found, Read, found, of_camera, passed_over};
+use super::yaml::{self, TreeNode};
+use super::{ErrorCode, TreeError, ReaderResult, Read, found, camera_error, passed_over};
 
 const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
 const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
 const REST: [&str; 5] = ["image_width", "image_height", "image_size", "fisheye_model", "xi"];
 
 /// Reads a camera; `fisheye` if the caller knows it to be one.
-pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<Found> {
+pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<ReaderResult> {
     let root = yaml::parse(text)?;
     let size_px = found::size(&root)?;
     let node = root.any(&MATRIX)?;
     let camera_matrix = found::camera(node)?;
-    let says_fisheye = root.find("fisheye_model").map(Node::number).transpose()?.is_some_and(|flag| flag != 0.0);
+    let says_fisheye = root.find("fisheye_model").map(TreeNode::number).transpose()?.is_some_and(|flag| flag != 0.0);
     let distortion = root.any(&DISTORTION)?;
     let k = found::numbers(distortion)?;
     let model = match root.find("xi") {
@@ -38,28 +38,28 @@ pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<Found> {
         None if fisheye || says_fisheye => self::fisheye(distortion.line, &k),
         None => perspective(node.line, camera_matrix, distortion.line, &k),
     }?;
-    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(of_camera(node.line))?;
+    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(camera_error(node.line))?;
     let known = [&MATRIX[..], &DISTORTION, &REST].concat();
-    Ok(Found { name: String::new(), calibration, notes: passed_over(&root.others(&known)) })
+    Ok(ReaderResult { name: String::new(), calibration, notes: passed_over(&root.others(&known)) })
 }
 
 fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<Model> {
     if matrix.skew != 0.0 {
         let what = format!("the skew is {} px, which OpenCV's perspective functions ignore; expected 0", matrix.skew);
-        return Err(Fault::at(at, what));
+        return Err(TreeError::at(at, what));
     }
     Perspective::from_opencv(k).map(Model::Perspective).map_err(wrong(line))
 }
 
 pub(super) fn fisheye(line: usize, k: &[f64]) -> Read<Model> {
-    let k = k.try_into().map_err(|_| Fault::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
+    let k = k.try_into().map_err(|_| TreeError::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
     KannalaBrandt::new(k).map(Model::KannalaBrandt).map_err(wrong(line))
 }
 
-fn omnidir(xi: &Node, line: usize, k: &[f64]) -> Read<Model> {
-    let [xi_value] = found::numbers(xi)?[..] else { return Err(Fault::at(xi.line, "expected xi as one number")) };
+fn omnidir(xi: &TreeNode, line: usize, k: &[f64]) -> Read<Model> {
+    let [xi_value] = found::numbers(xi)?[..] else { return Err(TreeError::at(xi.line, "expected xi as one number")) };
     let &[k1, k2, p1, p2] = k else {
-        return Err(Fault::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
+        return Err(TreeError::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
     };
     unified(xi_value, [k1, k2, p1, p2]).map_err(wrong(xi.line))
 }
@@ -69,32 +69,32 @@ pub(super) fn unified(xi: f64, [k1, k2, p1, p2]: [f64; 4]) -> Result<Model, Mode
     Unified::new(xi, terms).map(Model::Unified)
 }
 
-pub(super) fn wrong(line: usize) -> impl Fn(ModelError) -> Fault {
-    move |cause| Fault::at(line, cause.to_string())
+pub(super) fn wrong(line: usize) -> impl Fn(ModelError) -> TreeError {
+    move |cause| TreeError::at(line, cause.to_string())
 }
 
 const KNOWN: [&str; 6] =
     ["image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients"];
 
-pub(super) fn read_ros(text: &str) -> Read<Found> {
+pub(super) fn read_ros(text: &str) -> Read<ReaderResult> {
     let root = yaml::parse(text)?;
     let size_px = [root.key("image_width")?.count()?, root.key("image_height")?.count()?];
     let node = root.key("camera_matrix")?;
     let camera_matrix = found::camera(node)?;
     if camera_matrix.skew != 0.0 {
-        return Err(Fault::coded(
+        return Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
             node.line,
             "expected a camera matrix without skew, as camera_info defines it",
         ));
     }
     let model = model(root.key("distortion_model")?, root.key("distortion_coefficients")?)?;
-    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(of_camera(node.line))?;
-    let name = root.find("camera_name").map(Node::text).transpose()?.unwrap_or_default().to_owned();
-    Ok(Found { name, calibration, notes: passed_over(&root.others(&KNOWN)) })
+    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(camera_error(node.line))?;
+    let name = root.find("camera_name").map(TreeNode::text).transpose()?.unwrap_or_default().to_owned();
+    Ok(ReaderResult { name, calibration, notes: passed_over(&root.others(&KNOWN)) })
 }
 
-fn model(name: &Node, coefficients: &Node) -> Read<Model> {
+fn model(name: &TreeNode, coefficients: &TreeNode) -> Read<Model> {
     let k = found::numbers(coefficients)?;
     let counts: &[usize] = match name.text()? {
         "plumb_bob" => &[4, 5],
@@ -102,7 +102,7 @@ fn model(name: &Node, coefficients: &Node) -> Read<Model> {
         "equidistant" => return fisheye(coefficients.line, &k),
         other => {
             let known = "plumb_bob, rational_polynomial, equidistant";
-            return Err(Fault::coded(
+            return Err(TreeError::coded(
                 ErrorCode::UnsupportedFile,
                 name.line,
                 format!("unknown distortion model {other}; expected one of {known}"),
@@ -112,7 +112,7 @@ fn model(name: &Node, coefficients: &Node) -> Read<Model> {
     if !counts.contains(&k.len()) {
         let counts = counts.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
         let what = format!("found {} numbers; {} has {counts}", k.len(), name.text()?);
-        return Err(Fault::at(coefficients.line, what));
+        return Err(TreeError::at(coefficients.line, what));
     }
     Perspective::from_opencv(&k).map(Model::Perspective).map_err(wrong(coefficients.line))
 }

@@ -26,7 +26,7 @@ use std::path::Path;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, OpticalFlow};
 
-use crate::picture::{Kept, decode_raster};
+use crate::picture::{PixelStorage, decode_raster};
 use crate::png::{encode_grey16, encode_rgb16, title, with_text};
 use crate::{Error, exr::EncodeError, source::read_bytes};
 
@@ -81,8 +81,8 @@ fn stored_disparity(px: f32) -> u16 {
 }
 
 fn in_16_bits(number: f64) -> Option<u16> {
-    let whole = number.round();
-    (0.0..=f64::from(u16::MAX)).contains(&whole).then_some(whole as u16)
+    let rounded = number.round();
+    (0.0..=f64::from(u16::MAX)).contains(&rounded).then_some(rounded as u16)
 }
 
 /// Returns true if a PNG states that it is optical flow.
@@ -92,7 +92,7 @@ pub(crate) fn is_kitti_flow(bytes: &[u8]) -> bool {
 
 /// Flow in the bytes of a KITTI PNG, NaN where unknown.
 pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
-    let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", Kept::Floats)?;
+    let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", PixelStorage::Floats)?;
     let image::DynamicImage::ImageRgb16(picture) = picture else {
         return Err(Error::new(file, "not KITTI's optical flow: expected a PNG with three 16-bit channels"));
     };
@@ -105,7 +105,7 @@ pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<Optic
 
 const MAGIC: &[u8; 4] = b"PIEH";
 const NOT_KNOWN: f32 = 1e10;
-const GREATEST_KNOWN: f32 = 1e9;
+const MAX_KNOWN: f32 = 1e9;
 
 /// Bytes of a `.flo` file.
 ///
@@ -154,7 +154,7 @@ pub fn decode_flo(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error
 }
 
 fn is_known(vector: [f32; 2]) -> bool {
-    vector.iter().all(|v| v.abs() <= GREATEST_KNOWN)
+    vector.iter().all(|v| v.abs() <= MAX_KNOWN)
 }
 
 /// Bytes of a PFM of `width` numbers per row, given row by row from the top; NaN (unknown) is stored as +∞.

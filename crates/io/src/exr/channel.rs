@@ -6,7 +6,7 @@ use ::exr::prelude::FlatSamples;
 use etendue_core::storage::BandReader;
 
 /// The samples of a channel.
-pub(crate) enum Channel<'a> {
+pub(crate) enum ChannelSource<'a> {
     /// 32-bit floats, row by row.
     Float(Cow<'a, [f32]>),
     /// 32-bit unsigned integers, row by row.
@@ -22,7 +22,7 @@ pub(crate) enum Channel<'a> {
 }
 
 /// Rows of a channel.
-pub(crate) enum Samples {
+pub(crate) enum SampleRows {
     /// 32-bit floats.
     Float(Vec<f32>),
     /// 32-bit unsigned integers.
@@ -35,10 +35,10 @@ pub(crate) trait Strips: Send + Sync {
     ///
     /// # Errors
     /// If they cannot be read, in a sentence for the user.
-    fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String>;
+    fn rows(&self, rows: Range<usize>) -> Result<Vec<SampleRows>, String>;
 }
 
-impl Channel<'_> {
+impl ChannelSource<'_> {
     /// Number of samples, if they are in memory.
     pub(super) fn len(&self) -> Option<usize> {
         match self {
@@ -50,7 +50,7 @@ impl Channel<'_> {
     }
 
     /// Sample type of a channel, for the encoder.
-    pub(super) fn described(&self) -> FlatSamples {
+    pub(super) fn sample_type(&self) -> FlatSamples {
         match self {
             Self::Uint(_) | Self::StripUint(_) => FlatSamples::U32(Vec::new()),
             _ => FlatSamples::F32(Vec::new()),
@@ -61,12 +61,12 @@ impl Channel<'_> {
 /// Channels of an image, sorted by name.
 pub(super) struct ImageRows<'a> {
     pub(super) width: usize,
-    pub(super) channels: Vec<Channel<'a>>,
+    pub(super) channels: Vec<ChannelSource<'a>>,
     pub(super) strips: Option<Box<dyn Strips + 'a>>,
 }
 
 /// Rows of a channel.
-enum Rows<'a> {
+enum RowSource<'a> {
     Float(Cow<'a, [f32]>),
     Uint(Cow<'a, [u32]>),
 }
@@ -81,7 +81,7 @@ impl ImageRows<'_> {
     pub(super) fn bytes(&self, rows: Range<usize>) -> Result<Vec<u8>, EncodeError> {
         let strip = self.strips.as_ref().map(|strips| strips.rows(rows.clone())).transpose();
         let strip = strip.map_err(EncodeError::Read)?.unwrap_or_default();
-        let channels = self.channels.iter().map(|channel| self.of_channel(channel, &strip, rows.clone()));
+        let channels = self.channels.iter().map(|channel| self.from_channel(channel, &strip, rows.clone()));
         let channels = channels.collect::<Result<Vec<_>, String>>().map_err(EncodeError::Read)?;
         let mut bytes = vec![0; self.row_bytes() * rows.len()];
         let mut rest = bytes.as_mut_slice();
@@ -91,10 +91,10 @@ impl ImageRows<'_> {
                 let (to, after) = rest.split_at_mut(self.width * size_of::<f32>());
                 let (numbers, _) = to.as_chunks_mut::<4>();
                 match channel {
-                    Rows::Float(samples) => {
+                    RowSource::Float(samples) => {
                         numbers.iter_mut().zip(&samples[at.clone()]).for_each(|(to, value)| *to = value.to_ne_bytes());
                     }
-                    Rows::Uint(samples) => {
+                    RowSource::Uint(samples) => {
                         numbers.iter_mut().zip(&samples[at.clone()]).for_each(|(to, value)| *to = value.to_ne_bytes());
                     }
                 }
@@ -104,25 +104,25 @@ impl ImageRows<'_> {
         Ok(bytes)
     }
 
-    fn of_channel<'s>(
+    fn from_channel<'s>(
         &'s self,
-        channel: &'s Channel<'_>,
-        strip: &'s [Samples],
+        channel: &'s ChannelSource<'_>,
+        strip: &'s [SampleRows],
         rows: Range<usize>,
-    ) -> Result<Rows<'s>, String> {
+    ) -> Result<RowSource<'s>, String> {
         let at = rows.start * self.width..rows.end * self.width;
         Ok(match channel {
-            Channel::Float(samples) => Rows::Float(Cow::Borrowed(&samples[at])),
-            Channel::Uint(samples) => Rows::Uint(Cow::Borrowed(&samples[at])),
-            Channel::Component(vectors, axis) => Rows::Float(vectors[at].iter().map(|v| v[*axis]).collect()),
-            Channel::Band(reader, band) => {
+            ChannelSource::Float(samples) => RowSource::Float(Cow::Borrowed(&samples[at])),
+            ChannelSource::Uint(samples) => RowSource::Uint(Cow::Borrowed(&samples[at])),
+            ChannelSource::Component(vectors, axis) => RowSource::Float(vectors[at].iter().map(|v| v[*axis]).collect()),
+            ChannelSource::Band(reader, band) => {
                 let mut samples = vec![0.0; at.len()];
                 reader.read(*band, rows, &mut samples)?;
-                Rows::Float(samples.into())
+                RowSource::Float(samples.into())
             }
-            Channel::StripFloat(place) | Channel::StripUint(place) => match &strip[*place] {
-                Samples::Float(samples) => Rows::Float(samples.as_slice().into()),
-                Samples::Uint(samples) => Rows::Uint(samples.as_slice().into()),
+            ChannelSource::StripFloat(place) | ChannelSource::StripUint(place) => match &strip[*place] {
+                SampleRows::Float(samples) => RowSource::Float(samples.as_slice().into()),
+                SampleRows::Uint(samples) => RowSource::Uint(samples.as_slice().into()),
             },
         })
     }

@@ -20,14 +20,14 @@ use etendue_spectra::colour::{Primaries, REC_709};
 use crate::Error;
 
 /// Tolerance within which chromaticities count as Rec. 709: files round them, and the white point, differently.
-const SAME: f64 = 5e-4;
+const CHROMATICITY_TOLERANCE: f64 = 5e-4;
 
 /// Matrix from these chromaticities to Rec. 709; `None` if they are equal.
 pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<ColourMatrix>, Error> {
     let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
     let Chromaticities { red, green, blue, white } = *stated;
     let primaries = Primaries { red: pair(red), green: pair(green), blue: pair(blue), white: pair(white) };
-    if primaries.is_close_to(&REC_709, SAME) {
+    if primaries.is_close_to(&REC_709, CHROMATICITY_TOLERANCE) {
         return Ok(None);
     }
     let matrix = primaries.to_linear_srgb().ok_or_else(|| {
@@ -193,8 +193,8 @@ mod tests {
 
     #[test]
     fn colours_of_other_primaries_become_those_of_rec_709() {
-        let found = values(&file(&STORED, space(XYZ), None));
-        for ((name, value), expected) in found.iter().zip([0.5, 0.1, 0.2, 1.0, 0.6]) {
+        let actual = values(&file(&STORED, space(XYZ), None));
+        for ((name, value), expected) in actual.iter().zip([0.5, 0.1, 0.2, 1.0, 0.6]) {
             // The standard's white and that of the tables differ by 3e-4.
             assert!((value - expected).abs() < 5e-4, "{name}: {value} for {expected}");
         }
@@ -224,14 +224,14 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_keeps_what_its_file_holds_beside_the_matrix() {
-        let picture =
-            crate::picture::decode_picture(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+    fn an_image_keeps_the_stored_values_and_the_matrix() {
+        let image =
+            crate::picture::decode_image(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
         assert_eq!(
-            picture.pixels,
+            image.pixels,
             etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]])
         );
-        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = picture.in_rec_709().pixels else {
+        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = image.in_rec_709().pixels else {
             panic!("colours")
         };
         let [r, g, b, a] = colours[0];
@@ -247,7 +247,7 @@ mod tests {
             assert!(read(projection).check_is_no_cube_map(Path::new("a.exr")).is_ok());
         }
         let cube = file(&STORED, None, Some(EnvironmentMap::Cube));
-        assert!(crate::picture::decode_picture(Path::new("a.exr"), &cube).is_err());
+        assert!(crate::picture::decode_image(Path::new("a.exr"), &cube).is_err());
         assert!(crate::photograph::decode_photograph(Path::new("a.exr"), &cube).is_err());
     }
 

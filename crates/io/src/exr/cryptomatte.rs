@@ -47,14 +47,14 @@ pub fn cryptomatte_image(
 
 fn add(image: &mut ExrImage<'static>, layer: &CryptomatteLayer<'_>) {
     let ids: BTreeMap<u32, f32> = layer.names.iter().map(|(number, name)| (*number, cryptomatte_id(name))).collect();
-    let of = |rank: usize, take: &dyn Fn((u32, f32)) -> f32| -> Vec<f32> {
-        layer.pixels.iter().map(|shares| shares.get(rank).map_or(0.0, |share| take(*share))).collect()
+    let rank_values = |rank: usize, take: &dyn Fn((u32, f32)) -> f32| -> Vec<f32> {
+        layer.pixels.iter().map(|shares| shares.get(rank).map_or(0.0, |entry| take(*entry))).collect()
     };
     for rank in 0..RANKS {
         let [id, coverage] = if rank % 2 == 0 { ["R", "G"] } else { ["B", "A"] };
         let stem = format!("{}{:02}", layer.name, rank / 2);
-        image.float(format!("{stem}.{id}"), of(rank, &|(number, _)| ids.get(&number).copied().unwrap_or(0.0)));
-        image.float(format!("{stem}.{coverage}"), of(rank, &|(_, coverage)| coverage));
+        image.float(format!("{stem}.{id}"), rank_values(rank, &|(number, _)| ids.get(&number).copied().unwrap_or(0.0)));
+        image.float(format!("{stem}.{coverage}"), rank_values(rank, &|(_, coverage)| coverage));
     }
     let key = format!("{:08x}", murmur3_32(layer.name.as_bytes()));
     let facts = [
@@ -168,10 +168,10 @@ mod tests {
         assert_eq!(image.facts[&format!("{key}/conversion")], "uint32_to_float32");
         let bytes = image.into_bytes().expect("a small picture");
         let file = crate::exr::decode_exr(std::path::Path::new("c.exr"), &bytes).expect("an EXR");
-        let of = |name: &str| file.channel(name).expect("a channel").to_floats();
-        assert_eq!(of("CryptoObject00.R"), [id, 0.0]);
-        assert_eq!((of("CryptoObject00.G"), of("CryptoObject00.A")), (vec![0.75, 0.0], vec![0.25, 0.0]));
-        assert_eq!(of("CryptoObject00.B")[0], cryptomatte_id("car"));
-        assert_eq!(of("CryptoObject02.A"), [0.0, 0.0]);
+        let samples = |name: &str| file.channel(name).expect("a channel").to_floats();
+        assert_eq!(samples("CryptoObject00.R"), [id, 0.0]);
+        assert_eq!((samples("CryptoObject00.G"), samples("CryptoObject00.A")), (vec![0.75, 0.0], vec![0.25, 0.0]));
+        assert_eq!(samples("CryptoObject00.B")[0], cryptomatte_id("car"));
+        assert_eq!(samples("CryptoObject02.A"), [0.0, 0.0]);
     }
 }

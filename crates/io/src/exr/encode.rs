@@ -18,14 +18,14 @@ use ::exr::{
 };
 use rayon::prelude::*;
 
-use super::channel::{Channel, EncodeError, ImageRows, Strips};
+use super::channel::{ChannelSource, EncodeError, ImageRows, Strips};
 use crate::Provenance;
 
 /// Image to be stored: facts and sources of samples.
 pub struct ExrImage<'a> {
     pub(super) width: usize,
     pub(super) height: usize,
-    pub(super) channels: Vec<(String, Channel<'a>)>,
+    pub(super) channels: Vec<(String, ChannelSource<'a>)>,
     pub(super) strips: Option<Box<dyn Strips + 'a>>,
     /// Header attributes, all texts: current readers ignore attributes of 64-bit floats (OpenEXR 3.5 for Python).
     pub(crate) facts: BTreeMap<String, String>,
@@ -58,16 +58,16 @@ impl<'a> ExrImage<'a> {
 
     /// Adds a plane of floats.
     pub(crate) fn float(&mut self, name: impl Into<String>, samples: impl Into<Cow<'a, [f32]>>) {
-        self.add(name, Channel::Float(samples.into()));
+        self.add(name, ChannelSource::Float(samples.into()));
     }
 
     /// Adds a plane of unsigned integers.
     pub(crate) fn uint(&mut self, name: impl Into<String>, samples: impl Into<Cow<'a, [u32]>>) {
-        self.add(name, Channel::Uint(samples.into()));
+        self.add(name, ChannelSource::Uint(samples.into()));
     }
 
     /// Adds a channel.
-    pub(super) fn add(&mut self, name: impl Into<String>, channel: Channel<'a>) {
+    pub(super) fn add(&mut self, name: impl Into<String>, channel: ChannelSource<'a>) {
         self.channels.push((name.into(), channel));
     }
 
@@ -96,7 +96,7 @@ impl<'a> ExrImage<'a> {
             named.push((text(&name)?, channel));
         }
         named.sort_by(|(a, _), (b, _)| a.cmp(b));
-        let described = named.iter().map(|(name, channel)| AnyChannel::new(name.clone(), channel.described()));
+        let described = named.iter().map(|(name, channel)| AnyChannel::new(name.clone(), channel.sample_type()));
         let described = AnyChannels::sort(described.collect());
         let image = Image::from_layer(Layer::new((self.width, self.height), attributes, ENCODING, described));
         let rows = ImageRows {
@@ -118,11 +118,11 @@ impl<'a> ExrImage<'a> {
             return Err(EncodeError::NoChannels);
         }
         let expected = width * height;
-        let wrong = |(name, channel): &(String, Channel<'_>)| {
-            channel.len().filter(|found| *found != expected).map(|found| (name.clone(), found))
+        let wrong = |(name, channel): &(String, ChannelSource<'_>)| {
+            channel.len().filter(|length| *length != expected).map(|length| (name.clone(), length))
         };
         match self.channels.iter().find_map(wrong) {
-            Some((name, found)) => Err(EncodeError::Size { name, found, expected }),
+            Some((name, length)) => Err(EncodeError::Size { name, found: length, expected }),
             None => Ok(()),
         }
     }

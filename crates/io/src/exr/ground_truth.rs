@@ -7,7 +7,7 @@ use std::ops::Range;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Vector};
 
-use super::channel::{Channel, EncodeError, Samples, Strips};
+use super::channel::{ChannelSource, EncodeError, SampleRows, Strips};
 use super::encode::ExrImage;
 use crate::Provenance;
 
@@ -43,14 +43,14 @@ pub struct GroundTruth<'a> {
 /// # Errors
 /// If there is no plane, or planes have different sizes.
 pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
-    ground_truth_of_planes(truth, provenance)?.into_bytes()
+    ground_truth_from_planes(truth, provenance)?.into_bytes()
 }
 
 /// Returns [`encode_ground_truth`]'s image before encoding.
 ///
 /// # Errors
 /// There is no plane.
-pub fn ground_truth_of_planes<'a>(
+pub fn ground_truth_from_planes<'a>(
     truth: &GroundTruth<'a>,
     provenance: &Provenance,
 ) -> Result<ExrImage<'a>, EncodeError> {
@@ -58,9 +58,9 @@ pub fn ground_truth_of_planes<'a>(
     let mut image = ExrImage::new(width, height, provenance);
     for (name, layer) in truth.layers() {
         match layer {
-            Layer::Float(samples) => image.float(name, samples),
-            Layer::Component(vectors, axis) => image.add(name, Channel::Component(vectors, axis)),
-            Layer::Uint(samples) => image.uint(name, samples),
+            TruthLayer::Float(samples) => image.float(name, samples),
+            TruthLayer::Component(vectors, axis) => image.add(name, ChannelSource::Component(vectors, axis)),
+            TruthLayer::Uint(samples) => image.uint(name, samples),
         }
     }
     let has_gaps = truth.depth.is_some_and(|depth| depth.samples().iter().any(|z| z.is_nan()));
@@ -87,8 +87,8 @@ pub fn ground_truth_image<'a>(
     rows.rows(0..1, &mut |truth| {
         for (place, (name, layer)) in truth.layers().into_iter().enumerate() {
             match layer {
-                Layer::Float(_) | Layer::Component(..) => image.add(name, Channel::StripFloat(place)),
-                Layer::Uint(_) => image.add(name, Channel::StripUint(place)),
+                TruthLayer::Float(_) | TruthLayer::Component(..) => image.add(name, ChannelSource::StripFloat(place)),
+                TruthLayer::Uint(_) => image.add(name, ChannelSource::StripUint(place)),
             }
         }
         state(&mut image, truth, has_gaps);
@@ -100,7 +100,7 @@ pub fn ground_truth_image<'a>(
 struct TruthStrips<T>(T);
 
 impl<T: GroundTruthRows> Strips for TruthStrips<T> {
-    fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String> {
+    fn rows(&self, rows: Range<usize>) -> Result<Vec<SampleRows>, String> {
         let mut strips = Vec::new();
         self.0.rows(rows, &mut |truth| {
             strips = truth.layers().into_iter().map(|(_, layer)| layer.samples()).collect();
@@ -110,18 +110,18 @@ impl<T: GroundTruthRows> Strips for TruthStrips<T> {
 }
 
 /// The samples of a channel.
-enum Layer<'a> {
+enum TruthLayer<'a> {
     Float(&'a [f32]),
     Component(&'a [[f32; 3]], usize),
     Uint(&'a [u32]),
 }
 
-impl Layer<'_> {
-    fn samples(&self) -> Samples {
+impl TruthLayer<'_> {
+    fn samples(&self) -> SampleRows {
         match self {
-            Self::Float(samples) => Samples::Float(samples.to_vec()),
-            Self::Component(vectors, axis) => Samples::Float(vectors.iter().map(|v| v[*axis]).collect()),
-            Self::Uint(samples) => Samples::Uint(samples.to_vec()),
+            Self::Float(samples) => SampleRows::Float(samples.to_vec()),
+            Self::Component(vectors, axis) => SampleRows::Float(vectors.iter().map(|v| v[*axis]).collect()),
+            Self::Uint(samples) => SampleRows::Uint(samples.to_vec()),
         }
     }
 }
@@ -156,10 +156,10 @@ fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
 
 impl<'a> GroundTruth<'a> {
     /// Channels of the planes that are present.
-    fn layers(&self) -> Vec<(String, Layer<'a>)> {
+    fn layers(&self) -> Vec<(String, TruthLayer<'a>)> {
         let lengths = [("depth.Z", self.depth), ("distance.Z", self.distance)];
         let lengths =
-            lengths.into_iter().filter_map(|(name, plane)| Some((name.to_owned(), Layer::Float(plane?.samples()))));
+            lengths.into_iter().filter_map(|(name, plane)| Some((name.to_owned(), TruthLayer::Float(plane?.samples()))));
         let vectors = [
             ("N", self.normal),
             ("P", self.position),
@@ -169,14 +169,14 @@ impl<'a> GroundTruth<'a> {
         ];
         let vectors = vectors.into_iter().filter_map(|(name, plane)| Some((name, plane?)));
         let components = vectors.flat_map(|(name, plane)| {
-            let component = move |(axis, letter)| (format!("{name}.{letter}"), Layer::Component(plane.samples(), axis));
+            let component = move |(axis, letter)| (format!("{name}.{letter}"), TruthLayer::Component(plane.samples(), axis));
             ["X", "Y", "Z"].into_iter().enumerate().map(component)
         });
         let identities =
             [("instance", self.instance), ("semantic", self.semantic), ("material", self.material), ("ray", self.ray)];
         let identities = identities
             .into_iter()
-            .filter_map(|(name, plane)| Some((format!("{name}.ID"), Layer::Uint(plane?.samples()))));
+            .filter_map(|(name, plane)| Some((format!("{name}.ID"), TruthLayer::Uint(plane?.samples()))));
         lengths.chain(components).chain(identities).collect()
     }
 
@@ -196,7 +196,7 @@ impl<'a> GroundTruth<'a> {
 
 pub(super) fn add_vector<'a>(image: &mut ExrImage<'a>, layer: &str, plane: &'a Plane<Vector>) {
     for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
-        image.add(format!("{layer}.{letter}"), Channel::Component(plane.samples(), axis));
+        image.add(format!("{layer}.{letter}"), ChannelSource::Component(plane.samples(), axis));
     }
 }
 

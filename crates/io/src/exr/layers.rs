@@ -7,13 +7,13 @@
 use etendue_core::quantity::{Quantity, Variance};
 use etendue_core::{Plane, storage::BandReader};
 
-use super::channel::{Channel, EncodeError};
+use super::channel::{ChannelSource, EncodeError};
 use super::encode::ExrImage;
 use crate::Provenance;
 
 /// The samples of a named plane, row by row from the top left.
 #[derive(Clone, Copy, Debug)]
-pub enum Layer<'a> {
+pub enum ExrLayer<'a> {
     /// 32-bit floats.
     Float(&'a [f32]),
     /// 32-bit unsigned integers.
@@ -29,7 +29,7 @@ pub enum Layer<'a> {
 pub fn encode_layers(
     width: usize,
     height: usize,
-    layers: &[(String, Layer<'_>)],
+    layers: &[(String, ExrLayer<'_>)],
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
     layers_image(width, height, layers, provenance).into_bytes()
@@ -40,15 +40,15 @@ pub fn encode_layers(
 pub fn layers_image<'a>(
     width: usize,
     height: usize,
-    layers: &[(String, Layer<'a>)],
+    layers: &[(String, ExrLayer<'a>)],
     provenance: &Provenance,
 ) -> ExrImage<'a> {
     let mut image = ExrImage::new(width, height, provenance);
     for (name, layer) in layers {
         match *layer {
-            Layer::Float(samples) => image.float(name.as_str(), samples),
-            Layer::Uint(samples) => image.uint(name.as_str(), samples),
-            Layer::Band(reader, band) => image.add(name.as_str(), Channel::Band(reader, band)),
+            ExrLayer::Float(samples) => image.float(name.as_str(), samples),
+            ExrLayer::Uint(samples) => image.uint(name.as_str(), samples),
+            ExrLayer::Band(reader, band) => image.add(name.as_str(), ChannelSource::Band(reader, band)),
         }
     }
     image

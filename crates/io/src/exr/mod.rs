@@ -37,13 +37,13 @@ pub use colour_space::{SpectralChannel, Stokes, channel_name, parse_channel_name
 pub use cryptomatte::{CryptomatteLayer, cryptomatte_id, cryptomatte_image};
 pub use encode::{ExrImage, WAITING_BYTES};
 pub use ground_truth::{
-    GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_of_planes, rays_image,
+    GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_from_planes, rays_image,
 };
-pub use layers::{Layer, encode_layers, encode_plane, layers_image, plane_image};
+pub use layers::{ExrLayer, encode_layers, encode_plane, layers_image, plane_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
-pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
+pub use read::{ExrChannel, ExrFile, ExrSamples, read_exr, read_exr_within};
 pub use spectral::{
-    Lengths, SpectralBands, band_weights, encode_radiance, encode_spectral, radiance_image, spectral_image,
+    LengthPlanes, SpectralBands, band_weights, encode_radiance, encode_spectral, radiance_image, spectral_image,
 };
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
 

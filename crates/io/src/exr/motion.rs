@@ -94,11 +94,11 @@ pub fn encode_disparity(
 
 impl MotionTruth<'_> {
     fn size(&self) -> Option<(usize, usize)> {
-        fn of<Q: Quantity>(plane: &Plane<Q>) -> (usize, usize) {
+        fn plane_size<Q: Quantity>(plane: &Plane<Q>) -> (usize, usize) {
             (plane.width(), plane.height())
         }
-        let neighbour = self.forward.or(self.backward).and_then(|n| n.flow.map(of).or(n.scene_flow.map(of)));
-        neighbour.or(self.motion_vector.map(of)).or(self.velocity.map(of)).or(self.time.map(of))
+        let neighbour = self.forward.or(self.backward).and_then(|n| n.flow.map(plane_size).or(n.scene_flow.map(plane_size)));
+        neighbour.or(self.motion_vector.map(plane_size)).or(self.velocity.map(plane_size)).or(self.time.map(plane_size))
     }
 }
 
@@ -111,7 +111,7 @@ fn add_pair(image: &mut ExrImage<'_>, layer: &str, samples: &[[f32; 2]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exr::{Samples, decode_exr};
+    use crate::exr::{ExrSamples, decode_exr};
     use std::path::Path;
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
         let first = |name: &str| read.channel(name).map(|samples| samples.to_floats()[0]);
         assert_eq!(first("flow.forward.X").zip(first("motion_vector.Y")), Some((1.5, 5.0)));
         assert!(first("flow.backward.Y").is_some_and(f32::is_nan));
-        assert_eq!(read.channel("visibility.forward.ID"), Some(&Samples::Uint(vec![1, 3])));
+        assert_eq!(read.channel("visibility.forward.ID"), Some(&ExrSamples::Uint(vec![1, 3])));
         assert_eq!(encode_motion(&MotionTruth::default(), &Provenance::default()), Err(EncodeError::NoChannels));
     }
 }

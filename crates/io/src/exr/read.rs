@@ -12,7 +12,7 @@ use crate::{Error, ErrorCode, Provenance, error::guarded, texture_memory};
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Samples {
+pub enum ExrSamples {
     /// 16-bit floats in the file, widened.
     Half(Vec<f32>),
     /// 32-bit floats.
@@ -27,7 +27,7 @@ pub struct ExrChannel {
     /// Name.
     pub name: String,
     /// Values.
-    pub samples: Samples,
+    pub samples: ExrSamples,
 }
 
 /// Content of an EXR file.
@@ -56,7 +56,7 @@ impl ExrFile {
     }
 }
 
-impl Samples {
+impl ExrSamples {
     /// Samples one by one, as [`Samples::to_floats`] returns them.
     pub(crate) fn floats(&self) -> Box<dyn Iterator<Item = f32> + '_> {
         match self {
@@ -84,7 +84,7 @@ impl Samples {
 impl ExrFile {
     /// Channel of that name.
     #[must_use]
-    pub fn channel(&self, name: &str) -> Option<&Samples> {
+    pub fn channel(&self, name: &str) -> Option<&ExrSamples> {
         self.channels.iter().find(|c| c.name == name).map(|c| &c.samples)
     }
 }
@@ -128,10 +128,10 @@ fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
     true
 }
 
-fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
+fn floats(samples: &mut ExrSamples) -> Option<&mut [f32]> {
     match samples {
-        Samples::Half(values) | Samples::Float(values) => Some(values),
-        Samples::Uint(_) => None,
+        ExrSamples::Half(values) | ExrSamples::Float(values) => Some(values),
+        ExrSamples::Uint(_) => None,
     }
 }
 
@@ -264,11 +264,11 @@ fn add_layer(
     Ok(())
 }
 
-fn owned(samples: FlatSamples) -> Samples {
+fn owned(samples: FlatSamples) -> ExrSamples {
     match samples {
-        FlatSamples::F16(values) => Samples::Half(values.into_iter().map(f32::from).collect()),
-        FlatSamples::F32(values) => Samples::Float(values),
-        FlatSamples::U32(values) => Samples::Uint(values),
+        FlatSamples::F16(values) => ExrSamples::Half(values.into_iter().map(f32::from).collect()),
+        FlatSamples::F32(values) => ExrSamples::Float(values),
+        FlatSamples::U32(values) => ExrSamples::Uint(values),
     }
 }
 
@@ -291,11 +291,11 @@ fn attribute_text(value: &AttributeValue) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exr::tests_support::picture;
+    use crate::exr::tests_support::small_exr;
 
     /// File of some hundred bytes that claims 20 000² pixels.
     fn large() -> Vec<u8> {
-        let mut bytes = picture(1, 1, &["Y"], 0.0);
+        let mut bytes = small_exr(1, 1, &["Y"], 0.0);
         for window in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
             let at = bytes.windows(window.len()).position(|w| w == window).expect("a window") + window.len() + 4;
             bytes[at + 8..at + 16].copy_from_slice(&[19_999_u32.to_le_bytes(); 2].concat());
@@ -315,7 +315,7 @@ mod tests {
     fn who_knows_the_size_says_the_bound() {
         let place = tempfile::tempdir().expect("temporary folder");
         let file = place.path().join("film.exr");
-        std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
+        std::fs::write(&file, small_exr(20, 10, &["a", "b"], 1.0)).expect("write");
         assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
         let message = read_exr_within(&file, 1599).expect_err("more than known").to_string();
         assert!(message.contains("decompresses to 1 MiB; expected 1 MiB"), "{message}");

@@ -7,10 +7,10 @@
 use std::ops::Range;
 
 use etendue_core::quantity::{Length, Quantity, Radiance, Variance};
-use etendue_core::{Bands, KeptCube, Plane, SpectralCube, storage::BandReader};
+use etendue_core::{Bands, StoredCube, Plane, SpectralCube, storage::BandReader};
 use etendue_spectra::{colour::linear_srgb_from_xyz, observer::xyz_weights};
 
-use super::channel::{Channel, EncodeError, Samples, Strips};
+use super::channel::{ChannelSource, EncodeError, SampleRows, Strips};
 use super::colour_space::{Stokes, channel_name};
 use super::encode::ExrImage;
 use crate::Provenance;
@@ -25,7 +25,7 @@ const LAYOUT_VERSION: &str = "1.0";
 
 /// Distance of the scene in each pixel of a radiance image, m; +∞ for sky, NaN without a ray.
 #[derive(Clone, Copy, Debug)]
-pub struct Lengths<'a> {
+pub struct LengthPlanes<'a> {
     /// Along the pixel's ray.
     pub distance: &'a Plane<Length>,
     /// Along the camera's axis.
@@ -48,7 +48,7 @@ pub struct SpectralBands<'a> {
 impl<'a> SpectralBands<'a> {
     /// Bands of cubes in memory.
     #[must_use]
-    pub fn of<Q: Quantity<Sample = f32>>(
+    pub fn from_cubes<Q: Quantity<Sample = f32>>(
         cube: &'a SpectralCube<Q>,
         variance: Option<&'a SpectralCube<Variance>>,
     ) -> Self {
@@ -58,8 +58,8 @@ impl<'a> SpectralBands<'a> {
 
     /// Bands of cubes in memory or on the disk.
     #[must_use]
-    pub fn of_kept<Q: Quantity<Sample = f32>>(cube: &'a KeptCube<Q>, variance: Option<&'a KeptCube<Variance>>) -> Self {
-        let variance = variance.map(KeptCube::reader);
+    pub fn from_stored<Q: Quantity<Sample = f32>>(cube: &'a StoredCube<Q>, variance: Option<&'a StoredCube<Variance>>) -> Self {
+        let variance = variance.map(StoredCube::reader);
         Self { bands: cube.bands(), size: (cube.width(), cube.height()), mean: cube.reader(), variance }
     }
 }
@@ -73,7 +73,7 @@ pub fn encode_spectral<Q: Quantity<Sample = f32>>(
     variance: Option<&SpectralCube<Variance>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
-    spectral_image::<Q>(SpectralBands::of(cube, variance), provenance).into_bytes()
+    spectral_image::<Q>(SpectralBands::from_cubes(cube, variance), provenance).into_bytes()
 }
 
 /// Encodes a radiance image, with the scene distances if given, in channels `distance.Z` and `depth.Z`.
@@ -83,21 +83,21 @@ pub fn encode_spectral<Q: Quantity<Sample = f32>>(
 pub fn encode_radiance(
     cube: &SpectralCube<Radiance>,
     variance: Option<&SpectralCube<Variance>>,
-    lengths: Option<Lengths<'_>>,
+    lengths: Option<LengthPlanes<'_>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
-    radiance_image(SpectralBands::of(cube, variance), lengths, provenance).into_bytes()
+    radiance_image(SpectralBands::from_cubes(cube, variance), lengths, provenance).into_bytes()
 }
 
 /// Returns a radiance image for writing.
 #[must_use]
 pub fn radiance_image<'a>(
     bands: SpectralBands<'a>,
-    lengths: Option<Lengths<'a>>,
+    lengths: Option<LengthPlanes<'a>>,
     provenance: &Provenance,
 ) -> ExrImage<'a> {
     let mut image = spectral_image::<Radiance>(bands, provenance);
-    if let Some(Lengths { distance, depth }) = lengths {
+    if let Some(LengthPlanes { distance, depth }) = lengths {
         image.float(DISTANCE, distance.samples());
         image.float(DEPTH, depth.samples());
         image.state("lengths", "distance.Z along the pixel's ray, depth.Z along the axis: m; +inf: sky; NaN: no ray");
@@ -111,24 +111,24 @@ pub fn spectral_image<'a, Q: Quantity<Sample = f32>>(
     bands: SpectralBands<'a>,
     provenance: &Provenance,
 ) -> ExrImage<'a> {
-    let SpectralBands { bands: of, size: (width, height), variance, .. } = bands;
+    let SpectralBands { bands: band_list, size: (width, height), variance, .. } = bands;
     let mut image = ExrImage::new(width, height, provenance);
-    let count = of.count();
+    let count = band_list.count();
     for band in 0..count {
-        let name = |variance| channel_name(Stokes::Emissive(0), of.centre_nm(band), variance);
-        image.add(name(false), Channel::StripFloat(band));
+        let name = |variance| channel_name(Stokes::Emissive(0), band_list.centre_nm(band), variance);
+        image.add(name(false), ChannelSource::StripFloat(band));
         if variance.is_some() {
-            image.add(name(true), Channel::StripFloat(count + 3 + band));
+            image.add(name(true), ChannelSource::StripFloat(count + 3 + band));
         }
     }
     for (place, name) in ["R", "G", "B"].into_iter().enumerate() {
-        image.add(name, Channel::StripFloat(count + place));
+        image.add(name, ChannelSource::StripFloat(count + place));
     }
     if variance.is_some() {
         image.state("variance", "variance of each band mean, squared units, in channels variance.S0");
     }
-    state_layout::<Q>(&mut image, of.width_nm());
-    image.strips = Some(Box::new(BandStrips { bands, weights: band_weights(of) }));
+    state_layout::<Q>(&mut image, band_list.width_nm());
+    image.strips = Some(Box::new(BandStrips { bands, weights: band_weights(band_list) }));
     image
 }
 
@@ -140,7 +140,7 @@ struct BandStrips<'a> {
 }
 
 impl Strips for BandStrips<'_> {
-    fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String> {
+    fn rows(&self, rows: Range<usize>) -> Result<Vec<SampleRows>, String> {
         let SpectralBands { bands, size: (width, _), mean, variance } = self.bands;
         let read = |reader: &dyn BandReader, band| {
             let mut samples = vec![0.0; width * rows.len()];
@@ -150,7 +150,7 @@ impl Strips for BandStrips<'_> {
         let preview = linear_srgb_of_bands(&means.iter().map(Vec::as_slice).collect::<Vec<_>>(), &self.weights);
         let variances = variance.map(|variance| (0..bands.count()).map(move |band| read(variance, band)));
         let variances = variances.into_iter().flatten().collect::<Result<Vec<_>, String>>()?;
-        Ok(means.into_iter().chain(preview).chain(variances).map(Samples::Float).collect())
+        Ok(means.into_iter().chain(preview).chain(variances).map(SampleRows::Float).collect())
     }
 }
 
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn daylight_of_one_candela_is_white_one() {
         let bands = Bands::covering(380.0, 780.0, 5.0).expect("80 bands");
-        let relative = illuminant::named("D65").expect("D65");
+        let relative = illuminant::by_name("D65").expect("D65");
         let daylight = observer::with_luminance(relative, 1.0).expect("visible");
         let planes = daylight.band_means(bands).into_iter().map(|v| Plane::filled(1, 1, v as f32)).collect();
         let cube = SpectralCube::<Radiance>::from_planes(bands, planes).expect("one plane a band");

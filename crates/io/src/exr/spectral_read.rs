@@ -68,23 +68,23 @@ pub fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
 
 /// Facts that a provenance holds: ours, without those that describe the values.
 fn own_facts(exr: &ExrFile) -> BTreeMap<String, String> {
-    const OF_VALUES: [&str; 6] = ["quantity", "units", "band_width_nm", "preview", "variance", "lengths"];
+    const VALUE_ATTRIBUTES: [&str; 6] = ["quantity", "units", "band_width_nm", "preview", "variance", "lengths"];
     let ours = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
-    ours.filter(|(name, _)| !OF_VALUES.contains(name)).map(|(name, text)| (name.to_owned(), text.clone())).collect()
+    ours.filter(|(name, _)| !VALUE_ATTRIBUTES.contains(name)).map(|(name, text)| (name.to_owned(), text.clone())).collect()
 }
 
 fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Result<&'static str, Error> {
     let known = [(Radiance::NAME, Radiance::UNIT), (Irradiance::NAME, Irradiance::UNIT)];
     if let (Some(quantity), Some(unit)) = (exr.attributes.get("etendue:quantity"), exr.attributes.get("etendue:units"))
     {
-        let found = known.iter().find(|(name, its_unit)| name == quantity && its_unit == unit);
+        let matching = known.iter().find(|(name, its_unit)| name == quantity && its_unit == unit);
         let message = || {
             format!(
                 "contains {quantity} in {unit}; expected {} in {} or {} in {}",
                 known[0].0, known[0].1, known[1].0, known[1].1
             )
         };
-        return found.map(|(name, _)| *name).ok_or_else(|| Error::new(file, message()));
+        return matching.map(|(name, _)| *name).ok_or_else(|| Error::new(file, message()));
     }
     match exr.attributes.get("emissiveUnits").map(|unit| unit.trim_end_matches(".nm^-1")) {
         Some("W.m^-2.sr^-1") => {
@@ -124,9 +124,9 @@ fn cube_of_same_bands(
     bands: Bands,
     variance: Option<SpectralCube<Variance>>,
 ) -> Result<Option<SpectralCube<Variance>>, Error> {
-    let told = "the variance channels and the values have different wavelengths; the file is incomplete";
+    let problem = "the variance channels and the values have different wavelengths; the file is incomplete";
     match variance {
-        Some(cube) if cube.bands() != bands => Err(Error::new(file, told)),
+        Some(cube) if cube.bands() != bands => Err(Error::new(file, problem)),
         other => Ok(other),
     }
 }
@@ -148,7 +148,7 @@ fn cube<Q: Quantity<Sample = f32>>(
     }
     let centres: Vec<f64> = mine.iter().map(|(nm, _)| *nm).collect();
     let stated = exr.attributes.get("etendue:band_width_nm").and_then(|text| text.parse().ok());
-    let bands = bands_of(&centres, stated).map_err(|told| Error::new(file, told))?;
+    let bands = bands_of(&centres, stated).map_err(|problem| Error::new(file, problem))?;
     let planes = mine
         .iter()
         .filter_map(|(_, i)| Plane::from_samples(exr.width, exr.height, exr.channels[*i].samples.to_floats()));

@@ -4,7 +4,7 @@ use super::encode::ExrImage;
 use crate::Provenance;
 
 /// Image whose channels of these names are `value` everywhere.
-pub(crate) fn picture(width: usize, height: usize, names: &[&str], value: f32) -> Vec<u8> {
+pub(crate) fn small_exr(width: usize, height: usize, names: &[&str], value: f32) -> Vec<u8> {
     let mut image = ExrImage::new(width, height, &Provenance::default());
     for name in names {
         image.float(*name, vec![value; width * height]);

@@ -38,7 +38,7 @@ pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
 /// # Errors
 /// If the file holds no boxes or those of an image of another size, or if the report has no image.
 pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
-    let found = read_boxes(boxes)?;
+    let recorded = read_boxes(boxes)?;
     let Some(preview) = &mut report.preview else {
         return Err(Error::coded(
             ErrorCode::UnsuitableFile,
@@ -47,17 +47,17 @@ pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
         ));
     };
     let Preview { width, height, .. } = *preview;
-    if (width, height) != (found.width_px, found.height_px) {
-        let (w, h) = (found.width_px, found.height_px);
+    if (width, height) != (recorded.width_px, recorded.height_px) {
+        let (w, h) = (recorded.width_px, recorded.height_px);
         let message = format!(
             "the boxes are of an image of {w} x {h} pixels, but the image has {width} x {height}; give the boxes of this image"
         );
         return Err(Error::new(boxes, message));
     }
-    drawing::draw_boxes(preview, &found.objects);
-    let seen = found.objects.iter().filter(|object| object.visible_box_px.is_some()).count();
+    drawing::draw_boxes(preview, &recorded.objects);
+    let visible_count = recorded.objects.iter().filter(|object| object.visible_box_px.is_some()).count();
     report.notes.push(format!(
-        "boxes of {seen} visible objects in the colours of their ids: solid lines around the visible part, dots around the whole object"
+        "boxes of {visible_count} visible objects in the colours of their ids: solid lines around the visible part, dots around the whole object"
     ));
     Ok(())
 }

@@ -39,7 +39,7 @@ const SPANS: [(usize, [i32; 3], usize, i32); 6] = [
 ];
 
 /// Image of vectors given by components, and the length of full saturation: the 99th percentile of the known ones.
-pub(super) fn of_flow(u: &[f32], v: &[f32]) -> (Vec<[u8; 3]>, f32) {
+pub(super) fn draw_flow(u: &[f32], v: &[f32]) -> (Vec<[u8; 3]>, f32) {
     let lengths = u.iter().zip(v).map(|(u, v)| length(*u, *v));
     let scale = percentile(lengths, 99).filter(|scale| *scale > 0.0).unwrap_or(1.0);
     let wheel = wheel();
@@ -58,10 +58,10 @@ fn wheel() -> Vec<[f64; 3]> {
 /// The 55 colours of the wheel, sRGB bytes: from red (a vector to the right) over yellow (down) and cyan (left) to violet (up).
 #[must_use]
 pub fn flow_wheel() -> Vec<[u8; 3]> {
-    let step = |(steps, from, channel, way): (usize, [i32; 3], usize, i32)| {
+    let step = |(steps, from, channel, change): (usize, [i32; 3], usize, i32)| {
         (0..steps).map(move |i| {
             let mut colour = from;
-            colour[channel] += way.signum() * (way.abs() * i as i32 / steps as i32);
+            colour[channel] += change.signum() * (change.abs() * i as i32 / steps as i32);
             colour.map(|c| c as u8)
         })
     };
@@ -92,7 +92,7 @@ const LIGHTNESS: [f64; 3] = [0.72, 0.56, 0.86];
 const CHROMA: f64 = 0.13;
 
 /// Image of identities.
-pub(super) fn of_identities(ids: &[u32]) -> Vec<[u8; 3]> {
+pub(super) fn draw_identities(ids: &[u32]) -> Vec<[u8; 3]> {
     ids.iter().map(|id| identity_colour(*id)).collect()
 }
 
@@ -123,7 +123,7 @@ fn linear_of_oklab(lightness: f64, a: f64, b: f64) -> [f64; 3] {
 }
 
 /// Image of vectors, and the component at full red, green or blue: 1 for unit vectors, else the 99th percentile of the components' magnitudes.
-pub(super) fn of_vectors(components: [&[f32]; 3], is_unit: bool) -> (Vec<[u8; 3]>, f32) {
+pub(super) fn draw_vectors(components: [&[f32]; 3], is_unit: bool) -> (Vec<[u8; 3]>, f32) {
     let [x, y, z] = components;
     let sizes = components.into_iter().flatten().map(|v| v.abs());
     let scale = if is_unit { 1.0 } else { percentile(sizes, 99).filter(|s| *s > 0.0).unwrap_or(1.0) };
@@ -154,25 +154,25 @@ pub const VIRIDIS: [[u8; 3]; 17] = [
 ];
 
 /// Image, and the values at the ends of the map.
-type Drawn = (Vec<[u8; 3]>, [f32; 2]);
+type ScaledImage = (Vec<[u8; 3]>, [f32; 2]);
 
 /// Image of lengths by their logarithm, near yellow and far violet; and the values at the ends of the map: the 1st and 99th percentile of those above 0.
-pub(super) fn of_lengths(lengths: &[f32]) -> Drawn {
+pub(super) fn draw_lengths(lengths: &[f32]) -> ScaledImage {
     let lit = || lengths.iter().copied().filter(|v| *v > 0.0);
     let [near, far] = [1, 99].map(|percent| percentile(lit(), percent).unwrap_or(1.0));
     let [low, high] = [near, far].map(|v| ln(f64::from(v)));
-    let part = |v: f32| if v > 0.0 { 1.0 - share(ln(f64::from(v)), low, high) } else { 1.0 };
+    let part = |v: f32| if v > 0.0 { 1.0 - fraction(ln(f64::from(v)), low, high) } else { 1.0 };
     (lengths.iter().map(|v| viridis_colour(*v, part)).collect(), [near, far])
 }
 
 /// Image of numbers, small violet and large yellow; and the values at the ends: the 1st and 99th percentile.
-pub(super) fn of_differences(values: &[f32]) -> Drawn {
+pub(super) fn draw_differences(values: &[f32]) -> ScaledImage {
     let [low, high] = [1, 99].map(|percent| percentile(values.iter().copied(), percent).unwrap_or(1.0));
-    let part = |v: f32| share(f64::from(v), f64::from(low), f64::from(high));
+    let part = |v: f32| fraction(f64::from(v), f64::from(low), f64::from(high));
     (values.iter().map(|v| viridis_colour(*v, part)).collect(), [low, high])
 }
 
-fn share(value: f64, low: f64, high: f64) -> f64 {
+fn fraction(value: f64, low: f64, high: f64) -> f64 {
     if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
 }
 
@@ -299,9 +299,9 @@ mod tests {
         let mut u = vec![2.0_f32; 100];
         u[7] = 1e6;
         u[8] = f32::NAN;
-        let (rgb, scale) = of_flow(&u, &[0.0; 100]);
+        let (rgb, scale) = draw_flow(&u, &[0.0; 100]);
         assert_eq!((scale, rgb[0], rgb[7], rgb[8]), (2.0, [255, 0, 0], [191, 0, 0], [0; 3]));
-        assert_eq!(of_flow(&[0.0; 4], &[0.0; 4]).1, 1.0);
+        assert_eq!(draw_flow(&[0.0; 4], &[0.0; 4]).1, 1.0);
     }
 
     fn perceived(id: u32) -> Lab {
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dozen_identities_in_a_row_are_told_apart_and_none_is_black() {
+    fn twelve_successive_identities_are_distinct_and_none_is_black() {
         for first in [1, 2, 40, 1_000, 65_530, 4_000_000_000] {
             for (i, j) in (0..12).flat_map(|i| (0..i).map(move |j| (i, j))) {
                 let difference = ciede2000(perceived(first + i), perceived(first + j));
@@ -327,16 +327,16 @@ mod tests {
             }
             assert!(ciede2000(perceived(first), perceived(0)) > 30.0);
         }
-        assert_eq!(of_identities(&[0, 7, 7]), [[0; 3], identity_colour(7), identity_colour(7)]);
+        assert_eq!(draw_identities(&[0, 7, 7]), [[0; 3], identity_colour(7), identity_colour(7)]);
     }
 
     #[test]
     fn axes_are_red_green_and_blue() {
-        let (rgb, scale) = of_vectors([&[1.0, 0.0, f32::NAN], &[0.0, -1.0, 0.0], &[0.0, 0.0, 1.0]], true);
+        let (rgb, scale) = draw_vectors([&[1.0, 0.0, f32::NAN], &[0.0, -1.0, 0.0], &[0.0, 0.0, 1.0]], true);
         assert_eq!((rgb, scale), (vec![[255, 128, 128], [128, 0, 128], [255, 0, 255]], 1.0));
-        let (rgb, scale) = of_vectors([&[2.0, -4.0], &[4.0, 0.0], &[4.0, 4.0]], false);
+        let (rgb, scale) = draw_vectors([&[2.0, -4.0], &[4.0, 0.0], &[4.0, 4.0]], false);
         assert_eq!((rgb[0], scale), ([191, 255, 255], 4.0));
-        assert_eq!(of_vectors([&[0.0], &[0.0], &[0.0]], false).1, 1.0);
+        assert_eq!(draw_vectors([&[0.0], &[0.0], &[0.0]], false).1, 1.0);
     }
 
     #[test]
@@ -357,16 +357,16 @@ mod tests {
     #[test]
     fn lengths_go_by_ratios_and_what_is_not_finite_is_marked() {
         let lengths = [1.0, 10.0, 100.0, f32::INFINITY, f32::NAN, 0.0, -3.0];
-        let (rgb, range) = of_lengths(&lengths);
+        let (rgb, range) = draw_lengths(&lengths);
         // The 99th percentile of three values is the second: ranks are whole.
         assert_eq!(range, [1.0, 10.0]);
         assert_eq!(rgb[..2], [VIRIDIS[16], VIRIDIS[0]]);
         assert_eq!(rgb[2..5], [VIRIDIS[0], [255; 3], [255, 0, 255]]);
         assert_eq!(rgb[5..], [VIRIDIS[16]; 2]);
         let many: Vec<f32> = (0..=200).map(|i| [1.0, 2.0, 4.0][i % 3]).collect();
-        assert_eq!(of_lengths(&many).0[1], VIRIDIS[8], "2 is half-way from 1 to 4");
-        assert_eq!(of_differences(&[5.0; 4]).0, [VIRIDIS[8]; 4]);
-        assert!(of_lengths(&[f32::NAN]).0 == [[255, 0, 255]]);
+        assert_eq!(draw_lengths(&many).0[1], VIRIDIS[8], "2 is half-way from 1 to 4");
+        assert_eq!(draw_differences(&[5.0; 4]).0, [VIRIDIS[8]; 4]);
+        assert!(draw_lengths(&[f32::NAN]).0 == [[255, 0, 255]]);
     }
 
     fn drawn(edges: [f64; 4]) -> Vec<usize> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{FileReport, Preview, layer, report::ChannelReport};
-use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
+use crate::exr::{ExrFile, ExrSamples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
 use crate::{Error, ErrorCode};
 
 /// Report with an image of the requested layer.
@@ -17,7 +17,7 @@ pub(super) fn report(file: &Path, bytes: &[u8], shown: Option<&str>) -> Result<F
     }
     report.channels = exr.channels.iter().map(|c| channel(&c.name, &c.samples)).collect();
     report.preview = match shown {
-        Some(name) => Some(drawn(&exr, name, &mut report).ok_or_else(|| no_layer(file, &exr, name))?),
+        Some(name) => Some(draw_layer(&exr, name, &mut report).ok_or_else(|| no_layer(file, &exr, name))?),
         None => preview(file, &exr, &mut report),
     };
     Ok(report)
@@ -46,11 +46,11 @@ fn is_spectral(exr: &ExrFile) -> bool {
     exr.channels.iter().any(|c| parse_channel_name(&c.name).is_some())
 }
 
-fn channel(name: &str, samples: &Samples) -> ChannelReport {
+fn channel(name: &str, samples: &ExrSamples) -> ChannelReport {
     match samples {
-        Samples::Half(v) => ChannelReport::of(name, "half", v.iter().map(|v| f64::from(*v))),
-        Samples::Float(v) => ChannelReport::of(name, "float", v.iter().map(|v| f64::from(*v))),
-        Samples::Uint(v) => ChannelReport::of(name, "uint", v.iter().map(|v| f64::from(*v))),
+        ExrSamples::Half(v) => ChannelReport::new(name, "half", v.iter().map(|v| f64::from(*v))),
+        ExrSamples::Float(v) => ChannelReport::new(name, "float", v.iter().map(|v| f64::from(*v))),
+        ExrSamples::Uint(v) => ChannelReport::new(name, "uint", v.iter().map(|v| f64::from(*v))),
     }
 }
 
@@ -58,25 +58,25 @@ fn channel(name: &str, samples: &Samples) -> ChannelReport {
 fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
     let pixels = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
     match pixels {
-        Some(pixels) => Some(Preview::of_linear(exr.width, exr.height, &pixels)),
+        Some(pixels) => Some(Preview::from_linear(exr.width, exr.height, &pixels)),
         None => {
             let first = exr.channels.first().map(|channel| channel.name.as_str());
             ["depth.Z", "flow.forward", "flow.backward"]
                 .into_iter()
                 .chain(first)
-                .find_map(|name| drawn(exr, name, report))
+                .find_map(|name| draw_layer(exr, name, report))
         }
     }
 }
 
-fn drawn(exr: &ExrFile, name: &str, report: &mut FileReport) -> Option<Preview> {
-    let (preview, told) = layer::drawn(exr, name)?;
-    report.notes.push(told);
+fn draw_layer(exr: &ExrFile, name: &str, report: &mut FileReport) -> Option<Preview> {
+    let (preview, note) = layer::layer_preview(exr, name)?;
+    report.notes.push(note);
     Some(preview)
 }
 
 fn stored_colour(exr: &ExrFile) -> Option<Vec<[f32; 3]>> {
-    let plane = |name: &str| exr.channel(name).map(Samples::floats);
+    let plane = |name: &str| exr.channel(name).map(ExrSamples::floats);
     Some(pixels(plane("R")?, plane("G")?, plane("B")?))
 }
 

@@ -4,27 +4,27 @@ use std::path::Path;
 
 use etendue_core::{Plane, quantity::OpticalFlow};
 
-use super::{FileReport, Preview, drawing::of_flow, layer, report::ChannelReport};
+use super::{FileReport, Preview, drawing::draw_flow, layer, report::ChannelReport};
 use crate::correspondence::{decode_flo, decode_kitti_flow};
 use crate::{Error, photograph::decode_photograph};
 
 pub(super) fn middlebury(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    Ok(of_plane(file, "optical flow, Middlebury .flo", "float", &decode_flo(file, bytes)?))
+    Ok(flow_report(file, "optical flow, Middlebury .flo", "float", &decode_flo(file, bytes)?))
 }
 
 pub(super) fn kitti(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    Ok(of_plane(file, "optical flow, KITTI 2015 PNG", "16 bit", &decode_kitti_flow(file, bytes)?))
+    Ok(flow_report(file, "optical flow, KITTI 2015 PNG", "16 bit", &decode_kitti_flow(file, bytes)?))
 }
 
-fn of_plane(file: &Path, kind: &str, stored_as: &str, flow: &Plane<OpticalFlow>) -> FileReport {
+fn flow_report(file: &Path, kind: &str, stored_as: &str, flow: &Plane<OpticalFlow>) -> FileReport {
     let mut report = FileReport::new(file, kind);
     let (width, height) = (flow.width(), flow.height());
     report.state("size", format!("{width} x {height} pixels"));
     let [u, v] = [0, 1].map(|axis| flow.samples().iter().map(|vector| vector[axis]).collect::<Vec<f32>>());
     for (name, values) in [("u (px, right)", &u), ("v (px, down)", &v)] {
-        report.channels.push(ChannelReport::of(name, stored_as, values.iter().map(|px| f64::from(*px))));
+        report.channels.push(ChannelReport::new(name, stored_as, values.iter().map(|px| f64::from(*px))));
     }
-    let (rgb, scale) = of_flow(&u, &v);
+    let (rgb, scale) = draw_flow(&u, &v);
     report.preview = Some(Preview { width, height, rgb });
     report.notes.push(layer::wheel_note("the flow", scale, " px"));
     report
@@ -37,16 +37,16 @@ pub(super) fn float_map(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> 
     report.state("size", format!("{} x {} pixels", map.width, map.height));
     for channel in &map.channels {
         let values = channel.samples.iter().map(|v| f64::from(*v));
-        report.channels.push(ChannelReport::of(&channel.name, "float", values));
+        report.channels.push(ChannelReport::new(&channel.name, "float", values));
     }
     let preview = match &map.channels[..] {
         [r, g, b] => {
             let pixels = r.samples.iter().zip(&g.samples).zip(&b.samples).map(|((r, g), b)| [*r, *g, *b]);
-            Preview::of_linear(map.width, map.height, &pixels.collect::<Vec<_>>())
+            Preview::from_linear(map.width, map.height, &pixels.collect::<Vec<_>>())
         }
         channels => {
-            let (preview, told) = layer::differences(map.width, map.height, &channels[0].samples);
-            report.notes.push(told);
+            let (preview, note) = layer::differences(map.width, map.height, &channels[0].samples);
+            report.notes.push(note);
             preview
         }
     };
@@ -62,7 +62,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn flow_and_disparity_are_told_and_drawn() {
+    fn flow_and_disparity_are_reported_and_drawn() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let vectors = flow(2, &[[2.0, 0.0], [0.0, 2.0], [f32::NAN, 0.0], [0.0, 0.0]]);
         let files = [

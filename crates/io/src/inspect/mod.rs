@@ -28,7 +28,7 @@ pub use report::{ChannelReport, FileReport, Preview};
 
 /// Content of the preview image, if the file allows a choice.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Shown {
+pub struct PreviewSelection {
     /// The layer of an EXR: a channel's full name, or the common part of several channel names before the last dot (`flow.forward`, `N`, `instance`). `None`:
     /// its colours, else depth, flow or the first channel.
     pub layer: Option<String>,
@@ -41,14 +41,14 @@ pub struct Shown {
 /// # Errors
 /// If it is missing, damaged, or of an unknown kind.
 pub fn inspect(file: &Path) -> Result<FileReport, Error> {
-    inspect_showing(file, &Shown::default())
+    inspect_showing(file, &PreviewSelection::default())
 }
 
 /// Inspects `file`, with the requested preview.
 ///
 /// # Errors
 /// As [`inspect()`]; if there is no such layer, or the boxes do not fit the image.
-pub fn inspect_showing(file: &Path, shown: &Shown) -> Result<FileReport, Error> {
+pub fn inspect_showing(file: &Path, shown: &PreviewSelection) -> Result<FileReport, Error> {
     let mut report = report(file, shown.layer.as_deref())?;
     if let Some(file) = &shown.boxes {
         boxes::draw(&mut report, file)?;

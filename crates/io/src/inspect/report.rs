@@ -80,7 +80,7 @@ pub struct ChannelReport {
 
 impl ChannelReport {
     /// Returns the statistics of `samples`, summed in order.
-    pub fn of(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
+    pub fn new(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
         let (mut min, mut max, mut sum, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0_usize);
         let (mut nan_count, mut infinite_count) = (0, 0);
         for v in samples {
@@ -148,16 +148,16 @@ impl Preview {
     }
 
     /// Exposes a linear sRGB image.
-    pub(super) fn of_linear(width: usize, height: usize, pixels: &[[f32; 3]]) -> Self {
+    pub(super) fn from_linear(width: usize, height: usize, pixels: &[[f32; 3]]) -> Self {
         let white = white_level(pixels);
         Self { width, height, rgb: pixels.iter().map(|p| byte_pixel(*p, white)).collect() }
     }
 
     /// Exposes one linear channel as grey: its 99th percentile is white.
     #[must_use]
-    pub fn of_grey(width: usize, height: usize, values: &[f32]) -> Self {
+    pub fn from_grey(width: usize, height: usize, values: &[f32]) -> Self {
         let pixels: Vec<[f32; 3]> = values.iter().map(|v| [*v; 3]).collect();
-        Self::of_linear(width, height, &pixels)
+        Self::from_linear(width, height, &pixels)
     }
 }
 
@@ -184,10 +184,10 @@ mod tests {
 
     #[test]
     fn values_that_are_not_finite_are_counted_and_left_out() {
-        let report = ChannelReport::of("Z", "float", [1.0, f64::NAN, 3.0, f64::INFINITY, f64::NEG_INFINITY]);
+        let report = ChannelReport::new("Z", "float", [1.0, f64::NAN, 3.0, f64::INFINITY, f64::NEG_INFINITY]);
         assert_eq!((report.min, report.mean, report.max), (Some(1.0), Some(2.0), Some(3.0)));
         assert_eq!((report.nan_count, report.infinite_count), (1, 2));
-        assert_eq!(ChannelReport::of("Z", "float", [f64::INFINITY]).mean, None);
+        assert_eq!(ChannelReport::new("Z", "float", [f64::INFINITY]).mean, None);
     }
 
     #[test]
@@ -195,7 +195,7 @@ mod tests {
         for scale in [1e-9_f32, 1.0, 1e12] {
             let mut values: Vec<f32> = (1..=100).map(|i| i as f32 * scale).collect();
             values[99] = 1e6 * scale;
-            let preview = Preview::of_grey(100, 1, &values);
+            let preview = Preview::from_grey(100, 1, &values);
             assert_eq!(preview.rgb[98], [255; 3], "rank 98 of 0 to 99 is the 99th percentile");
             assert!(preview.rgb[97][0] < 255 && preview.rgb[49][0] > 180);
         }
@@ -203,8 +203,8 @@ mod tests {
 
     #[test]
     fn darkness_and_what_is_not_finite_have_their_colours() {
-        assert_eq!(Preview::of_grey(1, 1, &[0.0]).rgb, [[0; 3]]);
-        assert_eq!(Preview::of_grey(3, 1, &[f32::NAN, f32::INFINITY, 2.0]).rgb, [NAN_COLOUR, [255; 3], [255; 3]]);
-        assert_eq!(Preview::of_grey(2, 1, &[-5.0, 1.0]).rgb, [[0; 3], [255; 3]]);
+        assert_eq!(Preview::from_grey(1, 1, &[0.0]).rgb, [[0; 3]]);
+        assert_eq!(Preview::from_grey(3, 1, &[f32::NAN, f32::INFINITY, 2.0]).rgb, [NAN_COLOUR, [255; 3], [255; 3]]);
+        assert_eq!(Preview::from_grey(2, 1, &[-5.0, 1.0]).rgb, [[0; 3], [255; 3]]);
     }
 }

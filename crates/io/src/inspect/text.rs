@@ -29,7 +29,7 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     }
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let values = mesh.positions.iter().map(|p| f64::from(p[axis]) + mesh.origin[axis]);
-        report.channels.push(ChannelReport::of(&format!("{name} (file units)"), "float", values));
+        report.channels.push(ChannelReport::new(&format!("{name} (file units)"), "float", values));
     }
     report.notes.extend(mesh.report.into_iter().chain(mesh.warnings).chain(mesh.missing_libraries));
     Ok(report)
@@ -95,8 +95,8 @@ fn index(file: &Path) -> Result<FileReport, Error> {
     if let (Some(first), Some(last)) = (table.points.first(), table.points.last()) {
         report.state("wavelengths", format!("{} to {} nm, {} points", first.0, last.0, table.points.len()));
     }
-    report.channels.push(ChannelReport::of("n", "text", table.points.iter().map(|p| p.1)));
-    report.channels.push(ChannelReport::of("k", "text", table.points.iter().map(|p| p.2)));
+    report.channels.push(ChannelReport::new("n", "text", table.points.iter().map(|p| p.1)));
+    report.channels.push(ChannelReport::new("k", "text", table.points.iter().map(|p| p.2)));
     Ok(report)
 }
 
@@ -105,7 +105,7 @@ fn retro(file: &Path) -> Result<FileReport, Error> {
     let mut report = FileReport::new(file, "coefficients of retroreflection, CSV");
     report.state("observation angles", format!("{:?}°", table.observation_deg));
     report.state("entrance angles", format!("{:?}°", table.entrance_deg));
-    report.channels.push(ChannelReport::of("R_A (cd/lx/m2)", "text", table.coefficients.iter().copied()));
+    report.channels.push(ChannelReport::new("R_A (cd/lx/m2)", "text", table.coefficients.iter().copied()));
     Ok(report)
 }
 
@@ -116,6 +116,6 @@ fn spectrum(file: &Path) -> Result<FileReport, Error> {
     if let (Some((low, _)), Some((high, _))) = (first, last) {
         report.state("wavelengths", format!("{low} to {high} nm, {} points", spectrum.points.len()));
     }
-    report.channels.push(ChannelReport::of("value", "text", spectrum.points.iter().map(|(_, v)| *v)));
+    report.channels.push(ChannelReport::new("value", "text", spectrum.points.iter().map(|(_, v)| *v)));
     Ok(report)
 }

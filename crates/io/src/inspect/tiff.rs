@@ -13,7 +13,7 @@ pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     report.state("size", format!("{} x {} pixels", photograph.width, photograph.height));
     for channel in &photograph.channels {
         let values = channel.samples.iter().map(|v| f64::from(*v));
-        report.channels.push(ChannelReport::of(&channel.name, stored_as(&photograph), values));
+        report.channels.push(ChannelReport::new(&channel.name, stored_as(&photograph), values));
     }
     report.preview = Some(preview(&photograph));
     Ok(report)
@@ -41,7 +41,7 @@ fn preview(photograph: &Photograph) -> Preview {
             let byte = |v: f32| (f64::from(v) * 255.0 / full).round() as u8;
             Preview { width, height, rgb: rgb.iter().map(|p| p.map(byte)).collect() }
         }
-        _ => Preview::of_linear(width, height, &rgb),
+        _ => Preview::from_linear(width, height, &rgb),
     }
 }
 
@@ -59,13 +59,13 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_told_as_they_are_and_exposed_for_the_picture() {
+    fn numbers_are_reported_as_stored_and_scaled_for_the_preview() {
         let bytes = grey16(&[100, 100, 300, 300]);
-        let found = report(Path::new("raw.0000.tif"), &bytes).expect("grey");
-        assert_eq!((found.kind.as_str(), found.channels[0].stored_as.as_str()), ("image, TIFF", "16 bit"));
-        assert_eq!((found.channels[0].min, found.channels[0].mean), (Some(100.0), Some(200.0)));
+        let actual = report(Path::new("raw.0000.tif"), &bytes).expect("grey");
+        assert_eq!((actual.kind.as_str(), actual.channels[0].stored_as.as_str()), ("image, TIFF", "16 bit"));
+        assert_eq!((actual.channels[0].min, actual.channels[0].mean), (Some(100.0), Some(200.0)));
         // A third of the brightest, 1/3 encoded after IEC 61966-2-1.
-        let preview = found.preview.expect("a picture");
+        let preview = actual.preview.expect("a picture");
         assert_eq!((preview.rgb[0], preview.rgb[3]), ([156; 3], [255; 3]));
         assert_eq!(report(Path::new("raw.0000.DNG"), &bytes).expect("grey").kind, "raw, DNG");
     }

@@ -2,17 +2,17 @@
 
 use etendue_scene::asset::{LensNumbers, LensTableAsset};
 
-use super::listing::{FieldUnit, Listing, Table, wavelength_nm};
+use super::listing::{FieldUnit, Listing, ListingTable, wavelength_nm};
 use crate::Error;
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
-    if !["relative illumination", "rel. ill"].iter().any(|words| listing.speaks_of(words)) {
-        return Err(listing.fault(0, "not an export of relative illumination: its header does not mention it"));
+    if !["relative illumination", "rel. ill"].iter().any(|words| listing.header_contains(words)) {
+        return Err(listing.error(0, "not an export of relative illumination: its header does not mention it"));
     }
     let [table] = &listing.tables[..] else {
         let second = listing.tables[1].rows[0].line;
         return Err(
-            listing.fault(second, "contains a second table; export one wavelength and one direction from the axis")
+            listing.error(second, "contains a second table; export one wavelength and one direction from the axis")
         );
     };
     let numbers = match listing.unit_of(table)? {
@@ -37,7 +37,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
 }
 
 /// Absolute field, and ratio.
-fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, Error> {
+fn points(listing: &Listing<'_>, table: &ListingTable<'_>) -> Result<Vec<(f64, f64)>, Error> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for (field, row) in listing.rows_from_axis(table)? {
         let ratio = row.numbers[1];
@@ -50,7 +50,7 @@ fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, E
             _ => None,
         };
         if let Some(wrong) = wrong {
-            return Err(listing.fault(row.line, wrong));
+            return Err(listing.error(row.line, wrong));
         }
         points.push((field, ratio));
     }

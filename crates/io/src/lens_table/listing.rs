@@ -19,25 +19,25 @@ pub(super) struct Listing<'a> {
     /// Non-empty lines before the first table, with their numbers from 1.
     pub(super) head: Vec<(usize, &'a str)>,
     /// Tables, at least one.
-    pub(super) tables: Vec<Table<'a>>,
+    pub(super) tables: Vec<ListingTable<'a>>,
 }
 
 /// Consecutive rows of numbers.
-pub(super) struct Table<'a> {
+pub(super) struct ListingTable<'a> {
     /// Lines between the previous table and this one.
     pub(super) above: Vec<(usize, &'a str)>,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<ListingRow>,
 }
 
 /// A row of numbers.
-pub(super) struct Row {
+pub(super) struct ListingRow {
     pub(super) line: usize,
     pub(super) numbers: Vec<f64>,
 }
 
 impl<'a> Listing<'a> {
     pub(super) fn read(file: &'a Path, text: &'a str) -> Result<Self, Error> {
-        let mut tables: Vec<Table<'a>> = Vec::new();
+        let mut tables: Vec<ListingTable<'a>> = Vec::new();
         let (mut above, mut in_table) = (Vec::new(), false);
         for (index, line) in text.lines().enumerate() {
             let (number, line) = (index + 1, line.trim());
@@ -51,19 +51,19 @@ impl<'a> Listing<'a> {
                 }
                 Some(numbers) => {
                     if !in_table {
-                        tables.push(Table { above: std::mem::take(&mut above), rows: Vec::new() });
+                        tables.push(ListingTable { above: std::mem::take(&mut above), rows: Vec::new() });
                         in_table = true;
                     }
                     let rows = &mut tables.last_mut().expect("one was begun").rows;
                     if let Some(first) = rows.first().filter(|first| first.numbers.len() != numbers.len()) {
-                        let (found, before) = (numbers.len(), first.numbers.len());
-                        let message = format!("found {found} numbers; expected {before} as in the rows before");
+                        let (count, before) = (numbers.len(), first.numbers.len());
+                        let message = format!("found {count} numbers; expected {before} as in the rows before");
                         return Err(Error::at(file, number, message));
                     }
                     if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
                         return Err(Error::at(file, number, format!("found {wrong}; expected finite numbers")));
                     }
-                    rows.push(Row { line: number, numbers });
+                    rows.push(ListingRow { line: number, numbers });
                 }
             }
         }
@@ -79,17 +79,17 @@ impl<'a> Listing<'a> {
         Ok(Self { file, head, tables })
     }
 
-    pub(super) fn fault(&self, line: usize, what: impl Into<Problem>) -> Error {
+    pub(super) fn error(&self, line: usize, what: impl Into<Problem>) -> Error {
         if line == 0 { Error::new(self.file, what) } else { Error::at(self.file, line, what) }
     }
 
     /// Returns true if a line of the header contains a word, in lower case.
-    pub(super) fn speaks_of(&self, word: &str) -> bool {
+    pub(super) fn header_contains(&self, word: &str) -> bool {
         self.head.iter().any(|(_, line)| line.to_lowercase().contains(word))
     }
 
     /// Number after a colon or an equals sign in a line above a table, else of the header, that contains these words in lower case.
-    pub(super) fn stated(&self, table: &Table<'_>, words: &str) -> Option<f64> {
+    pub(super) fn stated(&self, table: &ListingTable<'_>, words: &str) -> Option<f64> {
         let value = |line: &str| {
             let (name, value) = line.split_once([':', '='])?;
             let number = value.split_whitespace().next().filter(|_| name.to_lowercase().contains(words))?;
@@ -99,36 +99,36 @@ impl<'a> Listing<'a> {
     }
 
     /// Rows of a table by absolute distance from the axis, whichever side the fields lie on: the first is the axis, and distances increase.
-    pub(super) fn rows_from_axis<'t>(&self, table: &'t Table<'_>) -> Result<Vec<(f64, &'t Row)>, Error> {
+    pub(super) fn rows_from_axis<'t>(&self, table: &'t ListingTable<'_>) -> Result<Vec<(f64, &'t ListingRow)>, Error> {
         let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
-        let mut made: Vec<(f64, &Row)> = Vec::new();
+        let mut ordered: Vec<(f64, &ListingRow)> = Vec::new();
         for row in &table.rows {
             let field = row.numbers[0] * side;
-            let wrong = match made.last() {
+            let wrong = match ordered.last() {
                 None if field != 0.0 => format!("the first field is {field}; expected 0, the axis"),
                 Some((before, _)) if field <= *before => {
                     format!("the field {field} follows {before}; expected increasing distances from the axis")
                 }
                 _ => {
-                    made.push((field, row));
+                    ordered.push((field, row));
                     continue;
                 }
             };
-            return Err(self.fault(row.line, wrong));
+            return Err(self.error(row.line, wrong));
         }
-        Ok(made)
+        Ok(ordered)
     }
 
     /// Unit of the fields of a table, whose titles are directly above it.
-    pub(super) fn unit_of(&self, table: &Table<'_>) -> Result<FieldUnit, Error> {
+    pub(super) fn unit_of(&self, table: &ListingTable<'_>) -> Result<FieldUnit, Error> {
         let titles = table.above.last().copied();
         let stated = self.head.iter().copied().filter(|(_, line)| line.to_lowercase().starts_with("field"));
         for (number, line) in stated.chain(titles) {
             let line = line.to_lowercase();
             if line.contains("object height") {
-                let told = "the fields are object heights, which do not determine a direction or image position; export with fields as angles or \
+                let problem = "the fields are object heights, which do not determine a direction or image position; export with fields as angles or \
                     image heights";
-                return Err(self.fault(number, told));
+                return Err(self.error(number, problem));
             }
             let has = |words: &[&str]| words.iter().any(|word| line.contains(word));
             if has(&["deg"]) {
@@ -136,14 +136,14 @@ impl<'a> Listing<'a> {
             }
             if has(&["inch", "centimet", "(cm", "(in)", "in inch", "(m)"]) {
                 return Err(
-                    self.fault(number, "the fields are neither in degrees nor in mm; export with lens units of mm")
+                    self.error(number, "the fields are neither in degrees nor in mm; export with lens units of mm")
                 );
             }
             if has(&["millimet", "(mm", "in mm"]) {
                 return Ok(FieldUnit::Millimetres);
             }
         }
-        Err(self.fault(
+        Err(self.error(
             titles.map_or(0, |(number, _)| number),
             "the header does not state the unit of the fields; expected a line such as \"Field values are in degrees\" or \"... in millimeters\"",
         ))

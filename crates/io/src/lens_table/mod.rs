@@ -37,7 +37,7 @@ pub fn read_lens_table(file: &Path, quantity: LensQuantity) -> Result<LensTableA
         LensQuantity::Distortion => distortion::read(&listing)?,
         LensQuantity::Modulation => modulation::read(&listing)?,
     };
-    table.hash = hash::of_bytes(&bytes);
+    table.hash = hash::hash_bytes(&bytes);
     Ok(table)
 }
 
@@ -49,6 +49,6 @@ pub fn read_point_spread(file: &Path) -> Result<PointSpreadAsset, Error> {
     let bytes = read_bytes(file, "point spread")?;
     let text = decode_lens_text(file, &bytes)?;
     let mut spread = point_spread::read(&Listing::read(file, &text)?)?;
-    spread.hash = hash::of_bytes(&bytes);
+    spread.hash = hash::hash_bytes(&bytes);
     Ok(spread)
 }

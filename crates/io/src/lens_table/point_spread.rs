@@ -21,7 +21,7 @@
 
 use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
 
-use super::listing::{Listing, Table};
+use super::listing::{Listing, ListingTable};
 use crate::Error;
 
 /// Ratio of border to largest value from which on a note states that the listing is truncated.
@@ -35,18 +35,18 @@ enum Analysis {
 }
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
-    let analysis = match ["huygens psf", "fft psf"].map(|words| listing.speaks_of(words)) {
+    let analysis = match ["huygens psf", "fft psf"].map(|words| listing.header_contains(words)) {
         [true, _] => Analysis::Huygens,
         [_, true] => Analysis::Fft,
         _ => {
-            let told =
+            let problem =
                 "not a listing of a point-spread function: its header mentions neither \"Huygens PSF\" nor \"FFT PSF\"";
-            return Err(listing.fault(0, told));
+            return Err(listing.error(0, problem));
         }
     };
     let [table] = &listing.tables[..] else {
         let second = listing.tables[1].rows[0].line;
-        return Err(listing.fault(second, "contains a second table; export one field position per file"));
+        return Err(listing.error(second, "contains a second table; export one field position per file"));
     };
     let mut notes = Vec::new();
     let [width, height] = size(listing, table)?;
@@ -64,39 +64,39 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
 }
 
 /// Columns and rows, checked against the header.
-fn size(listing: &Listing<'_>, table: &Table<'_>) -> Result<[usize; 2], Error> {
-    let found = [table.rows[0].numbers.len(), table.rows.len()];
-    let stated = said(listing, "image grid size").map(|(line, text)| (line, numbers(text)));
+fn size(listing: &Listing<'_>, table: &ListingTable<'_>) -> Result<[usize; 2], Error> {
+    let actual = [table.rows[0].numbers.len(), table.rows.len()];
+    let stated = head_entry(listing, "image grid size").map(|(line, text)| (line, numbers(text)));
     match stated {
-        Some((line, stated)) if stated.len() == 2 && stated != found.map(|n| n as f64) => {
+        Some((line, stated)) if stated.len() == 2 && stated != actual.map(|n| n as f64) => {
             let message = format!(
                 "the header states {} by {} samples, but the file has {} rows of {}; save the whole listing",
-                stated[0], stated[1], found[1], found[0]
+                stated[0], stated[1], actual[1], actual[0]
             );
-            Err(listing.fault(line, message))
+            Err(listing.error(line, message))
         }
-        _ => Ok(found),
+        _ => Ok(actual),
     }
 }
 
 /// Shortest and longest wavelength, nm, and the field: "0.4861 to 0.6563 µm at 0.0000, 14.0000 (deg).".
 fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
     let named = |text: &str| ["file", "title", "date"].iter().any(|word| text.to_lowercase().starts_with(word));
-    let told = listing.head.iter().filter(|(_, text)| !named(text));
-    let lines = told.filter_map(|(line, text)| Some((*line, text.split_once(" at ")?)));
+    let remaining = listing.head.iter().filter(|(_, text)| !named(text));
+    let lines = remaining.filter_map(|(line, text)| Some((*line, text.split_once(" at ")?)));
     let stated = lines.map(|(line, (light, field))| (line, numbers(light), light, numbers(field), field));
     let Some((line, light, unit, field, words)) = stated
         .into_iter()
         .find(|(_, light, _, field, _)| (1..=2).contains(&light.len()) && (1..=2).contains(&field.len()))
     else {
-        let told = "its header does not state wavelength and field; expected a line such as \"0.5500 µm at 0.0000, 14.0000 (deg).\"";
-        return Err(listing.fault(0, told));
+        let problem = "its header does not state wavelength and field; expected a line such as \"0.5500 µm at 0.0000, 14.0000 (deg).\"";
+        return Err(listing.error(0, problem));
     };
     let um =
-        length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is not in a unit of length; expected µm"))?;
+        length_um(unit).ok_or_else(|| listing.error(line, "the wavelength is not in a unit of length; expected µm"))?;
     let nm = [light[0], light[light.len() - 1]].map(|value| (value * um * 1e9).round() / 1e6);
     if !nm.iter().all(|nm| (100.0..20_000.0).contains(nm)) || nm[0] > nm[1] {
-        return Err(listing.fault(
+        return Err(listing.error(
             line,
             format!("found wavelengths from {} to {} nm; expected 100 … 20 000 nm, increasing", nm[0], nm[1]),
         ));
@@ -109,22 +109,22 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
     } else if words.contains("mm") || words.contains("millimet") {
         FieldPoint::Millimetres(at)
     } else {
-        let told = "the field is neither in degrees nor in mm; export with fields as angles or image heights";
-        return Err(listing.fault(line, told));
+        let problem = "the field is neither in degrees nor in mm; export with fields as angles or image heights";
+        return Err(listing.error(line, problem));
     };
     Ok((nm, field))
 }
 
 fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
-    let Some((line, text)) = said(listing, "data spacing") else {
-        return Err(listing.fault(
+    let Some((line, text)) = head_entry(listing, "data spacing") else {
+        return Err(listing.error(
             0,
             "its header does not state the sample spacing; expected a line such as \"Data spacing is 0.250 µm.\"",
         ));
     };
     let spacing = numbers(text).first().copied().zip(length_um(text)).map(|(number, um)| number * um);
     spacing.filter(|um| um.is_finite() && *um > 0.0).ok_or_else(|| {
-        listing.fault(
+        listing.error(
             line,
             "the sample spacing is not a length above 0 on the sensor; expected µm, of a lens that forms an image",
         )
@@ -133,7 +133,7 @@ fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
 
 /// Position of the point on the sensor.
 fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> {
-    let (_, text) = said(listing, "center coordinates").or_else(|| said(listing, "reference coordinates"))?;
+    let (_, text) = head_entry(listing, "center coordinates").or_else(|| head_entry(listing, "reference coordinates"))?;
     let unit = lens_unit_mm(text);
     if unit.is_none() {
         notes.push("its coordinates on the sensor are assumed to be in mm".to_owned());
@@ -151,44 +151,44 @@ fn point(
     [width, height]: [usize; 2],
     notes: &mut Vec<String>,
 ) -> Result<[usize; 2], Error> {
-    let Some((line, text)) = said(listing, "center point") else {
+    let Some((line, text)) = head_entry(listing, "center point") else {
         notes.push("no centre is stated: the middle sample is used, as in listings that state one".to_owned());
         return Ok(match analysis {
             Analysis::Huygens => [width / 2, (height - 1) / 2],
             Analysis::Fft => [(width - 1) / 2, height / 2],
         });
     };
-    let whole = |value: f64, most: usize| (1..=most).find(|index| *index as f64 == value);
+    let index_of = |value: f64, max: usize| (1..=max).find(|index| *index as f64 == value);
     let by_name = text.to_lowercase().contains("row");
-    let found = match numbers(text)[..] {
-        [row, column] if by_name => whole(column, width).zip(whole(row, height)),
-        [column, row] => whole(column, width).zip(whole(row, height).map(|row| height + 1 - row)),
+    let position = match numbers(text)[..] {
+        [row, column] if by_name => index_of(column, width).zip(index_of(row, height)),
+        [column, row] => index_of(column, width).zip(index_of(row, height).map(|row| height + 1 - row)),
         _ => None,
     };
-    let told = || {
-        listing.fault(
+    let problem = || {
+        listing.error(
             line,
             format!("the centre is not one of the {width} by {height} samples; expected whole numbers from 1"),
         )
     };
-    found.map(|(column, row)| [column - 1, row - 1]).ok_or_else(told)
+    position.map(|(column, row)| [column - 1, row - 1]).ok_or_else(problem)
 }
 
-fn light(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<f32>, Error> {
-    if let Some((line, text)) = said(listing, "values are").filter(|(_, text)| text.to_lowercase().contains("log")) {
-        return Err(listing.fault(line, format!("found \"Values are{text}\"; export with the type \"Linear\"")));
+fn light(listing: &Listing<'_>, table: &ListingTable<'_>) -> Result<Vec<f32>, Error> {
+    if let Some((line, text)) = head_entry(listing, "values are").filter(|(_, text)| text.to_lowercase().contains("log")) {
+        return Err(listing.error(line, format!("found \"Values are{text}\"; export with the type \"Linear\"")));
     }
     let mut light = Vec::with_capacity(table.rows.len() * table.rows[0].numbers.len());
     for row in &table.rows {
         if let Some(wrong) = row.numbers.iter().find(|value| **value < 0.0) {
             return Err(
-                listing.fault(row.line, format!("found the value {wrong}; expected 0 or more (the type \"Linear\")"))
+                listing.error(row.line, format!("found the value {wrong}; expected 0 or more (the type \"Linear\")"))
             );
         }
         light.extend(row.numbers.iter().map(|value| *value as f32));
     }
     if light.iter().all(|value| *value == 0.0) {
-        return Err(listing.fault(table.rows[0].line, "all values are 0; expected values above 0"));
+        return Err(listing.error(table.rows[0].line, "all values are 0; expected values above 0"));
     }
     Ok(light)
 }
@@ -196,10 +196,10 @@ fn light(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<f32>, Error> {
 /// Adds notes on missing light, and on samples that disagree with the header.
 fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAsset {
     let (width, height) = (asset.width, asset.light.len() / asset.width);
-    let (mut sum, mut centroid, mut most, mut border) = (0.0, [0.0; 2], 0.0_f32, 0.0_f32);
+    let (mut sum, mut centroid, mut peak, mut border) = (0.0, [0.0; 2], 0.0_f32, 0.0_f32);
     for (i, light) in asset.light.iter().enumerate() {
         let (x, y) = (i % width, i / width);
-        most = most.max(*light);
+        peak = peak.max(*light);
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
             border = border.max(*light);
         }
@@ -208,22 +208,22 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
         centroid[0] += light * (x as f64 - asset.point[0] as f64);
         centroid[1] += light * (asset.point[1] as f64 - y as f64);
     }
-    let border = f64::from(border / most);
+    let border = f64::from(border / peak);
     if border > CUT_OFF {
         asset.notes.push(format!(
             "the value at its border is {:.1} % of the maximum: light beyond the border is omitted",
             100.0 * border
         ));
     }
-    let found = centroid.map(|moment| moment / sum * asset.spacing_um);
-    let stated = said(listing, "centroid offset").map(|(_, text)| (numbers(text), lens_unit_mm(text).unwrap_or(1.0)));
+    let computed = centroid.map(|moment| moment / sum * asset.spacing_um);
+    let stated = head_entry(listing, "centroid offset").map(|(_, text)| (numbers(text), lens_unit_mm(text).unwrap_or(1.0)));
     if let Some((stated, mm)) = stated.filter(|(stated, _)| stated.len() == 2) {
         let stated = [stated[0], stated[1]].map(|value| value * mm * 1e3);
-        if found.iter().zip(stated).any(|(found, stated)| (found - stated).abs() > asset.spacing_um) {
+        if computed.iter().zip(stated).any(|(coordinate, stated)| (coordinate - stated).abs() > asset.spacing_um) {
             asset.notes.push(format!(
                 "the centroid is {:.2}, {:.2} µm from the centre, but the header states {:.2}, {:.2} µm: the order of the rows may differ from the \
                  expected one",
-                found[0], found[1], stated[0], stated[1]
+                computed[0], computed[1], stated[0], stated[1]
             ));
         }
     }
@@ -231,7 +231,7 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
 }
 
 /// Header line that begins with some words, in lower case, and the text after them.
-fn said<'a>(listing: &Listing<'a>, words: &str) -> Option<(usize, &'a str)> {
+fn head_entry<'a>(listing: &Listing<'a>, words: &str) -> Option<(usize, &'a str)> {
     listing.head.iter().find_map(|(line, text)| {
         let begins = text.get(..words.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(words));
         begins.then(|| (*line, &text[words.len()..]))

@@ -7,7 +7,7 @@ use etendue_scene::asset::{MeshAsset, MeshFrameAsset, MeshFramePart, is_gltf};
 use super::obj::{Obj, scan};
 use super::ply::{is_ply, read_ply};
 use super::polygon::{newell, triangulate};
-use super::slot::{Slots, slots};
+use super::slot::{MaterialSlots, slots};
 use super::vertex::{middle_of_far, relative, unit};
 use super::{gltf::read_gltf, texture_option::UvLayout};
 use crate::source::{decode_text, name_notes, read_bytes};
@@ -31,19 +31,19 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
     }
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
-    let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj, sandbox)?;
+    let MaterialSlots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj, sandbox)?;
     let parts = obj.parts(file)?;
     let coordinates =
         |axis| parts.iter().flat_map(move |p: &tobj::Mesh| p.positions.iter().skip(axis).step_by(3).copied());
-    let mut builder = Builder::new(&parts, middle_of_far(coordinates));
+    let mut builder = ObjMeshBuilder::new(&parts, middle_of_far(coordinates));
     for part in &parts {
         let slot = part.material_id.unwrap_or(0); // without a `usemtl`: the first slot, which has no name
         builder
             .part(part, slot as u16, &layouts[slot])
-            .map_err(|told| Error::at(file, obj.input.line_of_face(builder.faces), told))?;
+            .map_err(|problem| Error::at(file, obj.input.line_of_face(builder.faces), problem))?;
     }
     let mut mesh = builder.finish();
-    mesh.hash = hash::of_parts(std::iter::once(&bytes).chain(&library_bytes).map(Vec::as_slice));
+    mesh.hash = hash::hash_parts(std::iter::once(&bytes).chain(&library_bytes).map(Vec::as_slice));
     if !bytes.ends_with(b"\n") {
         mesh.report.push("the last line has no line end: the file may be truncated".to_owned());
     }
@@ -57,7 +57,7 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
 
 /// Mesh under construction.
 #[derive(Default)]
-struct Builder {
+struct ObjMeshBuilder {
     has_normals: bool,
     has_uvs: bool,
     mesh: MeshAsset,
@@ -68,7 +68,7 @@ struct Builder {
     bare_corners: usize,
 }
 
-impl Builder {
+impl ObjMeshBuilder {
     fn new(parts: &[tobj::Mesh], origin: [f64; 3]) -> Self {
         Self {
             mesh: MeshAsset { origin, ..MeshAsset::default() },
@@ -105,7 +105,7 @@ impl Builder {
     fn polygon(&mut self, part: &tobj::Mesh, layout: &UvLayout, corners: &[u32]) -> Result<(), String> {
         let positions = part.positions.as_chunks().0;
         let polygon: Vec<[f64; 3]> = corners.iter().map(|&i| positions[i as usize]).collect();
-        let triangles = triangulate(&polygon).map_err(|fault| fault.of(corners.len()))?;
+        let triangles = triangulate(&polygon).map_err(|error| error.message(corners.len()))?;
         let facing = LazyCell::new(|| newell(&polygon));
         let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &facing)).collect();
         self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
@@ -147,7 +147,7 @@ impl Builder {
             (self.flat_corners, "without a usable normal use that of their face"),
             (self.bare_corners, "without texture coordinates use u = v = 0"),
         ];
-        mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, told)| format!("{n} vertices {told}")));
+        mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, note)| format!("{n} vertices {note}")));
         mesh
     }
 }
@@ -171,12 +171,12 @@ pub fn read_mesh_frame(file: &Path) -> Result<MeshFrameAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
     let parts: Vec<MeshFramePart> =
-        obj.parts_by_corners(file)?.into_iter().map(|part| part_of(part, &obj.materials)).collect();
+        obj.parts_by_corners(file)?.into_iter().map(|part| frame_part(part, &obj.materials)).collect();
     let triangles = triangles(&parts);
-    Ok(MeshFrameAsset { parts, vertices: obj.counts[0], triangles, hash: hash::of_bytes(&bytes) })
+    Ok(MeshFrameAsset { parts, vertices: obj.counts[0], triangles, hash: hash::hash_bytes(&bytes) })
 }
 
-fn part_of(part: tobj::Mesh, materials: &[String]) -> MeshFramePart {
+fn frame_part(part: tobj::Mesh, materials: &[String]) -> MeshFramePart {
     let corners = part.indices.len();
     // tobj states the numbers of corners unless all are triangles.
     let arities = if part.face_arities.is_empty() { vec![3; corners / 3] } else { part.face_arities };

@@ -10,10 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::{cmp::Ordering, rc::Rc};
 
 /// A point.
-pub(super) type Point = [f64; 2];
+pub(super) type Point2 = [f64; 2];
 
 /// Twice the signed area of a triangle, positive counter-clockwise.
-pub(super) fn turn(a: Point, b: Point, c: Point) -> f64 {
+pub(super) fn turn(a: Point2, b: Point2, c: Point2) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
@@ -22,7 +22,7 @@ const LEAF: usize = 8;
 
 /// Binary tree of boxes over points that supports removal.
 pub(super) struct CornerTree<'p> {
-    points: &'p [Point],
+    points: &'p [Point2],
     /// Points in the order of leaves.
     order: Vec<usize>,
     /// Position of each point in `order`.
@@ -34,21 +34,21 @@ pub(super) struct CornerTree<'p> {
 
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
-    low: Point,
-    high: Point,
+    low: Point2,
+    high: Point2,
 }
 
 impl Bounds {
     const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
     fn around(self, other: Self) -> Self {
-        let pick = |of: fn(f64, f64) -> f64, a: Point, b: Point| [of(a[0], b[0]), of(a[1], b[1])];
+        let pick = |choose: fn(f64, f64) -> f64, a: Point2, b: Point2| [choose(a[0], b[0]), choose(a[1], b[1])];
         Self { low: pick(f64::min, self.low, other.low), high: pick(f64::max, self.high, other.high) }
     }
 
     /// Returns true if every point of the box is to the right of the line from `a` to `b`. The rounding of [`turn`] keeps the order of points, so no point of
     /// the box is to the left by it.
-    fn is_right_of(&self, a: Point, b: Point) -> bool {
+    fn is_right_of(&self, a: Point2, b: Point2) -> bool {
         let x = if b[1] >= a[1] { self.low[0] } else { self.high[0] };
         let y = if b[0] >= a[0] { self.high[1] } else { self.low[1] };
         turn(a, b, [x, y]) < 0.0
@@ -56,7 +56,7 @@ impl Bounds {
 }
 
 impl<'p> CornerTree<'p> {
-    pub(super) fn new(points: &'p [Point]) -> Self {
+    pub(super) fn new(points: &'p [Point2]) -> Self {
         let leaves = points.len().div_ceil(LEAF).next_power_of_two();
         let mut tree = Self {
             points,
@@ -144,32 +144,32 @@ impl<'p> CornerTree<'p> {
             }
             if node < self.leaves() {
                 nodes.extend([2 * node, 2 * node + 1]);
-            } else if let Some(found) = self.inside_leaf(node - self.leaves(), triangle) {
-                return Some(found);
+            } else if let Some(corner) = self.inside_leaf(node - self.leaves(), triangle) {
+                return Some(corner);
             }
         }
         None
     }
 
-    fn inside_leaf(&self, leaf: usize, [a, b, c]: [Point; 3]) -> Option<usize> {
+    fn inside_leaf(&self, leaf: usize, [a, b, c]: [Point2; 3]) -> Option<usize> {
         let holds =
-            |p: Point| ![a, b, c].contains(&p) && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+            |p: Point2| ![a, b, c].contains(&p) && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         let mut points = self.order[self.start(leaf)..self.start(leaf + 1)].iter().copied();
         points.find(|&i| self.is_left[i] && holds(self.points[i]))
     }
 }
 
 /// Triangles of a counter-clockwise polygon whose edges do not cross; `None` if several corners remain and none can be cut off.
-pub(super) fn clip_ears(flat: &[Point]) -> Option<Vec<[usize; 3]>> {
+pub(super) fn clip_ears(flat: &[Point2]) -> Option<Vec<[usize; 3]>> {
     let n = flat.len();
-    let mut outline = Outline {
+    let mut outline = PolygonOutline {
         flat,
         before: (0..n).map(|i| (i + n - 1) % n).collect(),
         after: (0..n).map(|i| (i + 1) % n).collect(),
         tree: CornerTree::new(flat),
         is_left: vec![true; n],
         ears: BTreeSet::new(),
-        waiting: vec![Waiting::default(); n],
+        waiting: vec![BlockedCorners::default(); n],
         twins: twins(flat),
     };
     (0..n).for_each(|corner| outline.look_at(corner));
@@ -183,8 +183,8 @@ pub(super) fn clip_ears(flat: &[Point]) -> Option<Vec<[usize; 3]>> {
 }
 
 /// Remaining outline of a polygon.
-struct Outline<'p> {
-    flat: &'p [Point],
+struct PolygonOutline<'p> {
+    flat: &'p [Point2],
     before: Vec<usize>,
     after: Vec<usize>,
     tree: CornerTree<'p>,
@@ -192,14 +192,14 @@ struct Outline<'p> {
     /// Corners that can be cut off; those between two coinciding corners come first: the rest of an outline that touches itself has no inside there.
     ears: BTreeSet<(bool, usize)>,
     /// For each corner, the corners that it blocks.
-    waiting: Vec<Waiting>,
+    waiting: Vec<BlockedCorners>,
     /// For each corner that coincides with others, the group of them.
     twins: BTreeMap<usize, Rc<[usize]>>,
 }
 
 /// Corners blocked by one corner.
 #[derive(Clone, Debug, Default)]
-struct Waiting {
+struct BlockedCorners {
     /// Blocked by its position.
     place: Vec<usize>,
     /// Blocked by the direction of its edges; they coincide with it.
@@ -207,7 +207,7 @@ struct Waiting {
 }
 
 /// Groups of coinciding corners, for each of them.
-fn twins(flat: &[Point]) -> BTreeMap<usize, Rc<[usize]>> {
+fn twins(flat: &[Point2]) -> BTreeMap<usize, Rc<[usize]>> {
     let mut order: Vec<usize> = (0..flat.len()).collect();
     let by_place = |&i: &usize, &j: &usize| flat[i].partial_cmp(&flat[j]).unwrap_or(Ordering::Equal).then(i.cmp(&j));
     order.sort_by(by_place);
@@ -219,7 +219,7 @@ fn twins(flat: &[Point]) -> BTreeMap<usize, Rc<[usize]>> {
     groups.flat_map(of_each).collect()
 }
 
-impl Outline<'_> {
+impl PolygonOutline<'_> {
     /// Cuts the first ear off.
     fn clip(&mut self) -> Option<[usize; 3]> {
         let (_, tip) = self.ears.pop_first()?;
@@ -227,9 +227,9 @@ impl Outline<'_> {
         self.is_left[tip] = false;
         self.tree.remove(tip);
         (self.after[before], self.before[after]) = (after, before);
-        let Waiting { place, edges } = std::mem::take(&mut self.waiting[tip]);
-        let beside = [before, after].map(|corner| std::mem::take(&mut self.waiting[corner].edges));
-        let changed = place.into_iter().chain(edges).chain(beside.concat()).chain([before, after]);
+        let BlockedCorners { place, edges } = std::mem::take(&mut self.waiting[tip]);
+        let neighbours = [before, after].map(|corner| std::mem::take(&mut self.waiting[corner].edges));
+        let changed = place.into_iter().chain(edges).chain(neighbours.concat()).chain([before, after]);
         changed.for_each(|corner| self.look_at(corner));
         Some([before, tip, after])
     }

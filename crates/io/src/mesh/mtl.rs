@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{MtlFields, SlotMaterial};
 
-use super::statement::{Statement, TobjInput, statements};
+use super::statement::{ObjStatement, TobjInput, statements};
 use super::texture_option::{UvLayout, parse as parse_texture};
 use crate::Error;
 
@@ -32,9 +32,9 @@ pub(super) struct LibraryMaterial {
 /// Parses the text of `file`.
 pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
     let mut scan =
-        Scan { file, input: TobjInput::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
+        MtlScan { file, input: TobjInput::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
     for statement in statements(text) {
-        scan.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
+        scan.take(&statement).map_err(|problem| Error::at(file, statement.line, problem))?;
     }
     let (materials, _) = scan.input.read(file, |text| tobj::load_mtl_buf(text))?;
     let materials = materials.into_iter().zip(scan.places);
@@ -43,7 +43,7 @@ pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
 }
 
 /// Lines of a library: those given to tobj, and notes on unused ones.
-struct Scan<'a> {
+struct MtlScan<'a> {
     file: &'a Path,
     input: TobjInput,
     /// Materials in order, with `file:line` of their `newmtl`.
@@ -53,8 +53,8 @@ struct Scan<'a> {
     report: Vec<String>,
 }
 
-impl Scan<'_> {
-    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+impl MtlScan<'_> {
+    fn take(&mut self, statement: &ObjStatement<'_>) -> Result<(), String> {
         let place = format!("{}:{}", self.file.file_name().unwrap_or_default().to_string_lossy(), statement.line);
         if statement.keyword() == "newmtl" {
             return self.begin(statement, place);
@@ -70,7 +70,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn begin(&mut self, statement: &Statement<'_>, place: String) -> Result<(), String> {
+    fn begin(&mut self, statement: &ObjStatement<'_>, place: String) -> Result<(), String> {
         let name = statement.rest().to_owned();
         if let Some(first) = self.first.insert(name.clone(), place.clone()) {
             return Err(format!("material \"{name}\" is defined twice, first at {first}; rename one of them"));
@@ -82,7 +82,7 @@ impl Scan<'_> {
 }
 
 /// Checks a field. Returns the value for tobj, which panics at colours of fewer than three numbers, and notes on unused parts.
-fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), String> {
+fn field(statement: &ObjStatement<'_>) -> Result<(Option<String>, Vec<String>), String> {
     let (keyword, rest) = (statement.keyword(), statement.rest());
     let value = match keyword {
         "Kd" | "Ks" | "Ke" | "Ka" | "Tf" => numbers(statement, 3, f64::MAX)?,
@@ -102,7 +102,7 @@ fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), Str
 }
 
 /// `count` numbers from 0 to `high`, as text; a single number is repeated.
-fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String, String> {
+fn numbers(statement: &ObjStatement<'_>, count: usize, high: f64) -> Result<String, String> {
     let expected = match (count, high) {
         (3, _) => "three numbers of 0 or more".to_owned(),
         (_, f64::MAX) => "a number of 0 or more".to_owned(),
@@ -126,7 +126,7 @@ impl LibraryMaterial {
         let texture = material.diffuse_texture.as_deref().and_then(|text| parse_texture(text).ok());
         let fields = MtlFields {
             diffuse: material.diffuse,
-            diffuse_map: texture.as_ref().map(|t| beside(file, &t.file)),
+            diffuse_map: texture.as_ref().map(|t| sibling_path(file, &t.file)),
             specular: material.specular,
             exponent: material.shininess,
             index: material.optical_density,
@@ -150,7 +150,7 @@ impl LibraryMaterial {
 }
 
 /// `name` as meant in `file`: relative to its folder.
-pub(super) fn beside(file: &Path, name: &str) -> PathBuf {
+pub(super) fn sibling_path(file: &Path, name: &str) -> PathBuf {
     file.parent().unwrap_or(Path::new("")).join(name)
 }
 

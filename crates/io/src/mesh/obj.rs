@@ -9,7 +9,7 @@ use std::path::Path;
 
 use etendue_scene::limits::CORNERS;
 
-use super::statement::{Statement, TobjInput, statements};
+use super::statement::{ObjStatement, TobjInput, statements};
 use super::vertex::check_range;
 use crate::{Error, ErrorCode, Problem};
 
@@ -42,7 +42,7 @@ pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
     let mut obj = Obj::default();
     obj.input.push(0, "mtllib materials");
     for statement in statements(text) {
-        obj.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
+        obj.take(&statement).map_err(|problem| Error::at(file, statement.line, problem))?;
     }
     if let Some((kind, index, line)) = obj.ahead.iter().find(|(kind, index, _)| *index > obj.counts[*kind] as isize) {
         return Err(Error::at(file, *line, out_of_range(KINDS[*kind], *index, obj.counts[*kind])));
@@ -75,7 +75,7 @@ impl Obj {
         Ok(models.into_iter().map(|model| model.mesh).collect())
     }
 
-    fn take(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
+    fn take(&mut self, statement: &ObjStatement<'_>) -> Result<(), Problem> {
         let (line, rest) = (statement.line, statement.rest());
         match statement.keyword() {
             "v" => self.vertex(statement)?,
@@ -92,7 +92,7 @@ impl Obj {
         Ok(())
     }
 
-    fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
+    fn vertex(&mut self, statement: &ObjStatement<'_>) -> Result<(), Problem> {
         let numbers = statement.numbers()?;
         check_range(&numbers)?;
         match numbers[..] {
@@ -114,10 +114,10 @@ impl Obj {
     }
 
     /// Texture coordinates or a normal: given to tobj as `parts` if its numbers are finite. Too few numbers are left to tobj.
-    fn coordinates(&mut self, kind: usize, statement: &Statement<'_>, parts: &[&str]) -> Result<(), Problem> {
-        let found = statement.numbers()?.len();
-        if found > 3 {
-            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()).into());
+    fn coordinates(&mut self, kind: usize, statement: &ObjStatement<'_>, parts: &[&str]) -> Result<(), Problem> {
+        let count = statement.numbers()?.len();
+        if count > 3 {
+            return Err(format!("`{}` has {count} numbers, expected at most 3", statement.keyword()).into());
         }
         self.feed(kind, statement.line, parts);
         Ok(())
@@ -129,7 +129,7 @@ impl Obj {
         self.input.push_parts(line, parts);
     }
 
-    fn face(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
+    fn face(&mut self, statement: &ObjStatement<'_>) -> Result<(), Problem> {
         let (mut corners, mut form, mut is_even) = (0_usize, [false; 3], true);
         for word in statement.words() {
             let own = self.corner(word, statement.line)?;
@@ -147,10 +147,10 @@ impl Obj {
             .into());
         }
         let sum = u32::try_from(corners).ok().and_then(|n| self.corners.checked_add(n));
-        let most = CORNERS.most();
-        self.corners = sum.filter(|sum| u64::from(*sum) <= most).ok_or_else(|| {
-            let remedy = CORNERS.remedy(CORNERS.next(most));
-            let words = format!("the mesh has more than {most} corners of faces; split it, {remedy}");
+        let max = CORNERS.current();
+        self.corners = sum.filter(|sum| u64::from(*sum) <= max).ok_or_else(|| {
+            let remedy = CORNERS.remedy(CORNERS.suggested(max));
+            let words = format!("the mesh has more than {max} corners of faces; split it, {remedy}");
             Problem::new(ErrorCode::TooLarge, words)
         })?;
         if self.materials.is_empty() {
@@ -203,8 +203,8 @@ fn out_of_range(name: &str, stated: isize, count: usize) -> String {
     format!("the face refers to {name} {stated}, but there are {count}; the file is damaged or truncated")
 }
 
-fn wrong_count(keyword: &str, expected: &str, found: usize) -> Problem {
-    format!("`{keyword}` has {found}, expected {expected}; the line may be truncated").into()
+fn wrong_count(keyword: &str, expected: &str, actual: usize) -> Problem {
+    format!("`{keyword}` has {actual}, expected {expected}; the line may be truncated").into()
 }
 
 #[cfg(test)]

@@ -10,18 +10,18 @@ mod tests;
 
 use std::{cmp::Ordering, collections::BTreeSet};
 
-use super::ear_clipping::{Point, clip_ears, turn};
+use super::ear_clipping::{Point2, clip_ears, turn};
 
 /// Reason for which a polygon has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum PolygonFault {
+pub(super) enum PolygonError {
     /// Its edges cross, or it encloses no area although its corners are not collinear.
     CrossesItself,
 }
 
-impl PolygonFault {
+impl PolygonError {
     /// Description of the error, for a polygon of the given number of corners.
-    pub(super) fn of(self, corners: usize) -> String {
+    pub(super) fn message(self, corners: usize) -> String {
         match self {
             Self::CrossesItself => {
                 format!(
@@ -33,18 +33,18 @@ impl PolygonFault {
 }
 
 /// Triangles of the polygon `corners`, as indices into it, in its winding. Collinear corners give triangles of zero area, which the tracer counts and drops.
-pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonFault> {
+pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonError> {
     if corners.len() == 3 || on_one_line(corners) {
         return Ok(fan(corners.len()));
     }
-    let flat = project(corners).ok_or(PolygonFault::CrossesItself)?;
+    let flat = project(corners).ok_or(PolygonError::CrossesItself)?;
     if is_convex(&flat) {
         return Ok(fan(corners.len()));
     }
     if edges_cross(&flat) {
-        return Err(PolygonFault::CrossesItself);
+        return Err(PolygonError::CrossesItself);
     }
-    clip_ears(&flat).ok_or(PolygonFault::CrossesItself)
+    clip_ears(&flat).ok_or(PolygonError::CrossesItself)
 }
 
 /// Triangles of a polygon of three corners or more, as indices into it, in its winding; `None` if it crosses itself.
@@ -97,7 +97,7 @@ fn on_one_line(corners: &[[f64; 3]]) -> bool {
 }
 
 /// Projection of the polygon to the coordinate plane with the largest projected area, counter-clockwise. `None` if it encloses no area.
-fn project(corners: &[[f64; 3]]) -> Option<Vec<Point>> {
+fn project(corners: &[[f64; 3]]) -> Option<Vec<Point2>> {
     let normal = newell(corners);
     let largest = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
     if normal[largest].abs() <= negligible_area(corners) {
@@ -112,33 +112,33 @@ fn project(corners: &[[f64; 3]]) -> Option<Vec<Point>> {
 
 /// Returns true if a counter-clockwise polygon turns left everywhere, and once in all: a pentagram turns left at each corner but twice in all, which its fan's
 /// triangles show by turning right somewhere.
-fn is_convex(flat: &[Point]) -> bool {
+fn is_convex(flat: &[Point2]) -> bool {
     let n = flat.len();
     let left = |a: usize, b: usize, c: usize| turn(flat[a % n], flat[b % n], flat[c % n]) >= 0.0;
     (0..n).all(|i| left(i, i + 1, i + 2)) && (1..n - 1).all(|i| left(0, i, i + 1))
 }
 
 /// Returns true if two edges of the closed polygon cross at an interior point of both.
-pub(super) fn edges_cross(flat: &[Point]) -> bool {
-    let edges: Vec<Edge> = (0..flat.len()).filter_map(|i| Edge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
-    let mut met = BTreeSet::new();
+pub(super) fn edges_cross(flat: &[Point2]) -> bool {
+    let edges: Vec<PolygonEdge> = (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
+    let mut active = BTreeSet::new();
     events(&edges).into_iter().any(|(_, ends, i)| {
-        if ends { meet_at_the_end(&mut met, &edges[i]) } else { meet_at_the_start(&mut met, &edges[i]) }
+        if ends { remove_edge(&mut active, &edges[i]) } else { insert_edge(&mut active, &edges[i]) }
     })
 }
 
 /// Edge from the corner that the sweep reaches first to the other.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
-    first: Point,
-    last: Point,
+struct PolygonEdge {
+    first: Point2,
+    last: Point2,
     index: usize,
 }
 
-impl Edge {
+impl PolygonEdge {
     /// `None` for an edge without length.
-    fn new(index: usize, a: Point, b: Point) -> Option<Self> {
-        match along(&a, &b) {
+    fn new(index: usize, a: Point2, b: Point2) -> Option<Self> {
+        match sweep_order(&a, &b) {
             Ordering::Less => Some(Self { first: a, last: b, index }),
             Ordering::Greater => Some(Self { first: b, last: a, index }),
             Ordering::Equal => None,
@@ -152,28 +152,28 @@ impl Edge {
 
     /// Compares with an edge that begins later: less if that edge lies above this one.
     fn is_under(&self, later: &Self) -> Ordering {
-        let side = |p: Point| turn(self.first, self.last, p).partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        let side = |p: Point2| turn(self.first, self.last, p).partial_cmp(&0.0).unwrap_or(Ordering::Equal);
         side(later.first).then_with(|| side(later.last))
     }
 }
 
 /// Order of points in the sweep: by the first coordinate, then by the second.
-fn along(a: &Point, b: &Point) -> Ordering {
+fn sweep_order(a: &Point2, b: &Point2) -> Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
 }
 
 /// Ends of all edges in sweep order; an edge ends before others begin at the same point.
-fn events(edges: &[Edge]) -> Vec<(Point, bool, usize)> {
-    let both = |(i, e): (usize, &Edge)| [(e.first, false, i), (e.last, true, i)];
+fn events(edges: &[PolygonEdge]) -> Vec<(Point2, bool, usize)> {
+    let both = |(i, e): (usize, &PolygonEdge)| [(e.first, false, i), (e.last, true, i)];
     let mut events: Vec<_> = edges.iter().enumerate().flat_map(both).collect();
-    events.sort_by(|a, b| along(&a.0, &b.0).then(b.1.cmp(&a.1)).then(a.2.cmp(&b.2)));
+    events.sort_by(|a, b| sweep_order(&a.0, &b.0).then(b.1.cmp(&a.1)).then(a.2.cmp(&b.2)));
     events
 }
 
 /// Edges are ordered from bottom to top, as the sweep intersects them at one time.
-impl Ord for Edge {
+impl Ord for PolygonEdge {
     fn cmp(&self, other: &Self) -> Ordering {
-        let by_height = match along(&self.first, &other.first) {
+        let by_height = match sweep_order(&self.first, &other.first) {
             Ordering::Greater => other.is_under(self),
             _ => self.is_under(other).reverse(),
         };
@@ -181,38 +181,38 @@ impl Ord for Edge {
     }
 }
 
-impl PartialOrd for Edge {
+impl PartialOrd for PolygonEdge {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Edge {
+impl PartialEq for PolygonEdge {
     fn eq(&self, other: &Self) -> bool {
         self.index == other.index
     }
 }
 
-impl Eq for Edge {}
+impl Eq for PolygonEdge {}
 
-fn below<'e>(met: &BTreeSet<&'e Edge>, edge: &'e Edge) -> Option<&'e Edge> {
-    met.range::<Edge, _>(..edge).next_back().copied()
+fn below<'e>(active: &BTreeSet<&'e PolygonEdge>, edge: &'e PolygonEdge) -> Option<&'e PolygonEdge> {
+    active.range::<PolygonEdge, _>(..edge).next_back().copied()
 }
 
-fn above<'e>(met: &BTreeSet<&'e Edge>, edge: &'e Edge) -> Option<&'e Edge> {
+fn above<'e>(active: &BTreeSet<&'e PolygonEdge>, edge: &'e PolygonEdge) -> Option<&'e PolygonEdge> {
     use std::ops::Bound::{Excluded, Unbounded};
-    met.range::<Edge, _>((Excluded(edge), Unbounded)).next().copied()
+    active.range::<PolygonEdge, _>((Excluded(edge), Unbounded)).next().copied()
 }
 
 /// Inserts an edge; returns true if it crosses a neighbour.
-fn meet_at_the_start<'e>(met: &mut BTreeSet<&'e Edge>, edge: &'e Edge) -> bool {
-    let crossed = [below(met, edge), above(met, edge)].into_iter().flatten().any(|n| n.crosses(edge));
-    met.insert(edge);
+fn insert_edge<'e>(active: &mut BTreeSet<&'e PolygonEdge>, edge: &'e PolygonEdge) -> bool {
+    let crossed = [below(active, edge), above(active, edge)].into_iter().flatten().any(|n| n.crosses(edge));
+    active.insert(edge);
     crossed
 }
 
 /// Removes an edge; returns true if the edges that it separated cross.
-fn meet_at_the_end<'e>(met: &mut BTreeSet<&'e Edge>, edge: &'e Edge) -> bool {
-    met.remove(edge);
-    below(met, edge).zip(above(met, edge)).is_some_and(|(b, a)| b.crosses(a))
+fn remove_edge<'e>(active: &mut BTreeSet<&'e PolygonEdge>, edge: &'e PolygonEdge) -> bool {
+    active.remove(edge);
+    below(active, edge).zip(above(active, edge)).is_some_and(|(b, a)| b.crosses(a))
 }

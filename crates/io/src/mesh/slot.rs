@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::SlotMaterial;
 
-use super::mtl::{beside, parse};
+use super::mtl::{sibling_path, parse};
 use super::{obj::Obj, texture_option::UvLayout};
 use crate::source::{decode_text, read_description_bytes};
 use crate::{Error, Sandbox};
 
 /// Slots, their texture layouts, notes on unused content of the libraries, and the libraries' bytes in order.
 #[derive(Default)]
-pub(super) struct Slots {
+pub(super) struct MaterialSlots {
     pub(super) materials: Vec<SlotMaterial>,
     pub(super) layouts: Vec<UvLayout>,
     pub(super) report: Vec<String>,
@@ -21,8 +21,8 @@ pub(super) struct Slots {
 }
 
 /// Reads the libraries that `obj` (read from `file`) names and finds the materials that it uses.
-pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, Error> {
-    let mut slots = Slots::default();
+pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<MaterialSlots, Error> {
+    let mut slots = MaterialSlots::default();
     let mut known = BTreeMap::new();
     let (paths, missing) = library_paths(file, obj, sandbox)?;
     slots.missing_libraries = missing;
@@ -36,10 +36,10 @@ pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, 
         slots.library_bytes.push(bytes);
     }
     for name in &obj.materials {
-        let (material, layout) = if let Some(found) = known.get(name) {
-            let (material, notes) = found.slot(name);
+        let (material, layout) = if let Some(library_entry) = known.get(name) {
+            let (material, notes) = library_entry.slot(name);
             slots.report.extend(notes);
-            (material, found.layout)
+            (material, library_entry.layout)
         } else {
             // The scene states the material, or reports that it is missing.
             (SlotMaterial { name: name.clone(), surface: None }, UvLayout::PLAIN)
@@ -56,15 +56,15 @@ fn library_paths(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<(Vec<PathB
     let (mut paths, mut missing): (Vec<PathBuf>, Vec<String>) = (Vec::new(), Vec::new());
     let (mut statements, mut known) = (BTreeSet::new(), BTreeSet::new());
     for (rest, line) in obj.libraries.iter().filter(|(rest, _)| statements.insert(rest.clone())) {
-        let whole = beside(file, rest);
-        let several: Vec<PathBuf> = rest.split_whitespace().map(|name| beside(file, name)).collect();
-        for path in several.iter().chain([&whole]) {
+        let full_path = sibling_path(file, rest);
+        let several: Vec<PathBuf> = rest.split_whitespace().map(|name| sibling_path(file, name)).collect();
+        for path in several.iter().chain([&full_path]) {
             sandbox
                 .check(path)
                 .map_err(|problem| Error::at(file, *line, problem.within(format_args!("`mtllib {rest}`"))))?;
         }
-        let one = whole.exists() || !several.iter().any(|path| path.exists());
-        let named = if one && !several.is_empty() { vec![whole] } else { several };
+        let one = full_path.exists() || !several.iter().any(|path| path.exists());
+        let named = if one && !several.is_empty() { vec![full_path] } else { several };
         if named.is_empty() {
             return Err(Error::at(file, *line, "`mtllib` without a file name"));
         }

@@ -12,7 +12,7 @@ use crate::{Error, Problem};
 
 /// One statement: a line without its comment and outer blanks, never empty.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Statement<'a> {
+pub(super) struct ObjStatement<'a> {
     /// Line on which it begins, from 1.
     pub(super) line: usize,
     text: Cow<'a, str>,
@@ -20,7 +20,7 @@ pub(super) struct Statement<'a> {
     keyword_end: usize,
 }
 
-impl<'a> Statement<'a> {
+impl<'a> ObjStatement<'a> {
     fn new(line: usize, text: Cow<'a, str>) -> Self {
         let keyword_end = text.find(char::is_whitespace).unwrap_or(text.len());
         Self { line, text, keyword_end }
@@ -54,7 +54,7 @@ pub(super) fn number(word: &str) -> Result<f64, Problem> {
 }
 
 /// Statements of `text`: without comments and empty lines, with continued lines joined.
-pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+pub(super) fn statements(text: &str) -> impl Iterator<Item = ObjStatement<'_>> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         loop {
@@ -65,7 +65,7 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
                 false => Cow::Borrowed(first),
             };
             if !text.is_empty() {
-                return Some(Statement::new(index + 1, text));
+                return Some(ObjStatement::new(index + 1, text));
             }
         }
     })
@@ -73,14 +73,14 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
 
 /// A line that ends in a backslash, and those that continue it.
 fn joined<'a>(first: &str, lines: &mut impl Iterator<Item = (usize, &'a str)>) -> String {
-    let mut whole = first.to_owned();
-    while whole.ends_with('\\') {
-        whole.pop();
-        whole.push(' ');
-        whole.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
-        whole.truncate(whole.trim_end().len());
+    let mut text = first.to_owned();
+    while text.ends_with('\\') {
+        text.pop();
+        text.push(' ');
+        text.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
+        text.truncate(text.trim_end().len());
     }
-    if whole.starts_with(' ') { whole.trim_start().to_owned() } else { whole }
+    if text.starts_with(' ') { text.trim_start().to_owned() } else { text }
 }
 
 /// Line without blanks at its ends and without a comment. A comment begins with a `#` at the start of a word: names may contain one inside.
@@ -122,8 +122,8 @@ impl TobjInput {
     ) -> Result<T, Error> {
         let mut rest = self.text.as_bytes();
         read(&mut rest).map_err(|cause| {
-            let taken = &self.text[..self.text.len() - rest.len()];
-            let (statement, line) = taken.lines().zip(&self.lines).last().unwrap_or(("", &0));
+            let consumed = &self.text[..self.text.len() - rest.len()];
+            let (statement, line) = consumed.lines().zip(&self.lines).last().unwrap_or(("", &0));
             Error::at(file, *line, format!("`{statement}` is invalid ({cause}); correct or remove this line"))
         })
     }
@@ -145,16 +145,16 @@ mod tests {
 
     #[test]
     fn comments_blanks_and_both_line_ends_are_passed_over() {
-        let found = read("# head\r\n\r\n  v 1\t2 3  # tail\r\nusemtl red #5 x\nmap_Kd a#b.png\ng");
+        let actual = read("# head\r\n\r\n  v 1\t2 3  # tail\r\nusemtl red #5 x\nmap_Kd a#b.png\ng");
         let expected = [(3, "v", "1\t2 3"), (4, "usemtl", "red"), (5, "map_Kd", "a#b.png"), (6, "g", "")];
-        assert_eq!(found, expected.map(|(line, k, r)| (line, k.to_owned(), r.to_owned())));
+        assert_eq!(actual, expected.map(|(line, k, r)| (line, k.to_owned(), r.to_owned())));
     }
 
     #[test]
     fn a_backslash_continues_a_line() {
-        let found = read("f 1 2 \\\n 3 4\\\r\n5\nv 0");
-        assert_eq!(found[0], (1, "f".to_owned(), "1 2  3 4 5".to_owned()));
-        assert_eq!(found[1].0, 4);
+        let actual = read("f 1 2 \\\n 3 4\\\r\n5\nv 0");
+        assert_eq!(actual[0], (1, "f".to_owned(), "1 2  3 4 5".to_owned()));
+        assert_eq!(actual[1].0, 4);
         assert_eq!(read("v 1 \\"), [(1, "v".to_owned(), "1".to_owned())]);
     }
 
@@ -162,8 +162,8 @@ mod tests {
     #[test]
     fn a_statement_goes_over_many_lines() {
         let text = format!("f{}", " 1\\\n".repeat(1_000_000));
-        let found: Vec<Statement<'_>> = statements(&text).collect();
-        assert_eq!((found.len(), found[0].words().count()), (1, 1_000_000));
+        let actual: Vec<ObjStatement<'_>> = statements(&text).collect();
+        assert_eq!((actual.len(), actual[0].words().count()), (1, 1_000_000));
     }
 
     #[test]

@@ -105,10 +105,10 @@ fn vector<'a>(option: &str, after: &'a str, field: &mut [f64; 2]) -> Result<&'a 
 }
 
 /// Up to `most` numbers at the start of `text`, and the text after them.
-fn numbers(text: &str, most: usize) -> (Vec<f64>, &str) {
+fn numbers(text: &str, max: usize) -> (Vec<f64>, &str) {
     let mut values = Vec::new();
     let mut rest = text;
-    while values.len() < most {
+    while values.len() < max {
         let Some((word, after)) = first_word(rest) else { break };
         let (Ok(value), false) = (number(word), after.trim().is_empty()) else { break };
         values.push(value);

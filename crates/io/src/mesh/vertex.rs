@@ -17,13 +17,13 @@ pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
 
 /// Refuses too many corners of faces.
 pub(super) fn check_corners(corners: u64) -> Result<(), Problem> {
-    let most = CORNERS.most().min(u64::from(u32::MAX));
-    if corners <= most {
+    let max = CORNERS.current().min(u64::from(u32::MAX));
+    if corners <= max {
         return Ok(());
     }
     let remedy = CORNERS.remedy(corners);
     let words =
-        format!("the faces have {corners} corners; at most {most} are supported: make the mesh smaller, {remedy}");
+        format!("the faces have {corners} corners; at most {max} are supported: make the mesh smaller, {remedy}");
     Err(Problem::new(ErrorCode::TooLarge, words))
 }
 
@@ -46,6 +46,6 @@ pub(super) fn middle_of_far<I: Iterator<Item = f64>>(coordinates: impl Fn(usize)
     let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick).unwrap_or(0.0);
     let bounds = [0, 1, 2].map(|axis| [bound(axis, f64::min), bound(axis, f64::max)]);
     let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-    let farthest = bounds.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let farthest = bounds.iter().flatten().fold(0.0_f64, |largest, v| largest.max(v.abs()));
     if farthest > 2.0 * extent { bounds.map(|[low, high]| 0.5 * low + 0.5 * high) } else { [0.0; 3] }
 }

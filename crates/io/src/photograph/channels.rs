@@ -10,8 +10,8 @@ use std::path::Path;
 use image::DynamicImage;
 
 use super::side_car::RawFacts;
-use crate::encoding::{Encoding, Stated};
-use crate::picture::{Kept, decode_raster};
+use crate::encoding::{Encoding, SourcedEncoding};
+use crate::picture::{PixelStorage, decode_raster};
 use crate::{Error, ErrorCode, png};
 
 /// Supported kinds of file.
@@ -19,7 +19,7 @@ pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR,
 
 /// One channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
+pub struct PhotographChannel {
     /// Name: Y, R, G, B, A, or an EXR channel's full name.
     pub name: String,
     /// Numbers as stored.
@@ -34,11 +34,11 @@ pub struct Photograph {
     /// Rows.
     pub height: usize,
     /// Channels of equal size, in the order of the file.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<PhotographChannel>,
     /// Largest number that the file can hold; `None` for floats.
     pub full_scale: Option<f64>,
     /// Encoding of the numbers, with its source; a caller with better information changes it.
-    pub stated: Stated,
+    pub stated: SourcedEncoding,
     /// Facts that a side-car states of a raw image.
     pub raw: Option<RawFacts>,
     /// Pixels of a rendered image whose errors may be correlated, because their paths shared samples; 1: none.
@@ -48,7 +48,7 @@ pub struct Photograph {
 impl Photograph {
     /// Channel of that name.
     #[must_use]
-    pub fn channel(&self, name: &str) -> Option<&Channel> {
+    pub fn channel(&self, name: &str) -> Option<&PhotographChannel> {
         self.channels.iter().find(|c| c.name == name)
     }
 
@@ -60,18 +60,18 @@ impl Photograph {
 }
 
 /// Floats are proportional to light.
-pub(super) fn of_floats() -> Stated {
-    Stated::new(Encoding::Linear, "floats")
+pub(super) fn from_floats() -> SourcedEncoding {
+    SourcedEncoding::new(Encoding::Linear, "floats")
 }
 
 /// Default encoding of numbers up to `full_scale`, if nothing states it.
-pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
+pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> SourcedEncoding {
     match full_scale {
-        None => of_floats(),
-        Some(full) if full > 65_535.0 => Stated::guessed(Encoding::Linear, "32-bit integers usually are"),
-        Some(full) if full > 255.0 && !colour => Stated::guessed(Encoding::Linear, "16-bit grey values usually are"),
-        Some(full) if full > 255.0 => Stated::guessed(Encoding::Srgb, "16-bit colours usually are"),
-        Some(_) => Stated::guessed(Encoding::Srgb, "8-bit values usually are"),
+        None => from_floats(),
+        Some(full) if full > 65_535.0 => SourcedEncoding::guessed(Encoding::Linear, "32-bit integers usually are"),
+        Some(full) if full > 255.0 && !colour => SourcedEncoding::guessed(Encoding::Linear, "16-bit grey values usually are"),
+        Some(full) if full > 255.0 => SourcedEncoding::guessed(Encoding::Srgb, "16-bit colours usually are"),
+        Some(_) => SourcedEncoding::guessed(Encoding::Srgb, "8-bit values usually are"),
     }
 }
 
@@ -87,8 +87,8 @@ pub(super) fn channel_names(count: usize) -> Option<&'static [&'static str]> {
 }
 
 /// Channels of interleaved samples.
-pub(super) fn separated(names: &[&str], samples: &[f32]) -> Vec<Channel> {
-    let channel = |(i, name): (usize, &&str)| Channel {
+pub(super) fn separated(names: &[&str], samples: &[f32]) -> Vec<PhotographChannel> {
+    let channel = |(i, name): (usize, &&str)| PhotographChannel {
         name: (*name).to_owned(),
         samples: samples.iter().skip(i).step_by(names.len()).copied().collect(),
     };
@@ -96,9 +96,9 @@ pub(super) fn separated(names: &[&str], samples: &[f32]) -> Vec<Channel> {
 }
 
 pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
-    let (_, picture) = decode_raster(file, bytes, super::KINDS, Kept::Floats)?;
-    let (width, height, colour) = (picture.width() as usize, picture.height() as usize, picture.color());
-    let (samples, full_scale) = samples(&picture);
+    let (_, image) = decode_raster(file, bytes, super::KINDS, PixelStorage::Floats)?;
+    let (width, height, colour) = (image.width() as usize, image.height() as usize, image.color());
+    let (samples, full_scale) = samples(&image);
     let channels = usize::from(colour.channel_count());
     let names = channel_names(channels).ok_or_else(|| {
         Error::coded(ErrorCode::UnsupportedFile, file, format!("has {channels} channels; expected 1 to 4"))
@@ -116,21 +116,21 @@ pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error
 }
 
 /// Encoding that a PNG states, else the guess with the names of unsupported statements.
-fn stated(bytes: &[u8], guess: Stated) -> Stated {
-    let said = png::said(bytes);
+fn stated(bytes: &[u8], guess: SourcedEncoding) -> SourcedEncoding {
+    let statement = png::stated_encoding(bytes);
     let named = |name| format!("{name} is not supported: {}", guess.reason);
-    let reason = said.not_understood.map_or_else(|| guess.reason.clone(), named);
-    said.stated.unwrap_or(Stated { reason, ..guess })
+    let reason = statement.not_understood.map_or_else(|| guess.reason.clone(), named);
+    statement.stated.unwrap_or(SourcedEncoding { reason, ..guess })
 }
 
 /// All samples, channels interleaved, and the largest number of the format.
-fn samples(picture: &DynamicImage) -> (Vec<f32>, Option<f64>) {
-    let (bytes, colour) = (picture.as_bytes(), picture.color());
+fn samples(image: &DynamicImage) -> (Vec<f32>, Option<f64>) {
+    let (bytes, colour) = (image.as_bytes(), image.color());
     match colour.bytes_per_pixel() / colour.channel_count() {
         1 => (bytes.iter().map(|b| f32::from(*b)).collect(), Some(255.0)),
         2 => {
-            let of = |b: &[u8]| f32::from(u16::from_ne_bytes([b[0], b[1]]));
-            (bytes.chunks_exact(2).map(of).collect(), Some(65_535.0))
+            let word = |b: &[u8]| f32::from(u16::from_ne_bytes([b[0], b[1]]));
+            (bytes.chunks_exact(2).map(word).collect(), Some(65_535.0))
         }
         _ => (bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect(), None),
     }
@@ -157,11 +157,11 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     let scale = word().and_then(|w| w.parse::<f64>().ok()).filter(|s| s.is_finite() && *s != 0.0).ok_or_else(wrong)?;
     let expected = width * height * channels * 4;
     if rest.len() != expected {
-        let told = format!(
+        let problem = format!(
             "has {} bytes of pixels; expected {expected} for {width} × {height} × {channels} floats",
             rest.len()
         );
-        return Err(Error::new(file, told));
+        return Err(Error::new(file, problem));
     }
     let float = |b: &[u8]| {
         let bytes = [b[0], b[1], b[2], b[3]];
@@ -171,7 +171,7 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     let samples: Vec<f32> = rows.flat_map(|row| row.chunks_exact(4).map(float)).collect();
     let names = channel_names(channels).expect("one or three");
     let channels = separated(names, &samples);
-    Ok(Photograph { width, height, channels, full_scale: None, stated: of_floats(), raw: None, correlated_block_px: 1 })
+    Ok(Photograph { width, height, channels, full_scale: None, stated: from_floats(), raw: None, correlated_block_px: 1 })
 }
 
 #[cfg(test)]

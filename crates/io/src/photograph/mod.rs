@@ -20,10 +20,10 @@ mod tiff;
 use std::path::Path;
 
 use crate::{Error, ErrorCode, exr::decode_exr, picture::EXR_MAGIC, source::read_bytes};
-use channels::{channel_names, guess, of_floats, separated};
+use channels::{channel_names, guess, from_floats, separated};
 
-pub use crate::encoding::{Encoding, Stated};
-pub use channels::{Channel, Photograph};
+pub use crate::encoding::{Encoding, SourcedEncoding};
+pub use channels::{PhotographChannel, Photograph};
 pub use side_car::{FilterTile, RawFacts, RawFrame, StatedRows, StatedTiming, stated_timing};
 
 pub(crate) use channels::{KINDS, is_pfm};
@@ -35,16 +35,16 @@ pub(crate) use tiff::is_tiff;
 /// If the file is missing, of another kind, damaged or not finite, or the side-car is unreadable.
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "image")?)?;
-    let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
-    photograph.correlated_block_px = beside.correlated_block_px()?;
-    let reason = format!("{} next to it", beside.name());
+    let Some(metadata) = side_car::find(file)? else { return Ok(photograph) };
+    photograph.correlated_block_px = metadata.correlated_block_px()?;
+    let reason = format!("{} next to it", metadata.name());
     if photograph.channels.len() == 1
-        && let Some(facts) = side_car::facts(&beside)?
+        && let Some(facts) = side_car::facts(&metadata)?
     {
-        photograph.stated = Stated::new(Encoding::Linear, reason);
+        photograph.stated = SourcedEncoding::new(Encoding::Linear, reason);
         photograph.raw = Some(facts);
-    } else if let Some(encoding) = beside.encoding()? {
-        photograph.stated = Stated::new(encoding, reason);
+    } else if let Some(encoding) = metadata.encoding()? {
+        photograph.stated = SourcedEncoding::new(encoding, reason);
     }
     Ok(photograph)
 }
@@ -55,7 +55,7 @@ pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
 /// As [`read_photograph`].
 pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let photograph = if bytes.starts_with(&EXR_MAGIC) {
-        of_exr(file, bytes)?
+        photograph_from_exr(file, bytes)?
     } else if tiff::is_tiff(bytes) {
         tiff::decode(file, bytes)?
     } else if channels::is_pfm(bytes) {
@@ -74,13 +74,13 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
 }
 
 /// EXR attribute that states [`Photograph::correlated_block_px`].
-const ALIKE: &str = "etendue:correlated_block_px";
+const CORRELATED_BLOCK_ATTRIBUTE: &str = "etendue:correlated_block_px";
 
-fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+fn photograph_from_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
     exr.check_is_no_cube_map(file)?;
-    let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.into_floats() };
-    let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
+    let channel = |c: crate::exr::ExrChannel| PhotographChannel { name: c.name, samples: c.samples.into_floats() };
+    let stated = exr.attributes.get(CORRELATED_BLOCK_ATTRIBUTE).and_then(|text| text.parse().ok());
     let correlated_block_px = stated.filter(|n| *n > 0).unwrap_or(1);
     let channels = exr.channels.into_iter().map(channel).collect();
     Ok(Photograph {
@@ -88,7 +88,7 @@ fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         height: exr.height,
         channels,
         full_scale: None,
-        stated: of_floats(),
+        stated: from_floats(),
         raw: None,
         correlated_block_px,
     })

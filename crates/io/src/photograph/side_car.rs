@@ -16,22 +16,22 @@ pub(super) struct SideCar {
     /// Its file.
     pub file: PathBuf,
     /// Its content.
-    pub said: Value,
+    pub content: Value,
     /// Name of the image in its list.
-    pub picture: String,
+    pub image: String,
 }
 
 /// Side-car that lists `file`: in its folder, or in the parent folder, as for undistorted images.
-pub(super) fn beside(file: &Path) -> Result<Option<SideCar>, Error> {
+pub(super) fn find(file: &Path) -> Result<Option<SideCar>, Error> {
     let Some(name) = file.file_name().and_then(|name| name.to_str()) else { return Ok(None) };
     let folder = file.parent().unwrap_or(Path::new(""));
     let within = folder.file_name().and_then(|folder| folder.to_str());
     let outer = within.zip(folder.parent()).map(|(within, outer)| (outer, format!("{within}/{name}")));
-    for (folder, picture) in [(folder, name.to_owned())].into_iter().chain(outer) {
+    for (folder, image) in [(folder, name.to_owned())].into_iter().chain(outer) {
         for candidate in NAMES.map(|name| folder.join(name)).into_iter().filter(|candidate| candidate.is_file()) {
-            let said = sidecar::read(&candidate)?;
-            if said["program"] == "etendue" && !said["files"][&picture].is_null() {
-                return Ok(Some(SideCar { file: candidate, said, picture }));
+            let content = sidecar::read(&candidate)?;
+            if content["program"] == "etendue" && !content["files"][&image].is_null() {
+                return Ok(Some(SideCar { file: candidate, content: said: content, image: picture: image }));
             }
         }
     }
@@ -46,12 +46,12 @@ impl SideCar {
 
     /// Entry of the image.
     pub(super) fn entry(&self) -> &Value {
-        &self.said["files"][&self.picture]
+        &self.content["files"][&self.image]
     }
 
     /// Pixels whose errors may be correlated, because their paths shared samples.
     pub(super) fn correlated_block_px(&self) -> Result<u32, Error> {
-        let stated = &self.said["sampling"]["correlated_block_px"];
+        let stated = &self.content["sampling"]["correlated_block_px"];
         if stated.is_null() {
             return Ok(1);
         }
@@ -63,12 +63,12 @@ impl SideCar {
 
     /// Encoding of the image's numbers, if stated.
     pub(super) fn encoding(&self) -> Result<Option<Encoding>, Error> {
-        let said = &self.entry()["encoding"];
+        let stated = &self.entry()["encoding"];
         let strange = || {
-            let problem = format!("states an unknown encoding of {}; render again", self.picture);
+            let problem = format!("states an unknown encoding of {}; render again", self.image);
             Error::new(&self.file, problem)
         };
-        if said.is_null() { Ok(None) } else { Encoding::from_json(said).map(Some).ok_or_else(strange) }
+        if stated.is_null() { Ok(None) } else { Encoding::from_json(stated).map(Some).ok_or_else(strange) }
     }
 }
 
@@ -114,21 +114,21 @@ pub struct RawFrame {
 }
 
 /// Facts of a side-car that lists the image as digital numbers; `None` if it lists it otherwise.
-pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
-    if beside.entry()["quantity"] != DigitalNumber::NAME {
+pub(super) fn facts(side_car: &SideCar) -> Result<Option<RawFacts>, Error> {
+    if side_car.entry()["quantity"] != DigitalNumber::NAME {
         return Ok(None);
     }
     let lacks = || {
         let problem =
-            format!("lists {} as raw, but lacks levels, filters or a valid exposure; render again", beside.picture);
-        Error::new(&beside.file, problem)
+            format!("lists {} as raw, but lacks levels, filters or a valid exposure; render again", side_car.image);
+        Error::new(&side_car.file, problem)
     };
-    stated(&beside.said, &beside.picture).map(Some).ok_or_else(lacks)
+    stated(&side_car.content, &side_car.image).map(Some).ok_or_else(lacks)
 }
 
-fn stated(said: &Value, name: &str) -> Option<RawFacts> {
-    let electronics = &said["sensor"]["electronics"];
-    let frames = said["frames"].as_array().map_or(&[][..], Vec::as_slice);
+fn stated(content: &Value, name: &str) -> Option<RawFacts> {
+    let electronics = &content["sensor"]["electronics"];
+    let frames = content["frames"].as_array().map_or(&[][..], Vec::as_slice);
     let entry = frames.iter().find(|frame| frame["raw"] == name);
     let number = |key: &str| entry.unwrap_or(electronics)[key].as_f64();
     Some(RawFacts {
@@ -137,7 +137,7 @@ fn stated(said: &Value, name: &str) -> Option<RawFacts> {
         exposure_s: number("exposure_s").filter(|s| *s >= 0.0)?,
         filters: filters(&electronics["cfa"])?,
         frame: match entry {
-            Some(entry) => Some(frame(said, entry)?),
+            Some(entry) => Some(frame(content, entry)?),
             None => None,
         },
     })
@@ -147,17 +147,17 @@ fn filters(cfa: &Value) -> Option<FilterTile> {
     let names = cfa["channels"].as_array()?.iter().map(|name| name.as_str().map(str::to_owned));
     let columns = usize::try_from(cfa["columns"].as_u64()?).ok()?;
     let channels = names.collect::<Option<Vec<_>>>()?;
-    let whole = columns > 0 && !channels.is_empty() && channels.len().is_multiple_of(columns);
-    whole.then_some(FilterTile { columns, channels })
+    let is_complete = columns > 0 && !channels.is_empty() && channels.len().is_multiple_of(columns);
+    is_complete.then_some(FilterTile { columns, channels })
 }
 
-fn frame(said: &Value, entry: &Value) -> Option<RawFrame> {
+fn frame(content: &Value, entry: &Value) -> Option<RawFrame> {
     let small = |value: &Value| u32::try_from(value.as_u64()?).ok();
     Some(RawFrame {
         number: small(&entry["frame"])?,
-        seed: said["seed"].as_u64()?,
-        camera_index: small(&said["camera_index"])?,
-        bits: small(&said["sensor"]["electronics"]["bits"])?,
+        seed: content["seed"].as_u64()?,
+        camera_index: small(&content["camera_index"])?,
+        bits: small(&content["sensor"]["electronics"]["bits"])?,
         picture_px: serde_json::from_value(entry["picture_in_raw_px"].clone()).ok()?,
         companding_knees_dn: serde_json::from_value(entry["companding_knees_dn"].clone()).ok()?,
     })
@@ -199,17 +199,17 @@ pub enum StatedRows {
 /// # Errors
 /// If a side-car cannot be read.
 pub fn stated_timing(file: &Path) -> Result<Option<StatedTiming>, Error> {
-    let Some(found) = beside(file)? else { return Ok(None) };
-    let said = &found.said;
-    let number = said["sensor"].is_object().then(|| number(&found.picture)).flatten();
-    let of_frame = said["frames"].as_array().into_iter().flatten().find(|frame| frame["frame"].as_u64() == number);
+    let Some(side_car) = find(file)? else { return Ok(None) };
+    let content = &side_car.content;
+    let number = content["sensor"].is_object().then(|| number(&side_car.image)).flatten();
+    let of_frame = content["frames"].as_array().into_iter().flatten().find(|frame| frame["frame"].as_u64() == number);
     let exposure_s = of_frame.and_then(|frame| frame["exposure_s"].as_f64());
     Ok(Some(StatedTiming {
         frame: number.and_then(|n| u32::try_from(n).ok()),
-        rows: rows(&said["sensor"]["shutter"], of_frame),
-        exposure_s: exposure_s.or_else(|| said["sensor"]["electronics"]["exposure_s"].as_f64()),
-        frame_period_s: said["frame_period_s"].as_f64().filter(|s| *s > 0.0),
-        file: found.file,
+        rows: rows(&content["sensor"]["shutter"], of_frame),
+        exposure_s: exposure_s.or_else(|| content["sensor"]["electronics"]["exposure_s"].as_f64()),
+        frame_period_s: content["frame_period_s"].as_f64().filter(|s| *s > 0.0),
+        file: side_car.file,
     }))
 }
 
@@ -249,25 +249,25 @@ mod tests {
 
     fn stated(shutter: Value) -> StatedTiming {
         let folder = tempfile::tempdir().expect("a folder");
-        let said = json!({
+        let content = json!({
             "program": "etendue",
             "files": { "picture.0003.png": {} },
             "frame_period_s": 0.05,
             "sensor": { "shutter": shutter, "electronics": { "exposure_s": 0.01 } },
             "frames": [{ "frame": 3, "exposure_s": 0.008, "picture_in_raw_px": [0, 0, 20, 12] }],
         });
-        std::fs::write(folder.path().join("camera.json"), said.to_string()).expect("written");
-        let found = stated_timing(&folder.path().join("picture.0003.png")).expect("readable");
+        std::fs::write(folder.path().join("camera.json"), content.to_string()).expect("written");
+        let timing = stated_timing(&folder.path().join("picture.0003.png")).expect("readable");
         assert_eq!(stated_timing(&folder.path().join("picture.0004.png")).expect("readable"), None, "not listed");
-        found.expect("a side-car")
+        timing.expect("a side-car")
     }
 
     #[test]
     fn rows_frames_and_exposure_are_those_of_the_frame() {
         let rolling = json!({ "type": "rolling", "row_time_s": 1e-5, "direction": "down", "fields": 1, "rows": 24 });
-        let found = stated(rolling.clone());
-        assert_eq!((found.frame, found.exposure_s, found.frame_period_s), (Some(3), Some(0.008), Some(0.05)));
-        assert_eq!(found.rows, StatedRows::Downwards { row_time_s: 2e-5 }, "two rows of the sensor are one");
+        let timing = stated(rolling.clone());
+        assert_eq!((timing.frame, timing.exposure_s, timing.frame_period_s), (Some(3), Some(0.008), Some(0.05)));
+        assert_eq!(timing.rows, StatedRows::Downwards { row_time_s: 2e-5 }, "two rows of the sensor are one");
         assert_eq!(stated(json!({ "type": "global" })).rows, StatedRows::Together);
         for (key, value) in [("direction", json!("up")), ("fields", json!(2)), ("type", json!("global_reset"))] {
             let mut other = rolling.clone();

@@ -4,9 +4,9 @@ use ::tiff::encoder::{TiffEncoder, colortype};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 use std::io::Cursor;
 
-fn encoded(picture: DynamicImage, format: ImageFormat) -> Vec<u8> {
+fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, format).expect("encodable");
+    image.write_to(&mut bytes, format).expect("encodable");
     bytes.into_inner()
 }
 
@@ -42,8 +42,8 @@ fn tiff_of_every_width_keeps_its_numbers() {
 
 #[test]
 fn a_tiff_that_is_cut_or_strange_is_refused() {
-    let whole = tiff::<colortype::Gray16>(64, 64, &[7; 4096]);
-    let message = read(&whole[..whole.len() / 2]).expect_err("cut");
+    let complete = tiff::<colortype::Gray16>(64, 64, &[7; 4096]);
+    let message = read(&complete[..complete.len() / 2]).expect_err("cut");
     assert!(message.starts_with("t.tif: not a readable TIFF"), "{message}");
     let message = read(&tiff::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4])).expect_err("ink");
     assert_eq!(message, "t.tif: a TIFF of CMYK(8); expected grey or RGB: convert it");
@@ -64,7 +64,7 @@ fn png_jpeg_and_exr_say_what_their_numbers_are() {
     let grey = DynamicImage::ImageLuma16(ImageBuffer::from_pixel(1, 1, Luma([4095_u16])));
     let p = read(&encoded(grey, ImageFormat::Png)).expect("readable");
     assert_eq!((p.channels[0].samples[0], p.stated.encoding), (4095.0, Encoding::Linear));
-    let p = read(&tests_support::picture(1, 1, &["front.R", "depth.Z"], 0.25)).expect("readable");
+    let p = read(&tests_support::small_exr(1, 1, &["front.R", "depth.Z"], 0.25)).expect("readable");
     assert_eq!((p.names(), &p.stated.encoding), (vec!["depth.Z", "front.R"], &Encoding::Linear));
 }
 

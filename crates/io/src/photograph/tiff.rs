@@ -80,7 +80,7 @@ fn digital_negative_as_grey(bytes: &[u8]) -> Cow<'_, [u8]> {
     const LINEAR_RAW: u16 = 34_892;
     const BLACK_IS_ZERO: u16 = 1;
     let big = bytes.starts_with(b"MM");
-    let Some((at, kind)) = kind_of_picture(bytes, big) else { return Cow::Borrowed(bytes) };
+    let Some((at, kind)) = photometric_entry(bytes, big) else { return Cow::Borrowed(bytes) };
     if kind != FILTER_ARRAY && kind != LINEAR_RAW {
         return Cow::Borrowed(bytes);
     }
@@ -91,7 +91,7 @@ fn digital_negative_as_grey(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Offset of the photometric interpretation in the first directory of a plain TIFF, and its value.
-fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
+fn photometric_entry(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
     const KIND: u16 = 262;
     const ENTRY: usize = 12;
     let short = |at: usize| {
@@ -108,10 +108,10 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
 /// Decoder limits for images that pass [`texture_memory::check`], in numbers of up to 64 bits.
 fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = usize::try_from(2 * texture_memory::most(packed)).unwrap_or(usize::MAX);
+    limits.decoding_buffer_size = usize::try_from(2 * texture_memory::max_bytes(packed)).unwrap_or(usize::MAX);
     // Tables of offsets and packed strips are parts of the file.
     limits.ifd_value_size = packed.max(1 << 16);
-    limits.intermediate_buffer_size = usize::try_from(texture_memory::most(packed)).unwrap_or(usize::MAX);
+    limits.intermediate_buffer_size = usize::try_from(texture_memory::max_bytes(packed)).unwrap_or(usize::MAX);
     limits
 }
 

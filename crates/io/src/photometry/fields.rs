@@ -9,7 +9,7 @@ use etendue_scene::asset::{PhotometryAxes, Tilt};
 use crate::{Error, Problem, Sandbox, source::read_description_bytes};
 
 /// Numbers of a text from some line on.
-pub(super) struct Fields<'a> {
+pub(super) struct FieldReader<'a> {
     file: &'a Path,
     /// Lines, counted from 1, and words.
     words: std::vec::IntoIter<(usize, &'a str)>,
@@ -18,7 +18,7 @@ pub(super) struct Fields<'a> {
     decimal_comma: bool,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> FieldReader<'a> {
     /// Numbers separated by blanks, commas and line ends.
     pub(super) fn divided_by_commas(file: &'a Path, lines: impl Iterator<Item = (usize, &'a str)>) -> Self {
         Self::new(file, lines, false)
@@ -38,42 +38,42 @@ impl<'a> Fields<'a> {
     }
 
     /// Returns an error at the last number read.
-    pub(super) fn fault(&self, what: impl Into<Problem>) -> Error {
+    pub(super) fn error(&self, what: impl Into<Problem>) -> Error {
         Error::at(self.file, self.line, what)
     }
 
     /// Reads the next number; `what` names it in messages.
     pub(super) fn number(&mut self, what: &str) -> Result<f64, Error> {
         let Some((line, word)) = self.words.next() else {
-            return Err(self.fault(format!(
+            return Err(self.error(format!(
                 "the file ends here; expected {what}: it is truncated, or its numbers of angles are wrong"
             )));
         };
         self.line = line;
         parse(word, self.decimal_comma)
-            .ok_or_else(|| self.fault(format!("found \"{}\"; expected {what}: a number", short(word))))
+            .ok_or_else(|| self.error(format!("found \"{}\"; expected {what}: a number", short(word))))
     }
 
     /// Reads the next number, 0 or more.
     pub(super) fn amount(&mut self, what: &str) -> Result<f64, Error> {
         let value = self.number(what)?;
-        if value >= 0.0 { Ok(value) } else { Err(self.fault(format!("found {value}; expected {what}: 0 or more"))) }
+        if value >= 0.0 { Ok(value) } else { Err(self.error(format!("found {value}; expected {what}: 0 or more"))) }
     }
 
     /// Reads the next number, above 0.
     pub(super) fn positive(&mut self, what: &str) -> Result<f64, Error> {
         let value = self.number(what)?;
-        if value > 0.0 { Ok(value) } else { Err(self.fault(format!("found {value}; expected {what}: above 0"))) }
+        if value > 0.0 { Ok(value) } else { Err(self.error(format!("found {value}; expected {what}: above 0"))) }
     }
 
     /// Reads the next number, an integer of `range`.
-    pub(super) fn whole(&mut self, what: &str, range: std::ops::RangeInclusive<u32>) -> Result<u32, Error> {
+    pub(super) fn integer(&mut self, what: &str, range: std::ops::RangeInclusive<u32>) -> Result<u32, Error> {
         let value = self.number(what)?;
         let (low, high) = (*range.start(), *range.end());
         if value.fract() == 0.0 && (f64::from(low)..=f64::from(high)).contains(&value) {
             return Ok(value as u32);
         }
-        Err(self.fault(format!("found {value}; expected {what}: a whole number from {low} to {high}")))
+        Err(self.error(format!("found {value}; expected {what}: a whole number from {low} to {high}")))
     }
 
     /// Reads the next `count` numbers; allocates no more than the file holds.
@@ -87,7 +87,7 @@ impl<'a> Fields<'a> {
         for index in 0..count {
             let value = self.number(&format!("{what} {} of {count}", index + 1))?;
             if let Some(wrong) = admit(&values, value) {
-                return Err(self.fault(wrong));
+                return Err(self.error(wrong));
             }
             values.push(value);
         }
@@ -131,13 +131,13 @@ pub(super) fn parse(word: &str, decimal_comma: bool) -> Option<f64> {
 
 /// Start of a word, for a message.
 pub(super) fn short(word: &str) -> String {
-    const TOLD: usize = 24;
-    let start: String = word.chars().take(TOLD).collect();
+    const MAX_SHOWN: usize = 24;
+    let start: String = word.chars().take(MAX_SHOWN).collect();
     if start.len() < word.len() { format!("{start}…") } else { start }
 }
 
 /// Maximum count of angles of one kind: 0.01° over a full turn.
-pub(super) const MOST: u32 = 36_001;
+pub(super) const MAX_ANGLES: u32 = 36_001;
 
 /// Legal vertical angles, degrees.
 pub(super) fn vertical_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
@@ -159,7 +159,7 @@ pub(super) fn horizontal_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
 
 /// Reads the next `count` angles: increasing, each once, in `range`.
 pub(super) fn read(
-    fields: &mut Fields<'_>,
+    fields: &mut FieldReader<'_>,
     count: u32,
     which: &str,
     range: &RangeInclusive<f64>,
@@ -182,8 +182,8 @@ pub(super) fn read(
 /// Note on the missing part of a grid that does not end where grids of these axes do.
 pub(super) fn dark_beyond(which: &str, grid: &[f64], firsts: &[f64], lasts: &[f64]) -> Option<String> {
     let (first, last) = (*grid.first()?, *grid.last()?);
-    let whole = firsts.contains(&first) && lasts.contains(&last);
-    (!whole).then(|| {
+    let is_complete = firsts.contains(&first) && lasts.contains(&last);
+    (!is_complete).then(|| {
         format!("{which} angles from {first}° to {last}° were measured; outside this range the intensity is 0")
     })
 }
@@ -218,14 +218,14 @@ pub(super) fn decode<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, E
 }
 
 /// Content of the `TILT=` line.
-pub(super) enum Statement<'a> {
+pub(super) enum TiltStatement<'a> {
     None,
     Include,
     File(&'a str),
 }
 
-impl<'a> Statement<'a> {
-    pub(super) fn of(word: &'a str) -> Self {
+impl<'a> TiltStatement<'a> {
+    pub(super) fn from_word(word: &'a str) -> Self {
         match word {
             _ if word.eq_ignore_ascii_case("none") => Self::None,
             _ if word.eq_ignore_ascii_case("include") => Self::Include,
@@ -235,9 +235,9 @@ impl<'a> Statement<'a> {
 }
 
 /// Reads the next numbers as a table of tilts.
-pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
-    let geometry = fields.whole("the lamp-to-luminaire geometry", 1..=3)? as u8;
-    let count = fields.whole("the number of tilts", 1..=MOST)?;
+pub(super) fn table(fields: &mut FieldReader<'_>) -> Result<Tilt, Error> {
+    let geometry = fields.integer("the lamp-to-luminaire geometry", 1..=3)? as u8;
+    let count = fields.integer("the number of tilts", 1..=MAX_ANGLES)?;
     let tilts = read(fields, count, "tilt", &(-180.0..=180.0))?;
     let factors = fields.list(count as usize, "factor of a tilt", |_, factor| {
         (factor < 0.0).then(|| format!("the factor is {factor}; expected 0 or more"))
@@ -250,10 +250,10 @@ pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox)
     let path = file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
     let place = format!("{}:{line}: TILT", file.display());
     let read = || {
-        sandbox.check(&path).map_err(|told| Error::new(&path, told))?;
+        sandbox.check(&path).map_err(|problem| Error::new(&path, problem))?;
         let bytes = read_description_bytes(&path, "tilt")?;
         let text = decode(&path, &bytes)?.into_owned();
-        let mut fields = Fields::divided_by_commas(&path, text.lines().enumerate().map(|(i, line)| (i + 1, line)));
+        let mut fields = FieldReader::divided_by_commas(&path, text.lines().enumerate().map(|(i, line)| (i + 1, line)));
         let tilt = table(&mut fields)?;
         fields.end("the factors of tilts")?;
         Ok((tilt, bytes))
@@ -262,7 +262,7 @@ pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox)
 }
 
 /// Note for the user on a table.
-pub(super) fn remark(tilt: &Tilt) -> Option<String> {
+pub(super) fn note(tilt: &Tilt) -> Option<String> {
     match tilt {
         Tilt::None => None,
         Tilt::Table { factors, .. } => {

@@ -16,22 +16,22 @@ use std::path::Path;
 
 use etendue_scene::asset::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 
-use super::fields::{self, Fields};
+use super::fields::{self, FieldReader};
 use super::symmetry::{self, Symmetry};
 use crate::{Error, Sandbox};
 use edition::{Edition, Identification};
 
 /// Content before the numbers.
-struct Head<'a> {
+struct IesHead<'a> {
     identification: Identification,
     texts: Vec<(String, String)>,
-    tilt: fields::Statement<'a>,
+    tilt: fields::TiltStatement<'a>,
     /// Line of TILT, counted from 1.
     line: usize,
 }
 
 /// Numbers between TILT and the angles.
-struct Body {
+struct IesBody {
     lamps: u32,
     lumens: f64,
     multiplier: f64,
@@ -49,11 +49,11 @@ struct Body {
 pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(PhotometryAsset, Option<Vec<u8>>), Error> {
     let head = head(file, text)?;
     let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
-    let mut fields = Fields::divided_by_commas(file, numbered);
+    let mut fields = FieldReader::divided_by_commas(file, numbered);
     let (tilt, further) = match head.tilt {
-        fields::Statement::None => (Tilt::None, None),
-        fields::Statement::Include => (fields::table(&mut fields)?, None),
-        fields::Statement::File(name) => {
+        fields::TiltStatement::None => (Tilt::None, None),
+        fields::TiltStatement::Include => (fields::table(&mut fields)?, None),
+        fields::TiltStatement::File(name) => {
             let (tilt, bytes) = fields::from_file(file, head.line, name, sandbox)?;
             (tilt, Some(bytes))
         }
@@ -61,8 +61,8 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
     let body = body(&mut fields)?;
     let edition = head.identification.edition(file, body.further)?;
     let mut report: Vec<String> = head.identification.note().into_iter().collect();
-    report.extend(body.remarks(edition));
-    report.extend(fields::remark(&tilt));
+    report.extend(body.edition_notes(edition));
+    report.extend(fields::note(&tilt));
     let factor = body.factor(edition);
     let (vertical_deg, planes) = grid(file, &mut fields, &body, factor, &mut report)?;
     let asset = PhotometryAsset {
@@ -76,7 +76,7 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
         lamps: body.lamps,
         factor,
         watts: body.watts,
-        opening: of(body.size.map(|v| v * body.metres)),
+        opening: opening_from_size(body.size.map(|v| v * body.metres)),
         tilt,
         texts: head.texts,
         report,
@@ -85,7 +85,7 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
     Ok((asset, further))
 }
 
-fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
+fn head<'a>(file: &Path, text: &'a str) -> Result<IesHead<'a>, Error> {
     let mut texts: Vec<(String, String)> = Vec::new();
     let mut identification = Identification::None;
     for (index, line) in text.lines().enumerate() {
@@ -94,10 +94,10 @@ fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
                 let what = "nothing follows TILT=; expected NONE, INCLUDE or the name of a file";
                 return Err(Error::at(file, index + 1, what));
             }
-            return Ok(Head { identification, texts, tilt: fields::Statement::of(word), line: index + 1 });
+            return Ok(IesHead { identification, texts, tilt: fields::TiltStatement::from_word(word), line: index + 1 });
         }
         match Identification::read(line, index + 1) {
-            Some(found) if identification == Identification::None => identification = found,
+            Some(edition) if identification == Identification::None => identification = edition,
             _ => add_text(&mut texts, line.trim()),
         }
     }
@@ -125,15 +125,15 @@ fn add_text(texts: &mut Vec<(String, String)>, line: &str) {
     }
 }
 
-fn body(fields: &mut Fields<'_>) -> Result<Body, Error> {
-    Ok(Body {
-        lamps: fields.whole("the number of lamps", 1..=1_000_000)?,
+fn body(fields: &mut FieldReader<'_>) -> Result<IesBody, Error> {
+    Ok(IesBody {
+        lamps: fields.integer("the number of lamps", 1..=1_000_000)?,
         lumens: lumens(fields)?,
         multiplier: fields.positive("the multiplier of the intensities")?,
-        verticals: fields.whole("the number of vertical angles", 2..=fields::MOST)?,
-        horizontals: fields.whole("the number of horizontal angles", 1..=fields::MOST)?,
+        verticals: fields.integer("the number of vertical angles", 2..=fields::MAX_ANGLES)?,
+        horizontals: fields.integer("the number of horizontal angles", 1..=fields::MAX_ANGLES)?,
         axes: axes(fields)?,
-        metres: if fields.whole("the unit (1 feet, 2 metres)", 1..=2)? == 1 { 0.3048 } else { 1.0 },
+        metres: if fields.integer("the unit (1 feet, 2 metres)", 1..=2)? == 1 { 0.3048 } else { 1.0 },
         size: [size(fields, "width")?, size(fields, "length")?, size(fields, "height")?],
         ballast: fields.positive("the ballast factor")?,
         further: fields.number("the ballast-lamp factor, or its replacement in later editions")?,
@@ -141,32 +141,32 @@ fn body(fields: &mut Fields<'_>) -> Result<Body, Error> {
     })
 }
 
-fn lumens(fields: &mut Fields<'_>) -> Result<f64, Error> {
+fn lumens(fields: &mut FieldReader<'_>) -> Result<f64, Error> {
     let lumens = fields.number("the lumens per lamp")?;
     if lumens >= 0.0 || lumens == -1.0 {
         return Ok(lumens);
     }
-    Err(fields.fault(format!("found {lumens} lumens; expected the lumens per lamp, or -1 for absolute photometry")))
+    Err(fields.error(format!("found {lumens} lumens; expected the lumens per lamp, or -1 for absolute photometry")))
 }
 
-fn axes(fields: &mut Fields<'_>) -> Result<PhotometryAxes, Error> {
+fn axes(fields: &mut FieldReader<'_>) -> Result<PhotometryAxes, Error> {
     let types = [PhotometryAxes::C, PhotometryAxes::B, PhotometryAxes::A];
-    let number = fields.whole("the photometric type (1 is C, 2 is B, 3 is A)", 1..=3)?;
+    let number = fields.integer("the photometric type (1 is C, 2 is B, 3 is A)", 1..=3)?;
     Ok(types[number as usize - 1])
 }
 
-fn size(fields: &mut Fields<'_>, which: &str) -> Result<f64, Error> {
+fn size(fields: &mut FieldReader<'_>, which: &str) -> Result<f64, Error> {
     fields.number(&format!("the {which} of the luminous opening"))
 }
 
-impl Body {
+impl IesBody {
     /// Factor of the intensities.
     fn factor(&self, edition: Edition) -> f64 {
-        let lamp = if edition <= Edition::Of1995 { self.further } else { 1.0 };
-        self.multiplier * self.ballast * lamp
+        let lamp_factor = if edition <= Edition::Of1995 { self.further } else { 1.0 };
+        self.multiplier * self.ballast * lamp_factor
     }
 
-    fn remarks(&self, edition: Edition) -> Vec<String> {
+    fn edition_notes(&self, edition: Edition) -> Vec<String> {
         let reserved = edition == Edition::Of2002 && self.further != 1.0;
         let notes = [
             (self.lumens == 0.0, "the lamps are rated 0 lumens: the flux cannot be checked".to_owned()),
@@ -210,19 +210,19 @@ fn turn(first: f64, last: f64, horizontal: &[f64]) -> Result<Symmetry, String> {
 /// Vertical angles, and the planes with every factor applied.
 fn grid(
     file: &Path,
-    fields: &mut Fields<'_>,
-    body: &Body,
+    fields: &mut FieldReader<'_>,
+    body: &IesBody,
     factor: f64,
     report: &mut Vec<String>,
 ) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     if factor.is_nan() || factor <= 0.0 {
         return Err(fields
-            .fault(format!("the product of multiplier and ballast factors is {factor}; expected a number above 0")));
+            .error(format!("the product of multiplier and ballast factors is {factor}; expected a number above 0")));
     }
     let (up, across) = (fields::vertical_range(body.axes), fields::horizontal_range(body.axes));
     let vertical = fields::read(fields, body.verticals, "vertical", &up)?;
     let horizontal = fields::read(fields, body.horizontals, "horizontal", &across)?;
-    let symmetry = body.symmetry(&horizontal).map_err(|what| fields.fault(what))?;
+    let symmetry = body.symmetry(&horizontal).map_err(|what| fields.error(what))?;
     let mut intensities = fields.intensities(vertical.len() * horizontal.len())?;
     fields.end("the last intensity")?;
     intensities.iter_mut().for_each(|value| *value *= factor);
@@ -240,7 +240,7 @@ fn grid(
 }
 
 /// Opening from a width, length and height, m.
-fn of([width, length, height]: [f64; 3]) -> Opening {
+fn opening_from_size([width, length, height]: [f64; 3]) -> Opening {
     let round = [width < 0.0, length < 0.0, height < 0.0];
     let shape = match round {
         [false, false, _] if [width, length, height] == [0.0; 3] => OpeningShape::Point,
@@ -273,9 +273,9 @@ mod tests {
             ([0.0, -1.0, -1.0], OpeningShape::LyingAcross),
         ];
         for (size, shape) in shapes {
-            assert_eq!(of(size).shape, shape, "{size:?}");
+            assert_eq!(opening_from_size(size).shape, shape, "{size:?}");
         }
-        let circle = of([-0.5, 0.0, 0.0]);
+        let circle = opening_from_size([-0.5, 0.0, 0.0]);
         assert_eq!((circle.width_m, circle.length_m, circle.height_m), (0.5, 0.5, 0.0));
     }
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 
-use super::fields::{self, Fields};
+use super::fields::{self, FieldReader};
 use super::symmetry::{self, Symmetry};
 use crate::Error;
 
@@ -24,8 +24,8 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn text(&self, line: usize, what: &str) -> Result<&'a str, Error> {
-        let found = self.lines.get(line - 1).map(|text| text.trim());
-        found.ok_or_else(|| {
+        let line_text = self.lines.get(line - 1).map(|text| text.trim());
+        line_text.ok_or_else(|| {
             let count = self.lines.len();
             Error::at(self.file, count, format!("the file ends here; expected {what} in line {line}: it is truncated"))
         })
@@ -43,7 +43,7 @@ impl<'a> Lines<'a> {
         if self.text(line, what)?.is_empty() { Ok(0.0) } else { self.number(line, what) }
     }
 
-    fn whole(&self, line: usize, what: &str, low: i32, high: i32) -> Result<i32, Error> {
+    fn integer(&self, line: usize, what: &str, low: i32, high: i32) -> Result<i32, Error> {
         let value = self.number(line, what)?;
         if value.fract() == 0.0 && (f64::from(low)..=f64::from(high)).contains(&value) {
             return Ok(value as i32);
@@ -69,21 +69,21 @@ struct Lamps {
 /// Parses a text.
 pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
     let lines = Lines { file, lines: text.lines().collect() };
-    lines.whole(2, "the type of the luminaire (1, 2 or 3)", 0, 3)?;
-    let code = lines.whole(3, "the symmetry (0 none, 1 rotational, 2 about C0, 3 about C90, 4 both)", 0, 4)?;
-    let planes = lines.whole(4, "the number of C planes", 1, fields::MOST as i32)? as usize;
-    let verticals = lines.whole(6, "the number of angles in a plane", 2, fields::MOST as i32)? as u32;
+    lines.integer(2, "the type of the luminaire (1, 2 or 3)", 0, 3)?;
+    let code = lines.integer(3, "the symmetry (0 none, 1 rotational, 2 about C0, 3 about C90, 4 both)", 0, 4)?;
+    let planes = lines.integer(4, "the number of C planes", 1, fields::MAX_ANGLES as i32)? as usize;
+    let verticals = lines.integer(6, "the number of angles in a plane", 2, fields::MAX_ANGLES as i32)? as u32;
     let output_ratio = lines.above_0(23, "the light output ratio, per cent")? / 100.0;
     let conversion = lines.above_0(24, "the conversion factor of the intensities")?;
     let measured_tilt = lines.optional(25, "the tilt of the luminaire during measurement, degrees")?;
-    let sets = lines.whole(26, "the number of sets of lamps", 1, 1000)? as usize;
+    let sets = lines.integer(26, "the number of sets of lamps", 1, 1000)? as usize;
     let lamps = lamps(&lines)?;
     let rest = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(HEAD_LINES + SET_LINES * sets);
-    let mut fields = Fields::with_decimal_commas(file, rest);
+    let mut fields = FieldReader::with_decimal_commas(file, rest);
     let factor = conversion * lamps.lumens / 1000.0;
-    let (vertical_deg, turn) = grid(file, &mut fields, Table { code, planes, verticals, factor })?;
+    let (vertical_deg, turn) = grid(file, &mut fields, LdtTable { code, planes, verticals, factor })?;
     let tilt = if measured_tilt == 0.0 { Tilt::None } else { Tilt::Measured(measured_tilt) };
-    let mut report: Vec<String> = fields::remark(&tilt).into_iter().collect();
+    let mut report: Vec<String> = fields::note(&tilt).into_iter().collect();
     report.extend(fields::dark_above_or_below(PhotometryAxes::C, &vertical_deg));
     report.extend(
         (sets > 1).then(|| format!("{sets} sets of lamps are listed; the first is used ({} lm)", lamps.lumens)),
@@ -108,7 +108,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
 }
 
 fn lamps(lines: &Lines<'_>) -> Result<Lamps, Error> {
-    let count = lines.whole(HEAD_LINES + 1, "the number of lamps", -1_000_000, 1_000_000)?;
+    let count = lines.integer(HEAD_LINES + 1, "the number of lamps", -1_000_000, 1_000_000)?;
     if count == 0 {
         let what = "found 0 lamps; expected their number, negative for absolute photometry";
         return Err(Error::at(lines.file, HEAD_LINES + 1, what));
@@ -159,14 +159,14 @@ fn texts(lines: &Lines<'_>) -> Result<Vec<(String, String)>, Error> {
 
 /// Description of the grid that precedes it.
 #[derive(Clone, Copy)]
-struct Table {
+struct LdtTable {
     code: i32,
     planes: usize,
     verticals: u32,
     factor: f64,
 }
 
-impl Table {
+impl LdtTable {
     fn symmetry(self) -> Symmetry {
         match self.code {
             0 => Symmetry::None,
@@ -178,7 +178,7 @@ impl Table {
     }
 
     /// Angles of the stored planes, in order, from all listed angles.
-    fn stored(self, all: &[f64]) -> Result<Vec<f64>, String> {
+    fn stored_angles(self, all: &[f64]) -> Result<Vec<f64>, String> {
         let (count, half, quarter) = (self.planes, self.planes / 2, self.planes / 4);
         let take = |first: usize, planes: usize| (0..planes).map(|i| all[(first + i) % count]).collect::<Vec<f64>>();
         let (stored, even, ends) = match self.code {
@@ -201,10 +201,10 @@ impl Table {
 }
 
 /// Vertical angles, and all planes in cd.
-fn grid(file: &Path, fields: &mut Fields<'_>, table: Table) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
+fn grid(file: &Path, fields: &mut FieldReader<'_>, table: LdtTable) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     fields.list(10, "direct ratio", |_, _| None)?;
     let all = fields::read(fields, table.planes as u32, "C", &(0.0..=360.0))?;
-    let stored = table.stored(&all).map_err(|what| fields.fault(what))?;
+    let stored = table.stored_angles(&all).map_err(|what| fields.error(what))?;
     let vertical = fields::read(fields, table.verticals, "vertical", &(0.0..=180.0))?;
     let mut intensities = fields.intensities(vertical.len() * stored.len())?;
     fields.end("the last intensity")?;

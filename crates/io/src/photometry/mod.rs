@@ -45,8 +45,8 @@ pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<Photo
         }
     };
     asset.hash = match further {
-        Some(tilt) => hash::of_parts([&bytes[..], &tilt[..]]),
-        None => hash::of_bytes(&bytes),
+        Some(tilt) => hash::hash_parts([&bytes[..], &tilt[..]]),
+        None => hash::hash_bytes(&bytes),
     };
     symmetry::check(file, &mut asset)?;
     name_notes(file, &mut asset.report);

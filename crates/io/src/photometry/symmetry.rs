@@ -90,8 +90,8 @@ fn close(planes: &mut Vec<Plane>) {
         (true, false) => planes.push((360.0, first.1)),
         (false, true) => planes.insert(0, (0.0, last.1)),
         (false, false) => {
-            let share = (360.0 - last.0) / (first.0 + 360.0 - last.0);
-            let seam: Vec<f64> = last.1.iter().zip(&first.1).map(|(a, b)| (1.0 - share) * a + share * b).collect();
+            let fraction = (360.0 - last.0) / (first.0 + 360.0 - last.0);
+            let seam: Vec<f64> = last.1.iter().zip(&first.1).map(|(a, b)| (1.0 - fraction) * a + fraction * b).collect();
             planes.insert(0, (0.0, seam.clone()));
             planes.push((360.0, seam));
         }
@@ -110,10 +110,10 @@ fn check_gaps(file: &Path, planes: &[Plane]) -> Result<(), Error> {
 }
 
 /// Relative difference beyond which a note is written: numbers in files have three or four digits, grids have steps of degrees.
-const TOLD_BEYOND: f64 = 0.02;
+const NOTE_THRESHOLD: f64 = 0.02;
 
 /// Maximum ratio of computed to stated flux, or its inverse.
-const ABSURD_BEYOND: f64 = 3.0;
+const MAX_FLUX_RATIO: f64 = 3.0;
 
 /// Checks the flux, and reports a difference.
 pub(super) fn check(file: &Path, asset: &mut PhotometryAsset) -> Result<(), Error> {
@@ -123,19 +123,19 @@ pub(super) fn check(file: &Path, asset: &mut PhotometryAsset) -> Result<(), Erro
     }
     let Some(stated) = asset.stated_flux_lm() else { return Ok(()) };
     let ratio = flux / stated;
-    if ratio > ABSURD_BEYOND || (asset.output_ratio.is_some() && ratio < 1.0 / ABSURD_BEYOND) {
-        return Err(Error::new(file, absurd(asset, flux, stated)));
+    if ratio > MAX_FLUX_RATIO || (asset.output_ratio.is_some() && ratio < 1.0 / MAX_FLUX_RATIO) {
+        return Err(Error::new(file, implausible_flux(asset, flux, stated)));
     }
-    if (ratio - 1.0).abs() > TOLD_BEYOND {
-        asset.report.push(remark(asset, flux, stated));
+    if (ratio - 1.0).abs() > NOTE_THRESHOLD {
+        asset.report.push(note(asset, flux, stated));
     }
     Ok(())
 }
 
-fn absurd(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
+fn implausible_flux(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
     let (source, remedy) = match asset.output_ratio {
-        Some(share) => (
-            format!("lumens of the lamps × light output ratio ({share})"),
+        Some(fraction) => (
+            format!("lumens of the lamps × light output ratio ({fraction})"),
             "times more or less: correct the lumens, the conversion factor or the light output ratio (in per cent)",
         ),
         None => (
@@ -144,11 +144,11 @@ fn absurd(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
         ),
     };
     format!(
-        "the flux from the intensities is {flux:.4} lm, that from the {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}"
+        "the flux from the intensities is {flux:.4} lm, that from the {source} {stated:.4} lm; expected at most {MAX_FLUX_RATIO} {remedy}"
     )
 }
 
-fn remark(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
+fn note(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
     let ratio = flux / stated;
     let reason = match (asset.output_ratio, ratio < 1.0) {
         (Some(_), _) => {

@@ -5,10 +5,10 @@
 use std::path::{Path, PathBuf};
 use std::{fs::File, io::Cursor, sync::Arc};
 
-use etendue_scene::asset::{ColourMatrix, ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
+use etendue_scene::asset::{ColourMatrix, ImagePixels, LargeImage, PixelFormat, PixelRows, RowReceiver};
 use image::{ImageDecoder as _, ImageReader};
 
-use super::{EXR_MAGIC, Kept, decode_picture, raster::stored_format};
+use super::{EXR_MAGIC, PixelStorage, decode_image, raster::stored_format};
 use crate::{Error, ErrorCode, error::guarded, hash, source::read_bytes, texture_memory};
 
 /// Approximate number of pixels passed on at a time.
@@ -16,34 +16,34 @@ const STRIP_PIXELS: usize = 1 << 17;
 
 /// Image header: size, px, and pixel format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PictureHead {
+pub(crate) struct ImageHead {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) format: PixelFormat,
 }
 
 /// Reads the header of an image; `None` if it cannot be read, which the full reader then explains.
-pub(crate) fn head(file: &Path) -> Option<PictureHead> {
+pub(crate) fn head(file: &Path) -> Option<ImageHead> {
     if !std::fs::metadata(file).ok()?.is_file() {
         return None;
     }
     guarded(file, || Ok(head_unguarded(file))).ok().flatten()
 }
 
-fn head_unguarded(file: &Path) -> Option<PictureHead> {
+fn head_unguarded(file: &Path) -> Option<ImageHead> {
     let mut magic = [0; EXR_MAGIC.len()];
     std::io::Read::read_exact(&mut File::open(file).ok()?, &mut magic).ok()?;
     let head = if magic == EXR_MAGIC { exr_head(file)? } else { raster_head(file)? };
     (head.width > 0 && head.height > 0).then_some(head)
 }
 
-fn exr_head(file: &Path) -> Option<PictureHead> {
+fn exr_head(file: &Path) -> Option<ImageHead> {
     let meta = ::exr::meta::MetaData::read_from_file(file, false).ok()?;
     let [header] = &meta.headers[..] else { return None };
     let has_opacity = header.channels.list.iter().any(|channel| channel.name == *"A");
     let format = if has_opacity { PixelFormat::Rgba32F } else { PixelFormat::Rgb32F };
     let size = header.layer_size;
-    Some(PictureHead { width: u32::try_from(size.width()).ok()?, height: u32::try_from(size.height()).ok()?, format })
+    Some(ImageHead { width: u32::try_from(size.width()).ok()?, height: u32::try_from(size.height()).ok()?, format })
 }
 
 /// Matrix from the colours of an EXR to Rec. 709; `None` if they are in it, and for other images.
@@ -61,37 +61,37 @@ fn exr_colours(file: &Path, bytes: &[u8]) -> Result<Option<ColourMatrix>, Error>
     stated.map_or(Ok(None), |stated| crate::exr::to_rec_709(file, &stated))
 }
 
-fn raster_head(file: &Path) -> Option<PictureHead> {
+fn raster_head(file: &Path) -> Option<ImageHead> {
     let decoder = ImageReader::open(file).ok()?.with_guessed_format().ok()?.into_decoder().ok()?;
     let (width, height) = decoder.dimensions();
     let format = stored_format(decoder.color_type());
     let packed = std::fs::metadata(file).ok()?.len() as usize;
-    (Kept::Stored.bytes(&decoder) <= texture_memory::most(packed)).then_some(PictureHead { width, height, format })
+    (PixelStorage::Stored.bytes(&decoder) <= texture_memory::max_bytes(packed)).then_some(ImageHead { width, height, format })
 }
 
 /// Large image whose header has been read.
-pub(crate) fn large_picture(file: &Path, head: PictureHead) -> Result<LargeImage, Error> {
-    let PictureHead { width, height, format } = head;
+pub(crate) fn large_image(file: &Path, head: ImageHead) -> Result<LargeImage, Error> {
+    let ImageHead { width, height, format } = head;
     let bytes = read_bytes(file, "image")?;
-    let (hash, to_rec_709) = (hash::of_bytes(&bytes), exr_colours(file, &bytes)?);
+    let (hash, to_rec_709) = (hash::hash_bytes(&bytes), exr_colours(file, &bytes)?);
     let size = (width, height);
-    let rows = Arc::new(PictureFile { path: file.to_path_buf(), size, format, hash });
+    let rows = Arc::new(ImageFile { path: file.to_path_buf(), size, format, hash });
     Ok(LargeImage { width, height, format, to_rec_709, hash, rows })
 }
 
 /// Image in its file.
 #[derive(Debug)]
-struct PictureFile {
+struct ImageFile {
     path: PathBuf,
     size: (u32, u32),
     format: PixelFormat,
     hash: hash::ContentHash,
 }
 
-impl PixelRows for PictureFile {
-    fn read(&self, take: TakeRows<'_>) -> Result<(), String> {
+impl PixelRows for ImageFile {
+    fn read(&self, take: RowReceiver<'_>) -> Result<(), String> {
         let bytes = read_bytes(&self.path, "image").map_err(|error| error.to_string())?;
-        if hash::of_bytes(&bytes) != self.hash {
+        if hash::hash_bytes(&bytes) != self.hash {
             return Err(Error::coded(
                 ErrorCode::OtherRun,
                 &self.path,
@@ -111,14 +111,14 @@ impl PixelRows for PictureFile {
     }
 }
 
-impl PictureFile {
-    fn read_whole(&self, bytes: Vec<u8>, take: TakeRows<'_>) -> Result<(), String> {
-        let picture = decode_picture(&self.path, &bytes).map_err(|error| error.to_string())?;
+impl ImageFile {
+    fn read_whole(&self, bytes: Vec<u8>, take: RowReceiver<'_>) -> Result<(), String> {
+        let image = decode_image(&self.path, &bytes).map_err(|error| error.to_string())?;
         drop(bytes);
-        if (picture.width, picture.height, format(&picture.pixels)) != (self.size.0, self.size.1, self.format) {
+        if (image.width, image.height, format(&image.pixels)) != (self.size.0, self.size.1, self.format) {
             return Err(Error::new(&self.path, "its header and its pixels do not match; save it again").to_string());
         }
-        take(&picture.pixels)
+        take(&image.pixels)
     }
 }
 
@@ -164,7 +164,7 @@ impl<'a> PngRows<'a> {
         })
     }
 
-    fn read(mut self, file: &Path, take: TakeRows<'_>) -> Result<(), Stop> {
+    fn read(mut self, file: &Path, take: RowReceiver<'_>) -> Result<(), Stop> {
         let (width, height) = (self.size.0 as usize, self.size.1 as usize);
         let strip_rows = (STRIP_PIXELS / width).clamp(1, height);
         let mut strip = Vec::with_capacity(strip_rows * width * self.colours.samples());
@@ -204,11 +204,11 @@ fn pixels(colours: png::ColorType, samples: &[u8]) -> ImagePixels {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::read_picture;
+    use crate::picture::read_image;
     use image::{DynamicImage, ImageBuffer, ImageFormat};
 
     fn rows(file: &Path) -> Result<Vec<ImagePixels>, String> {
-        let large = large_picture(file, head(file).expect("a head")).map_err(|error| error.to_string())?;
+        let large = large_image(file, head(file).expect("a head")).map_err(|error| error.to_string())?;
         let mut all = Vec::new();
         large.rows.read(&mut |rows| {
             all.push(rows.clone());
@@ -236,7 +236,7 @@ mod tests {
         let place = tempfile::tempdir().expect("temporary folder");
         let byte = |x: u32, y: u32, i: u32| (x * 3 + y * 5 + i * 7 + x * y) as u8;
         let (w, h) = (700, 431);
-        let pictures = [
+        let images = [
             DynamicImage::ImageLuma8(ImageBuffer::from_fn(w, h, |x, y| image::Luma([byte(x, y, 0)]))),
             DynamicImage::ImageLumaA8(ImageBuffer::from_fn(w, h, |x, y| image::LumaA([byte(x, y, 0), byte(x, y, 1)]))),
             DynamicImage::ImageRgb8(ImageBuffer::from_fn(w, h, |x, y| image::Rgb([0, 1, 2].map(|i| byte(x, y, i))))),
@@ -248,37 +248,37 @@ mod tests {
                 image::Rgb([0, 1, 2].map(|i| byte(x, y, i).into()))
             })),
         ];
-        for picture in pictures {
+        for picture in images {
             let file = place.path().join("t.png");
             picture.save_with_format(&file, ImageFormat::Png).expect("writable");
-            let (whole, strips) = (read_picture(&file).expect("readable"), rows(&file).expect("readable"));
-            assert_eq!(head(&file), Some(PictureHead { width: w, height: h, format: format(&whole.pixels) }));
+            let (full, strips) = (read_image(&file).expect("readable"), rows(&file).expect("readable"));
+            assert_eq!(head(&file), Some(ImageHead { width: w, height: h, format: format(&full.pixels) }));
             assert_eq!(
                 strips.len() > 1,
                 picture.color().bits_per_pixel() / u16::from(picture.color().channel_count()) == 8
             );
-            assert!(joined(&strips) == whole.pixels, "{:?}", picture.color());
+            assert!(joined(&strips) == full.pixels, "{:?}", picture.color());
         }
         let file = place.path().join("t.jpg");
         let grey = DynamicImage::ImageLuma8(ImageBuffer::from_fn(w, h, |x, y| image::Luma([byte(x, y, 0)])));
         grey.save_with_format(&file, ImageFormat::Jpeg).expect("writable");
-        assert!(rows(&file).expect("readable") == [read_picture(&file).expect("readable").pixels]);
+        assert!(rows(&file).expect("readable") == [read_image(&file).expect("readable").pixels]);
     }
 
     #[test]
-    fn a_damaged_picture_is_told_as_a_small_one_is() {
+    fn a_damaged_image_is_reported_as_a_small_one_is() {
         let place = tempfile::tempdir().expect("temporary folder");
         let file = place.path().join("t.png");
         let picture = DynamicImage::ImageRgb8(ImageBuffer::from_fn(300, 300, |x, y| image::Rgb([(x * y) as u8, 2, 3])));
         picture.save_with_format(&file, ImageFormat::Png).expect("writable");
-        let whole = std::fs::read(&file).expect("file");
-        std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
+        let complete = std::fs::read(&file).expect("file");
+        std::fs::write(&file, &complete[..complete.len() / 2]).expect("write");
         let message = rows(&file).expect_err("half of it");
-        assert_eq!(message, read_picture(&file).expect_err("half of it").to_string());
+        assert_eq!(message, read_image(&file).expect_err("half of it").to_string());
         assert!(message.contains("it may be truncated or damaged"), "{message}");
-        std::fs::write(&file, &whole).expect("write");
-        let large = large_picture(&file, head(&file).expect("a head")).expect("readable");
-        std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
+        std::fs::write(&file, &complete).expect("write");
+        let large = large_image(&file, head(&file).expect("a head")).expect("readable");
+        std::fs::write(&file, &complete[..complete.len() / 2]).expect("write");
         let message = large.rows.read(&mut |_| Ok(())).expect_err("another file");
         assert!(message.ends_with("t.png: the file was changed while it was read; run again"), "{message}");
         std::fs::remove_file(&file).expect("remove");
@@ -291,9 +291,9 @@ mod tests {
         let place = tempfile::tempdir().expect("temporary folder");
         let file = place.path().join("t.exr");
         for (channels, format) in [(&["R", "G", "B"][..], PixelFormat::Rgb32F), (&["Y", "A"], PixelFormat::Rgba32F)] {
-            std::fs::write(&file, crate::exr::tests_support::picture(3, 2, channels, 0.5)).expect("write");
-            assert_eq!(head(&file), Some(PictureHead { width: 3, height: 2, format }));
-            assert_eq!(rows(&file).expect("readable"), [read_picture(&file).expect("readable").pixels]);
+            std::fs::write(&file, crate::exr::tests_support::small_exr(3, 2, channels, 0.5)).expect("write");
+            assert_eq!(head(&file), Some(ImageHead { width: 3, height: 2, format }));
+            assert_eq!(rows(&file).expect("readable"), [read_image(&file).expect("readable").pixels]);
         }
     }
 }

@@ -22,24 +22,24 @@ use crate::{Error, exr::decode_exr_as_stored, hash, source::read_bytes};
 
 pub use raster::has_colours_of_8_bits;
 
-pub(crate) use large::{PictureHead, head, large_picture};
-pub(crate) use raster::{Kept, decode_raster};
+pub(crate) use large::{ImageHead, head, large_image};
+pub(crate) use raster::{PixelStorage, decode_raster};
 
 /// The first bytes of every OpenEXR file.
 pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// Reads an image.
-pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
-    decode_picture(file, &read_bytes(file, "image")?)
+pub fn read_image(file: &Path) -> Result<ImageAsset, Error> {
+    decode_image(file, &read_bytes(file, "image")?)
 }
 
 /// Decodes the bytes of `file`.
 ///
 /// # Errors
 /// As [`read_picture`].
-pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
+pub fn decode_image(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels, to_rec_709) = if bytes.starts_with(&EXR_MAGIC) {
-        raster::of_exr(file, decode_exr_as_stored(file, bytes)?)?
+        raster::from_exr(file, decode_exr_as_stored(file, bytes)?)?
     } else {
         raster::decode(file, bytes)?
     };
@@ -47,5 +47,5 @@ pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
         return Err(Error::new(file, format!("the image has {width} × {height} pixels; expected at least one pixel")));
     }
     raster::check_finite(file, width, &pixels)?;
-    Ok(ImageAsset { width, height, pixels, to_rec_709, hash: hash::of_bytes(bytes) })
+    Ok(ImageAsset { width, height, pixels, to_rec_709, hash: hash::hash_bytes(bytes) })
 }

@@ -10,9 +10,9 @@ use crate::exr::{ExrChannel, ExrFile};
 use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
 /// Decodes `bytes`, identified by their first bytes.
-pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
-    let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Stored)?;
-    Ok((picture.width(), picture.height(), as_pixels(picture), None))
+pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<DecodedImage, Error> {
+    let (_, image) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", PixelStorage::Stored)?;
+    Ok((image.width(), image.height(), as_pixels(image), None))
 }
 
 /// Image as stored, with its format; the error for other files names the supported `kinds`.
@@ -20,45 +20,45 @@ pub(crate) fn decode_raster(
     file: &Path,
     bytes: &[u8],
     kinds: &str,
-    kept: Kept,
+    storage: PixelStorage,
 ) -> Result<(ImageFormat, DynamicImage), Error> {
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
     let unknown =
         || Error::coded(ErrorCode::UnsupportedFile, file, format!("not an image of a known format; expected {kinds}"));
     let format = format.ok_or_else(unknown)?;
-    if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
+    if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(Error::new(file, "the JPEG has no end marker: it is truncated; create or download it again"));
     }
-    guarded(file, || decode_unguarded(file, bytes, format, kept))
+    guarded(file, || decode_unguarded(file, bytes, format, storage))
 }
 
 fn decode_unguarded(
     file: &Path,
     bytes: &[u8],
     format: ImageFormat,
-    kept: Kept,
+    storage: PixelStorage,
 ) -> Result<(ImageFormat, DynamicImage), Error> {
     let explained = |cause: ImageError| Error::new(file, explain(&cause));
     let mut limits = image::Limits::no_limits();
-    limits.max_alloc = Some(u64::try_from(2 * texture_memory::most(bytes.len())).unwrap_or(u64::MAX));
+    limits.max_alloc = Some(u64::try_from(2 * texture_memory::max_bytes(bytes.len())).unwrap_or(u64::MAX));
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(explained)?;
-    texture_memory::check_bytes(file, kept.bytes(&decoder), bytes.len())?;
+    texture_memory::check_bytes(file, storage.bytes(&decoder), bytes.len())?;
     Ok((format, DynamicImage::from_decoder(decoder).map_err(explained)?))
 }
 
 /// Storage of an image's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kept {
+pub(crate) enum PixelStorage {
     /// As texture pixels: 8 bits, grey of 16 bits, else 32-bit floats.
     Stored,
     /// As 32-bit floats.
     Floats,
 }
 
-impl Kept {
+impl PixelStorage {
     /// Bytes of an image before it is decoded.
     pub(crate) fn bytes(self, decoder: &impl ImageDecoder) -> u128 {
         match self {
@@ -98,30 +98,30 @@ fn explain(cause: &ImageError) -> String {
 }
 
 /// Returns true if an end marker follows the last scan: the decoder would fill a truncated image with grey.
-fn jpeg_is_whole(bytes: &[u8]) -> bool {
+fn jpeg_is_complete(bytes: &[u8]) -> bool {
     let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
     last([0xff, 0xd9]) > last([0xff, 0xda])
 }
 
-fn as_pixels(picture: DynamicImage) -> ImagePixels {
-    match picture {
+fn as_pixels(image: DynamicImage) -> ImagePixels {
+    match image {
         DynamicImage::ImageLuma8(p) => ImagePixels::Gray8(p.into_raw()),
         DynamicImage::ImageLuma16(p) => ImagePixels::Gray16(p.into_raw()),
         DynamicImage::ImageLumaA8(_) | DynamicImage::ImageRgba8(_) => {
-            ImagePixels::Rgba8(picture.into_rgba8().pixels().map(|p| p.0).collect())
+            ImagePixels::Rgba8(image.into_rgba8().pixels().map(|p| p.0).collect())
         }
         DynamicImage::ImageRgb8(p) => ImagePixels::Rgb8(p.pixels().map(|p| p.0).collect()),
         DynamicImage::ImageRgb32F(p) => ImagePixels::Rgb32F(p.pixels().map(|p| p.0).collect()),
         DynamicImage::ImageRgba32F(p) => ImagePixels::Rgba32F(p.pixels().map(|p| p.0).collect()),
         DynamicImage::ImageLumaA16(_) | DynamicImage::ImageRgba16(_) => {
-            ImagePixels::Rgba32F(picture.into_rgba16().pixels().map(|p| p.0.map(share)).collect())
+            ImagePixels::Rgba32F(image.into_rgba16().pixels().map(|p| p.0.map(unit_value)).collect())
         }
-        wide => ImagePixels::Rgb32F(wide.into_rgb16().pixels().map(|p| p.0.map(share)).collect()),
+        wide => ImagePixels::Rgb32F(wide.into_rgb16().pixels().map(|p| p.0.map(unit_value)).collect()),
     }
 }
 
 /// 16-bit number as a fraction of the largest.
-fn share(stored: u16) -> f32 {
+fn unit_value(stored: u16) -> f32 {
     f32::from(stored) / 65_535.0
 }
 
@@ -129,15 +129,15 @@ fn share(stored: u16) -> f32 {
 /// cannot be read. `file` names it in messages.
 pub fn has_colours_of_8_bits(file: &Path, bytes: impl BufRead + Seek) -> bool {
     let colours = || Some(ImageReader::new(bytes).with_guessed_format().ok()?.into_decoder().ok()?.color_type());
-    let found = guarded(file, || Ok(colours())).ok().flatten();
-    matches!(found, Some(ColorType::Rgb8 | ColorType::Rgba8))
+    let colour_type = guarded(file, || Ok(colours())).ok().flatten();
+    matches!(colour_type, Some(ColorType::Rgb8 | ColorType::Rgba8))
 }
 
 /// Width, height, pixels, and the matrix from their colours to Rec. 709.
-pub(super) type Picture = (u32, u32, ImagePixels, Option<ColourMatrix>);
+pub(super) type DecodedImage = (u32, u32, ImagePixels, Option<ColourMatrix>);
 
 /// R, G, B of an EXR file, or Y for all three; with A if present.
-pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
+pub(super) fn from_exr(file: &Path, exr: ExrFile) -> Result<DecodedImage, Error> {
     exr.check_is_no_cube_map(file)?;
     let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
     let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
@@ -203,17 +203,17 @@ mod tests {
 
     use image::{DynamicImage, ImageFormat};
 
-    use super::super::decode_picture;
+    use super::super::decode_image;
     use super::*;
 
-    fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
         let mut bytes = std::io::Cursor::new(Vec::new());
-        picture.write_to(&mut bytes, format).expect("encodable");
+        image.write_to(&mut bytes, format).expect("encodable");
         bytes.into_inner()
     }
 
     fn read(bytes: &[u8]) -> Result<ImagePixels, String> {
-        decode_picture(Path::new("t.png"), bytes).map(|p| p.pixels).map_err(|e| e.to_string())
+        decode_image(Path::new("t.png"), bytes).map(|p| p.pixels).map_err(|e| e.to_string())
     }
 
     #[test]
@@ -234,11 +234,11 @@ mod tests {
         let picture = image::ImageBuffer::from_pixel(1, 1, image::LumaA([9_u8, 8]));
         let pixels = read(&encoded(&DynamicImage::ImageLumaA8(picture), ImageFormat::Png)).expect("readable");
         assert_eq!(pixels, ImagePixels::Rgba8(vec![[9, 9, 9, 8]]));
-        let exr = crate::exr::tests_support::picture(1, 1, &["R", "G", "B", "A"], 0.25);
+        let exr = crate::exr::tests_support::small_exr(1, 1, &["R", "G", "B", "A"], 0.25);
         assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.25; 4]]));
-        let exr = crate::exr::tests_support::picture(1, 1, &["Y", "A"], 0.5);
+        let exr = crate::exr::tests_support::small_exr(1, 1, &["Y", "A"], 0.5);
         assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.5; 4]]));
-        let message = read(&crate::exr::tests_support::picture(1, 1, &["Y", "A"], f32::NAN)).expect_err("no number");
+        let message = read(&crate::exr::tests_support::small_exr(1, 1, &["Y", "A"], f32::NAN)).expect_err("no number");
         assert!(
             message.starts_with("t.png: pixel (0, 0) is [NaN, NaN, NaN, NaN]; expected finite numbers"),
             "{message}"
@@ -282,30 +282,30 @@ mod tests {
 
     #[test]
     fn an_infinite_pixel_is_named() {
-        let mut exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], 1.0);
+        let mut exr = crate::exr::tests_support::small_exr(2, 2, &["R", "G", "B"], 1.0);
         assert!(matches!(read(&exr), Ok(ImagePixels::Rgb32F(_))));
-        exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], f32::INFINITY);
+        exr = crate::exr::tests_support::small_exr(2, 2, &["R", "G", "B"], f32::INFINITY);
         let message = read(&exr).expect_err("infinite");
         assert!(message.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{message}");
-        let message = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
+        let message = read(&crate::exr::tests_support::small_exr(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
         assert_eq!(message, "t.png: not an image of R, G, B or Y; its channels are depth.Z");
     }
 
     #[test]
     fn only_colours_of_8_bits_are_those() {
-        let found = |picture: DynamicImage, format: ImageFormat| {
+        let detected = |image: DynamicImage, format: ImageFormat| {
             let mut bytes = Cursor::new(Vec::new());
-            picture.write_to(&mut bytes, format).expect("encodable");
+            image.write_to(&mut bytes, format).expect("encodable");
             bytes.set_position(0);
             has_colours_of_8_bits(Path::new("a"), bytes)
         };
-        assert!(found(DynamicImage::new_rgb8(2, 2), ImageFormat::Png));
-        assert!(found(DynamicImage::new_rgba8(2, 2), ImageFormat::Png));
-        assert!(found(DynamicImage::new_rgb8(2, 2), ImageFormat::Jpeg));
-        assert!(!found(DynamicImage::new_luma8(2, 2), ImageFormat::Png));
-        assert!(!found(DynamicImage::new_luma_a8(2, 2), ImageFormat::Png));
-        assert!(!found(DynamicImage::new_rgb16(2, 2), ImageFormat::Png));
-        assert!(!found(DynamicImage::new_rgb32f(2, 2), ImageFormat::Hdr));
+        assert!(detected(DynamicImage::new_rgb8(2, 2), ImageFormat::Png));
+        assert!(detected(DynamicImage::new_rgba8(2, 2), ImageFormat::Png));
+        assert!(detected(DynamicImage::new_rgb8(2, 2), ImageFormat::Jpeg));
+        assert!(!detected(DynamicImage::new_luma8(2, 2), ImageFormat::Png));
+        assert!(!detected(DynamicImage::new_luma_a8(2, 2), ImageFormat::Png));
+        assert!(!detected(DynamicImage::new_rgb16(2, 2), ImageFormat::Png));
+        assert!(!detected(DynamicImage::new_rgb32f(2, 2), ImageFormat::Hdr));
         assert!(!has_colours_of_8_bits(Path::new("a"), Cursor::new(b"\x76\x2f\x31\x01".as_slice())));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_spectra::glass;
 
@@ -11,39 +11,39 @@ use crate::Error;
 
 /// Aperture, and the line that states it.
 #[derive(Clone, Copy)]
-pub(super) struct Opening {
+pub(super) struct StatedOpening {
     pub(super) stated: LensOpening,
     pub(super) line: usize,
 }
 
 /// No image in air is brighter than at f/0.5: the numerical aperture is 1 there.
-const FASTEST: f64 = 0.5;
+const MIN_F_NUMBER: f64 = 0.5;
 
-impl Opening {
+impl StatedOpening {
     /// Diameter of the entrance pupil: EPD, ENPD.
     pub(super) fn pupil(w: &Words<'_>) -> Result<Self, Error> {
         let diameter_mm = w.number(1)?;
         let known = diameter_mm > 0.0;
-        known.then(|| Self::of(LensOpening::EntrancePupil { diameter_mm }, w)).ok_or_else(|| wrong(w, "above 0"))
+        known.then(|| Self::new(LensOpening::EntrancePupil { diameter_mm }, w)).ok_or_else(|| wrong(w, "above 0"))
     }
 
     /// f-number: FNO, FNUM.
     pub(super) fn f_number(w: &Words<'_>) -> Result<Self, Error> {
         let f_number = w.number(1)?;
-        let known = f_number > FASTEST;
-        known.then(|| Self::of(LensOpening::FNumber { f_number }, w)).ok_or_else(|| wrong(w, "above 0.5"))
+        let known = f_number > MIN_F_NUMBER;
+        known.then(|| Self::new(LensOpening::FNumber { f_number }, w)).ok_or_else(|| wrong(w, "above 0.5"))
     }
 
     /// Sine of the axial point's cone behind the lens, in air: NA.
     pub(super) fn image_cone(w: &Words<'_>) -> Result<Self, Error> {
         let sine = sine(w)?;
-        Ok(Self::of(LensOpening::ImageCone { sine }, w))
+        Ok(Self::new(LensOpening::ImageCone { sine }, w))
     }
 
     /// Sine of the axial point's cone in front of the lens, in air: NAO, OBNA.
     pub(super) fn object_cone(w: &Words<'_>) -> Result<Self, Error> {
         let sine = sine(w)?;
-        Ok(Self::of(LensOpening::ObjectCone { sine }, w))
+        Ok(Self::new(LensOpening::ObjectCone { sine }, w))
     }
 
     /// The same by its half angle, degrees: OBNA with 1.
@@ -53,15 +53,15 @@ impl Opening {
             return Err(wrong(w, "of degrees above 0 and below 90"));
         }
         let sine = etendue_core::maths::f64::sin_cos(degrees.to_radians()).0;
-        Ok(Self::of(LensOpening::ObjectCone { sine }, w))
+        Ok(Self::new(LensOpening::ObjectCone { sine }, w))
     }
 
-    fn of(stated: LensOpening, w: &Words<'_>) -> Self {
+    fn new(stated: LensOpening, w: &Words<'_>) -> Self {
         Self { stated, line: w.line }
     }
 
     /// f-number as CODE V defines it: that of the image, wherever the object is.
-    pub(super) fn of_image(self) -> Self {
+    pub(super) fn in_image_space(self) -> Self {
         match self.stated {
             LensOpening::FNumber { f_number } => {
                 Self { stated: LensOpening::ImageCone { sine: 0.5 / f_number }, ..self }
@@ -77,22 +77,22 @@ fn sine(w: &Words<'_>) -> Result<f64, Error> {
 }
 
 fn wrong(w: &Words<'_>, expected: &str) -> Error {
-    w.fault(format!("{} is {}; expected a number {expected}", w.word(0), w.word(1)))
+    w.error(format!("{} is {}; expected a number {expected}", w.word(0), w.word(1)))
 }
 
 /// Lens as read: object and image are surfaces too, lengths in the file's unit.
 #[derive(Default)]
-pub(super) struct Raw {
+pub(super) struct RawLens {
     pub(super) title: String,
     /// Unit of the file, mm.
     pub(super) unit_mm: Option<f64>,
     pub(super) surfaces: Vec<RawSurface>,
-    pub(super) opening: Option<Opening>,
+    pub(super) opening: Option<StatedOpening>,
     pub(super) fields: Option<LensFields>,
     /// By field: fraction of the pupil vignetted at its upper and its lower end.
     pub(super) vignetting: [Vec<f64>; 2],
     pub(super) wavelengths_nm: Vec<f64>,
-    pub(super) primary: Option<Primary>,
+    pub(super) primary: Option<PrimaryWavelength>,
     /// True if the program computes the image position: the last distance is then not stated.
     pub(super) image_is_found: bool,
     pub(super) notes: Vec<String>,
@@ -100,13 +100,13 @@ pub(super) struct Raw {
 
 /// Wavelength of a file's first-order data.
 #[derive(Clone, Copy)]
-pub(super) struct Primary {
+pub(super) struct PrimaryWavelength {
     /// Index among the file's wavelengths, from 1.
     number: f64,
     line: usize,
 }
 
-impl Primary {
+impl PrimaryWavelength {
     /// PWAV, REF.
     pub(super) fn read(w: &Words<'_>) -> Result<Self, Error> {
         Ok(Self { number: w.number(1)?, line: w.line })
@@ -119,18 +119,18 @@ impl Primary {
         if count == 0 {
             return Ok(None);
         }
-        let found = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
-        let nm = *found.ok_or_else(|| {
+        let selected = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
+        let nm = *selected.ok_or_else(|| {
             let what = format!(
                 "the primary wavelength has number {}; expected 1 to {count}, the file's wavelengths",
                 self.number
             );
             Error::at(file, self.line, what)
         })?;
-        if (SHORTEST_NM..=MAX_NM).contains(&nm) {
+        if (MIN_NM..=MAX_NM).contains(&nm) {
             return Ok(Some(nm));
         }
-        let what = format!("the primary wavelength is {nm} nm; expected {SHORTEST_NM} to {MAX_NM} nm");
+        let what = format!("the primary wavelength is {nm} nm; expected {MIN_NM} to {MAX_NM} nm");
         Err(Error::at(file, self.line, format!("{what}: select another wavelength of the file")))
     }
 }
@@ -144,7 +144,7 @@ pub(super) struct RawSurface {
     pub(super) asphere: Option<Box<[f64; ASPHERE_TERMS]>>,
     pub(super) semi_aperture: Option<f64>,
     /// True if the clear aperture stops light, and is not only a size for drawing.
-    pub(super) rim: bool,
+    pub(super) is_clear_aperture: bool,
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
@@ -162,7 +162,7 @@ impl RawSurface {
             conic,
             asphere: None,
             semi_aperture: None,
-            rim: false,
+            is_clear_aperture: false,
             thickness: 0.0,
             glass,
             stop: false,
@@ -199,8 +199,8 @@ pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
         "OHARA" => &["S"],
         _ => &["N", "S"],
     };
-    let found = prefixes.iter().find_map(|prefix| catalogue_glass(&format!("{prefix}{plain}")))?;
-    Some((GlassAsset::Named(found.to_owned()), found.to_owned()))
+    let catalogue_name = prefixes.iter().find_map(|prefix| catalogue_glass(&format!("{prefix}{plain}")))?;
+    Some((GlassAsset::Named(catalogue_name.to_owned()), catalogue_name.to_owned()))
 }
 
 /// Glass by its number: digits of n_d − 1, then those of V_d, as six digits or separated by a point.
@@ -212,7 +212,7 @@ pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
     Some(GlassAsset::Abbe { index: 1.0 + index, abbe: 100.0 * abbe })
 }
 
-impl Raw {
+impl RawLens {
     /// Scales every length.
     pub(super) fn scale(&mut self, factor: f64) {
         for surface in &mut self.surfaces {
@@ -221,7 +221,7 @@ impl Raw {
             surface.semi_aperture = surface.semi_aperture.map(|semi| semi * factor);
             surface.thickness *= factor;
         }
-        self.opening = self.opening.map(|opening| Opening { stated: scaled(opening.stated, factor), ..opening });
+        self.opening = self.opening.map(|opening| StatedOpening { stated: scaled(opening.stated, factor), ..opening });
         self.fields = self.fields.take().map(|fields| scaled_fields(fields, factor));
     }
 
@@ -234,22 +234,22 @@ impl Raw {
                 "the file has fewer than three surfaces; expected object, surfaces and image",
             ));
         };
-        let (before_mm, mut surfaces) = kept(surfaces, unit);
+        let (before_mm, mut surfaces) = effective_surfaces(surfaces, unit);
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
         let primary_nm = self.primary.map_or(Ok(None), |primary| primary.nm(file, &self.wavelengths_nm))?;
         let shift_mm = image.thickness * unit;
         self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
-        let found = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
+        let is_focused = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
         match surfaces.iter().filter(|s| s.stop).count() {
             _ if surfaces.is_empty() => Err(Error::new(file, "no surface refracts; expected a lens")),
             1 => Ok(PrescriptionAsset {
                 title: self.title,
                 surfaces,
                 object_distance_mm,
-                back_focus_mm: if found { 0.0 } else { stated_mm },
-                defocus_mm: if found && shift_mm.is_finite() { shift_mm } else { 0.0 },
+                back_focus_mm: if is_focused { 0.0 } else { stated_mm },
+                defocus_mm: if is_focused && shift_mm.is_finite() { shift_mm } else { 0.0 },
                 opening: self.opening.map(|opening| scaled(opening.stated, unit)),
                 opening_line: self.opening.map_or(0, |opening| opening.line),
                 fields: self.fields.map(|fields| scaled_fields(fields, unit)),
@@ -259,13 +259,13 @@ impl Raw {
                 notes: self.notes,
                 hash: [0; 32],
             }),
-            found => Err(Error::new(file, format!("{found} surfaces are aperture stops; expected one (STOP or STO)"))),
+            stop_count => Err(Error::new(file, format!("{stop_count} surfaces are aperture stops; expected one (STOP or STO)"))),
         }
     }
 }
 
 /// Refuses a cone of light from an object at infinity.
-fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result<(), Error> {
+fn near_enough(file: &Path, opening: StatedOpening, object_distance_mm: f64) -> Result<(), Error> {
     let near = object_distance_mm.is_finite() && object_distance_mm > 0.0;
     match opening.stated {
         LensOpening::ObjectCone { .. } if !near => Err(Error::at(
@@ -288,11 +288,11 @@ fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
 
 /// Surfaces in mm without those that have no effect, and the distance from the first of all to the first of them. A non-refracting surface stays if it is the
 /// stop or has a clear aperture: a baffle, a field stop.
-fn kept(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
+fn effective_surfaces(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
-        let idle = surface.glass == before && !surface.stop && !(surface.rim && surface.semi_aperture.is_some());
+        let idle = surface.glass == before && !surface.stop && !(surface.is_clear_aperture && surface.semi_aperture.is_some());
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,
@@ -309,7 +309,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
         conic: s.conic,
         asphere: s.asphere.as_deref().map_or([0.0; ASPHERE_TERMS], |terms| scaled_asphere(*terms, unit)),
         semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
-        rim: s.rim && s.semi_aperture.is_some(),
+        clips_light: s.is_clear_aperture && s.semi_aperture.is_some(),
         thickness_mm: s.thickness * unit,
         glass: s.glass.clone(),
         stop: s.stop,

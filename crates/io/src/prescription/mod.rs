@@ -41,6 +41,6 @@ pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
             ));
         }
     };
-    asset.hash = hash::of_bytes(&bytes);
+    asset.hash = hash::hash_bytes(&bytes);
     Ok(asset)
 }

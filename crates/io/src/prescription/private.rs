@@ -47,9 +47,9 @@ impl PrivateGlasses {
     fn glass(&self, w: &Words<'_>) -> Result<GlassAsset, Error> {
         let indices = w.numbers(1)?;
         if indices.is_empty() || indices.len() != self.wavelengths_nm.len() {
-            let (found, expected) = (indices.len(), self.wavelengths_nm.len());
-            return Err(w.fault(format!(
-                "the private glass has {found} indices; expected one for each of {expected} wavelengths of PWL"
+            let (actual, expected) = (indices.len(), self.wavelengths_nm.len());
+            return Err(w.error(format!(
+                "the private glass has {actual} indices; expected one for each of {expected} wavelengths of PWL"
             )));
         }
         let points = self.wavelengths_nm.iter().zip(indices).map(|(nm, index)| IndexSample { nm: *nm, index });

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{Opening, Primary, Raw, RawSurface, by_number, named, successor};
+use super::build::{StatedOpening, PrimaryWavelength, RawLens, RawSurface, by_number, named, successor};
 use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 
@@ -31,7 +31,7 @@ const PASSED_OVER: &[&str] = &[
 ];
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
-    let mut reader = Reader::default();
+    let mut reader = SeqReader::default();
     for (line, command) in commands(text) {
         let words = Words { file, line, words: words(&command) };
         if !words.words.is_empty() {
@@ -79,8 +79,8 @@ fn words(command: &str) -> Vec<&str> {
 }
 
 #[derive(Default)]
-pub(super) struct Reader {
-    pub(super) raw: Raw,
+pub(super) struct SeqReader {
+    pub(super) raw: RawLens,
     glasses: PrivateGlasses,
     /// True if S lines give radii (RDM), false for curvatures.
     radii: Option<bool>,
@@ -92,7 +92,7 @@ pub(super) struct Reader {
     unknown: Vec<(String, usize)>,
 }
 
-impl Reader {
+impl SeqReader {
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
         if self.glasses.reads(w)? {
             return Ok(());
@@ -102,12 +102,12 @@ impl Reader {
             "RDM" => self.radii = Some(!w.word(1).to_ascii_uppercase().starts_with('N')),
             "TITLE" | "TIT" => self.raw.title = w.word(1).trim_start_matches(['\'', '"']).to_owned(),
             "DIM" => self.raw.unit_mm = Some(unit(w)?),
-            "EPD" => self.raw.opening = Some(Opening::pupil(w)?),
-            "FNO" => self.raw.opening = Some(Opening::f_number(w)?.of_image()),
-            "NA" => self.raw.opening = Some(Opening::image_cone(w)?),
-            "NAO" => self.raw.opening = Some(Opening::object_cone(w)?),
+            "EPD" => self.raw.opening = Some(StatedOpening::pupil(w)?),
+            "FNO" => self.raw.opening = Some(StatedOpening::f_number(w)?.in_image_space()),
+            "NA" => self.raw.opening = Some(StatedOpening::image_cone(w)?),
+            "NAO" => self.raw.opening = Some(StatedOpening::object_cone(w)?),
             "WL" => self.raw.wavelengths_nm = w.numbers(1)?,
-            "REF" => self.raw.primary = Some(Primary::read(w)?),
+            "REF" => self.raw.primary = Some(PrimaryWavelength::read(w)?),
             "YAN" => self.raw.fields = Some(LensFields::AnglesDeg(w.numbers(1)?)),
             "YOB" => self.raw.fields = Some(LensFields::ObjectMm(w.numbers(1)?)),
             "YIM" | "YRI" => self.raw.fields = Some(LensFields::ImageMm(w.numbers(1)?)),
@@ -120,7 +120,7 @@ impl Reader {
             _ if name.strip_prefix('S').is_some_and(is_count) => self.surface(&name, w)?,
             _ if REFUSED.contains(&name.as_str()) => {
                 return Err(w
-                    .fault(format!("{name} is not supported; only centred surfaces of revolution are"))
+                    .error(format!("{name} is not supported; only centred surfaces of revolution are"))
                     .with_code(ErrorCode::UnsupportedFile));
             }
             _ if self.edit(&name, w)? || PASSED_OVER.contains(&name.as_str()) => {}
@@ -154,7 +154,7 @@ impl Reader {
                 self.raw.scale(factor);
                 Ok(())
             }
-            _ => Err(w.fault("SCA: expected one factor above 0 (SCA 2.0), which scales all lengths before this line")),
+            _ => Err(w.error("SCA: expected one factor above 0 (SCA 2.0), which scales all lengths before this line")),
         }
     }
 
@@ -170,17 +170,17 @@ impl Reader {
         };
         if place > count || (place == count && self.has_image) {
             let last = count.saturating_sub(1);
-            return Err(w.fault(format!(
+            return Err(w.error(format!(
                 "{name}: expected a surface defined before (S0 to S{last}), or the next one before the image (SI)"
             )));
         }
         if name == "S" && self.current + 1 < count {
             return Err(w
-                .fault(format!("S after S{}: inserting surfaces is not supported; write them in order", self.current))
+                .error(format!("S after S{}: inserting surfaces is not supported; write them in order", self.current))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         let Some(radii) = self.radii else {
-            return Err(w.fault("surfaces precede RDM; state whether they have radii (RDM) or curvatures (RDM N)"));
+            return Err(w.error("surfaces precede RDM; state whether they have radii (RDM) or curvatures (RDM N)"));
         };
         if place == count {
             self.raw.surfaces.push(RawSurface::new(w.line));
@@ -208,7 +208,7 @@ impl Reader {
             "" | "AIR" => return Ok(GlassAsset::Air),
             "REFL" => {
                 return Err(w
-                    .fault("mirrors are not supported; only refracting lenses are")
+                    .error("mirrors are not supported; only refracting lenses are")
                     .with_code(ErrorCode::UnsupportedFile));
             }
             _ => {}
@@ -217,7 +217,7 @@ impl Reader {
             return Ok(glass);
         }
         let Some((glass, today)) = successor(plain) else {
-            return Err(w.fault(format!(
+            return Err(w.error(format!(
                 "unknown glass `{plain}`; give a name of the Schott or Ohara catalogue, a number such as 517642, or its indices in a private \
                  catalogue (PRV) before the surfaces"
             )).with_code(ErrorCode::UnknownName));
@@ -234,7 +234,7 @@ fn unit(w: &Words<'_>) -> Result<f64, Error> {
         "C" | "CM" => Ok(10.0),
         "I" | "IN" => Ok(25.4),
         other => Err(w
-            .fault(format!("DIM is `{other}`; expected M (mm), C (cm) or I (inches)"))
+            .error(format!("DIM is `{other}`; expected M (mm), C (cm) or I (inches)"))
             .with_code(ErrorCode::UnsupportedFile)),
     }
 }

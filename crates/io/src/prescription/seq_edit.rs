@@ -5,18 +5,18 @@
 
 use core::ops::RangeInclusive;
 
-use super::seq::{Reader, is_count, thickness};
+use super::seq::{SeqReader, is_count, thickness};
 use super::{build::RawSurface, text::Words};
 use crate::{Error, ErrorCode};
 
 /// Surfaces of a command, and the index of its first value.
-struct Target {
+struct EditTarget {
     surfaces: RangeInclusive<usize>,
     named: bool,
     value: usize,
 }
 
-impl Reader {
+impl SeqReader {
     /// Handles a command about surfaces; returns false for others.
     pub(super) fn edit(&mut self, name: &str, w: &Words<'_>) -> Result<bool, Error> {
         let known = ["RDY", "CUY", "THI", "GLA", "CIR", "STO", "K"].contains(&name) || order(name).is_some();
@@ -49,42 +49,42 @@ impl Reader {
         Ok(true)
     }
 
-    fn target(&self, name: &str, w: &Words<'_>) -> Result<Target, Error> {
+    fn target(&self, name: &str, w: &Words<'_>) -> Result<EditTarget, Error> {
         let zoom = |word: &str| word.strip_prefix(['Z', 'z']).is_some_and(is_count);
         if zoom(w.word(1)) || zoom(w.word(2)) {
             return Err(w
-                .fault(format!("{name} of a zoom position: zooms are not supported"))
+                .error(format!("{name} of a zoom position: zooms are not supported"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         // A glass may have the name of a surface.
         let lone_glass = name == "GLA" && w.words.len() == 2;
-        match Named::parse(w.word(1)).filter(|_| !lone_glass) {
+        match SurfaceName::parse(w.word(1)).filter(|_| !lone_glass) {
             Some(named) => {
                 let surfaces = named.places(self.raw.surfaces.len(), self.has_image);
                 let surfaces = surfaces.ok_or_else(|| {
                     let count = self.raw.surfaces.len();
-                    w.fault(format!(
+                    w.error(format!(
                         "{name} {}: no such surface is defined before; the lens has {count} surfaces here, including SO",
                         w.word(1)
                     ))
                 })?;
-                Ok(Target { surfaces, named: true, value: 2 })
+                Ok(EditTarget { surfaces, named: true, value: 2 })
             }
-            None if self.raw.surfaces.is_empty() => Err(w.fault(format!("{name} precedes the first surface (SO)"))),
-            None => Ok(Target { surfaces: self.current..=self.current, named: false, value: 1 }),
+            None if self.raw.surfaces.is_empty() => Err(w.error(format!("{name} precedes the first surface (SO)"))),
+            None => Ok(EditTarget { surfaces: self.current..=self.current, named: false, value: 1 }),
         }
     }
 }
 
 /// Surfaces by their names.
-enum Named {
+enum SurfaceName {
     Object,
     Image,
     All,
     Numbers(usize, usize),
 }
 
-impl Named {
+impl SurfaceName {
     fn parse(word: &str) -> Option<Self> {
         let rest = word.strip_prefix(['S', 's'])?.to_ascii_uppercase();
         let (first, last) = rest.split_once("..").unwrap_or((&rest, &rest));
@@ -130,10 +130,10 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -
             "EDG" | "HOL" => {}
             "OBS" => {
                 return Err(w
-                    .fault("obscurations are not supported; only round, open apertures are")
+                    .error("obscurations are not supported; only round, open apertures are")
                     .with_code(ErrorCode::UnsupportedFile));
             }
-            _ => (surface.semi_aperture, surface.rim) = (Some(w.number(value)?), true),
+            _ => (surface.semi_aperture, surface.is_clear_aperture) = (Some(w.number(value)?), true),
         },
         _ => {
             if let Some(place) = order(name) {

@@ -12,7 +12,7 @@ pub(super) struct Words<'a> {
 }
 
 impl Words<'_> {
-    pub(super) fn fault(&self, what: impl Into<Problem>) -> Error {
+    pub(super) fn error(&self, what: impl Into<Problem>) -> Error {
         Error::at(self.file, self.line, what)
     }
 
@@ -25,8 +25,8 @@ impl Words<'_> {
     pub(super) fn number(&self, place: usize) -> Result<f64, Error> {
         let number = self.word(place).parse::<f64>().ok().filter(|n| n.is_finite());
         number.ok_or_else(|| {
-            let (key, found) = (self.word(0), self.word(place));
-            self.fault(format!("{key}: found `{found}`; expected a number"))
+            let (key, actual) = (self.word(0), self.word(place));
+            self.error(format!("{key}: found `{actual}`; expected a number"))
         })
     }
 

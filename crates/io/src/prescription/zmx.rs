@@ -16,12 +16,12 @@ use std::{collections::BTreeSet, path::Path};
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{Opening, Primary, Raw, RawSurface, by_number, named, successor};
+use super::build::{StatedOpening, PrimaryWavelength, RawLens, RawSurface, by_number, named, successor};
 use super::text::Words;
 use crate::{Error, ErrorCode};
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
-    let mut reader = Reader::default();
+    let mut reader = ZmxReader::default();
     for (i, line) in text.lines().enumerate() {
         let words = Words { file, line: i + 1, words: line.split_whitespace().collect() };
         if !words.words.is_empty() {
@@ -33,8 +33,8 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
 }
 
 #[derive(Default)]
-struct Reader {
-    raw: Raw,
+struct ZmxReader {
+    raw: RawLens,
     glasses: Glasses,
     field_kind: usize,
     counts: [usize; 2],
@@ -50,11 +50,11 @@ const SURFACE_KEYWORDS: [&str; 26] = [
     "SQOB", "ELOB", "UDAD", "COMM", "HIDE", "MIRR", "SLAB", "POPS", "FIMP", "MEMA", "OEMA", "MAZH",
 ];
 
-impl Reader {
+impl ZmxReader {
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
         match w.word(0) {
             "MODE" if w.word(1) != "SEQ" => {
-                Err(w.fault("a non-sequential lens; expected MODE SEQ").with_code(ErrorCode::UnsupportedFile))
+                Err(w.error("a non-sequential lens; expected MODE SEQ").with_code(ErrorCode::UnsupportedFile))
             }
             "NAME" => {
                 self.raw.title = w.words[1..].join(" ");
@@ -83,7 +83,7 @@ impl Reader {
                 Ok(())
             }
             "PWAV" => {
-                self.raw.primary = Some(Primary::read(w)?);
+                self.raw.primary = Some(PrimaryWavelength::read(w)?);
                 Ok(())
             }
             "SURF" => {
@@ -115,7 +115,7 @@ impl Reader {
             "METER" => 1e3,
             other => {
                 return Err(w
-                    .fault(format!("UNIT is `{other}`; expected MM, CM, IN or METER"))
+                    .error(format!("UNIT is `{other}`; expected MM, CM, IN or METER"))
                     .with_code(ErrorCode::UnsupportedFile));
             }
         };
@@ -156,7 +156,7 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "TYPE" if !["STANDARD", "EVENASPH"].contains(&w.word(1)) => {
             let kind = w.word(1);
             return Err(w
-                .fault(format!("surfaces of type {kind} are not supported; only STANDARD and EVENASPH are"))
+                .error(format!("surfaces of type {kind} are not supported; only STANDARD and EVENASPH are"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         "TYPE" => surface.aspheric = w.word(1) == "EVENASPH",
@@ -168,18 +168,18 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         // A clear aperture overrides the diameter for drawing.
         "CLAP" if w.number(1)? != 0.0 => {
             return Err(w
-                .fault("obscurations are not supported; only round, open apertures are")
+                .error("obscurations are not supported; only round, open apertures are")
                 .with_code(ErrorCode::UnsupportedFile));
         }
-        "CLAP" => (surface.semi_aperture, surface.rim) = (Some(w.number(2)?), true),
+        "CLAP" => (surface.semi_aperture, surface.is_clear_aperture) = (Some(w.number(2)?), true),
         // A floating aperture clips at the diameter.
-        "FLAP" => surface.rim = true,
+        "FLAP" => surface.is_clear_aperture = true,
         "DIAM" if surface.semi_aperture.is_none() => surface.semi_aperture = Some(w.number(1)?).filter(|d| *d > 0.0),
         "STOP" => surface.stop = true,
         "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
         aperture @ ("SQAP" | "ELAP" | "OBSC" | "SQOB" | "ELOB" | "UDAD" | "OBDC") => {
             return Err(w
-                .fault(format!("apertures of type {aperture} are not supported; only round, centred apertures are"))
+                .error(format!("apertures of type {aperture} are not supported; only round, centred apertures are"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         _ => {}
@@ -200,21 +200,21 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     match place {
         1.0..=EVEN_TERMS if place.fract() == 0.0 => surface.set_coefficient(place as usize - 1, value),
         _ if value == 0.0 => {}
-        _ => return Err(w.fault(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
+        _ => return Err(w.error(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
     }
     Ok(())
 }
 
 /// Aperture of the lens; `None` if the stop's own size defines it (FLOA).
-fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
+fn opening(w: &Words<'_>) -> Result<Option<StatedOpening>, Error> {
     match (w.word(0), w.word(2)) {
-        ("ENPD", _) => Opening::pupil(w).map(Some),
+        ("ENPD", _) => StatedOpening::pupil(w).map(Some),
         ("FNUM", "1") => Err(w
-            .fault("a working f-number is not supported; give the image-space f-number (FNUM with 0), ENPD or FLOA")
+            .error("a working f-number is not supported; give the image-space f-number (FNUM with 0), ENPD or FLOA")
             .with_code(ErrorCode::UnsupportedFile)),
-        ("FNUM", _) => Opening::f_number(w).map(Some),
-        ("OBNA", "1") => Opening::object_angle(w).map(Some),
-        ("OBNA", _) => Opening::object_cone(w).map(Some),
+        ("FNUM", _) => StatedOpening::f_number(w).map(Some),
+        ("OBNA", "1") => StatedOpening::object_angle(w).map(Some),
+        ("OBNA", _) => StatedOpening::object_cone(w).map(Some),
         _ => Ok(None),
     }
 }
@@ -245,7 +245,7 @@ impl Glasses {
     ) -> Result<(GlassAsset, Option<String>), Error> {
         if w.word(1) == "MIRROR" {
             return Err(w
-                .fault("mirrors are not supported; only refracting lenses are")
+                .error("mirrors are not supported; only refracting lenses are")
                 .with_code(ErrorCode::UnsupportedFile));
         }
         match w.word(2) {
@@ -253,32 +253,32 @@ impl Glasses {
             "2" => {
                 let from = surfaces.get(w.number(3)? as usize);
                 let from = from.ok_or_else(|| {
-                    w.fault("the glass is picked up from a surface that is not defined before")
+                    w.error("the glass is picked up from a surface that is not defined before")
                         .with_code(ErrorCode::UnsupportedFile)
                 })?;
                 Ok((from.glass.clone(), None))
             }
-            _ => self.of_catalogue(w),
+            _ => self.from_catalogue(w),
         }
     }
 
-    fn of_catalogue(&mut self, w: &Words<'_>) -> Result<(GlassAsset, Option<String>), Error> {
+    fn from_catalogue(&mut self, w: &Words<'_>) -> Result<(GlassAsset, Option<String>), Error> {
         let name = w.word(1);
         if let Some(known) = named(name).or_else(|| by_number(name)) {
             return Ok((known, None));
         }
         let numbers = own_numbers(w);
         if let Some((glass, today)) = successor(name) {
-            let beside = numbers.map_or_else(String::new, |[index, abbe]| {
+            let ignored = numbers.map_or_else(String::new, |[index, abbe]| {
                 format!(", not n_d {index} and V_d {abbe} of its line, which are not used for a catalogue glass")
             });
             return Ok((
                 glass,
-                Some(format!("{name} is in no supported catalogue: its successor {today} is used{beside}")),
+                Some(format!("{name} is in no supported catalogue: its successor {today} is used{ignored}")),
             ));
         }
         let Some(numbers) = numbers else {
-            return Err(w.fault(format!(
+            return Err(w.error(format!(
                 "unknown glass `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
             )).with_code(ErrorCode::UnknownName));
         };
@@ -297,7 +297,7 @@ impl Glasses {
         };
         let Some(other) = self.by_line.iter().find(differs) else { return Ok(()) };
         let ([index, abbe], [first_index, first_abbe]) = (numbers, other.numbers);
-        Err(w.fault(format!(
+        Err(w.error(format!(
             "{} has n_d {index} and V_d {abbe} here, n_d {first_index} and V_d {first_abbe} in line {}: one pair belongs to another glass; give the \
              right n_d and V_d in both lines (GLAS {} 1 0 n_d V_d)",
             other.name, other.line, other.name

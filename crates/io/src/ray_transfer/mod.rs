@@ -21,7 +21,7 @@ use std::path::Path;
 use etendue_scene::asset::RayTransferAsset;
 
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{self, Fault, Node, Read, passed_over};
+use crate::tree::{self, TreeError, TreeNode, Read, passed_over};
 use crate::{Error, ErrorCode, hash};
 
 const KEYS: [&str; 8] = [
@@ -45,8 +45,8 @@ const MAX_WAVELENGTHS: usize = 512;
 pub fn read_ray_transfer(file: &Path) -> Result<RayTransferAsset, Error> {
     let bytes = read_description_bytes(file, "ray-transfer")?;
     let text = decode_text(file, &bytes)?;
-    let asset = read(text).map_err(|fault| fault.of(file))?;
-    Ok(RayTransferAsset { hash: hash::of_bytes(&bytes), ..asset })
+    let asset = read(text).map_err(|error| error.in_file(file))?;
+    Ok(RayTransferAsset { hash: hash::hash_bytes(&bytes), ..asset })
 }
 
 fn read(text: &str) -> Read<RayTransferAsset> {
@@ -59,18 +59,18 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     let mut notes = passed_over(&root.others(&KEYS));
     // Some programs write a list of one as its only item.
     let items = polynomials.items().unwrap_or(std::slice::from_ref(polynomials));
-    let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
+    let read = |node: &TreeNode| functions::read(node, output_offset_mm, with_dz);
     let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
     if transfers.len() > MAX_WAVELENGTHS {
         let message = format!("contains {} wavelengths; expected at most {MAX_WAVELENGTHS}", transfers.len());
-        return Err(Fault::at(polynomials.line, message));
+        return Err(TreeError::at(polynomials.line, message));
     }
     if transfers.is_empty() {
-        return Err(Fault::coded(ErrorCode::Empty, polynomials.line, "contains no wavelength; expected at least one"));
+        return Err(TreeError::coded(ErrorCode::Empty, polynomials.line, "contains no wavelength; expected at least one"));
     }
     transfers.sort_by(|a, b| a.0.wavelength_nm.total_cmp(&b.0.wavelength_nm));
     if let Some(pair) = transfers.windows(2).find(|pair| pair[0].0.wavelength_nm == pair[1].0.wavelength_nm) {
-        return Err(Fault::coded(
+        return Err(TreeError::coded(
             ErrorCode::Duplicate,
             polynomials.line,
             format!("the wavelength {} nm appears twice", pair[0].0.wavelength_nm),
@@ -82,14 +82,14 @@ fn read(text: &str) -> Read<RayTransferAsset> {
         }
     }
     let transfers = transfers.into_iter().map(|(transfer, _)| transfer).collect();
-    let name = root.find("name").map_or(Ok(""), Node::text)?.to_owned();
+    let name = root.find("name").map_or(Ok(""), TreeNode::text)?.to_owned();
     Ok(RayTransferAsset { name, thickness_mm, input_offset_mm, transfers, notes, hash: [0; 32] })
 }
 
-fn flag(node: &Node) -> Read<bool> {
+fn flag(node: &TreeNode) -> Read<bool> {
     match node.text()? {
         "true" => Ok(true),
         "false" => Ok(false),
-        other => Err(Fault::at(node.line, format!("found \"{other}\"; expected true or false"))),
+        other => Err(TreeError::at(node.line, format!("found \"{other}\"; expected true or false"))),
     }
 }

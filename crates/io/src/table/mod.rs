@@ -42,10 +42,10 @@ pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
             "contains no row; expected three columns: wavelength in nm, n, k",
         ));
     }
-    Ok(ComplexIndexAsset { points, hash: hash::of_bytes(&bytes) })
+    Ok(ComplexIndexAsset { points, hash: hash::hash_bytes(&bytes) })
 }
 
-fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), String> {
+fn index_of(row: &TableRow<'_>, before: Option<f64>) -> Result<(f64, f64, f64), String> {
     let values = row.numbers()?;
     let [nm, n, k] = values[..] else {
         return Err(format!("found {} columns; expected three: wavelength in nm, n, k", values.len()));
@@ -58,7 +58,7 @@ fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), Strin
     let wrong =
         [(nm <= 0.0, "a wavelength in nm above 0", nm), (n <= 0.0, "n above 0", n), (k < 0.0, "k of 0 or more", k)];
     match wrong.into_iter().find(|(is, _, _)| *is) {
-        Some((_, expected, found)) => Err(format!("found {found}; expected {expected}")),
+        Some((_, expected, actual)) => Err(format!("found {actual}; expected {expected}")),
         None => Ok((nm, n, k)),
     }
 }
@@ -73,7 +73,7 @@ pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
     let head = rows.next().filter(|row| row.cells.len() > 1);
     let head =
         head.ok_or_else(|| Error::new(file, "has no row of entrance angles; expected a word and at least one angle"))?;
-    let mut table = RetroTableAsset { hash: hash::of_bytes(&bytes), ..RetroTableAsset::default() };
+    let mut table = RetroTableAsset { hash: hash::hash_bytes(&bytes), ..RetroTableAsset::default() };
     for cell in &head.cells[1..] {
         let angle = angle(cell, "entrance", 90.0, table.entrance_deg.last());
         table.entrance_deg.push(angle.map_err(|what| Error::at(file, head.line, what))?);
@@ -91,11 +91,11 @@ pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
     Ok(table)
 }
 
-fn add_row(table: &mut RetroTableAsset, row: &Row<'_>) -> Result<(), String> {
-    let (found, expected) = (row.cells.len() - 1, table.entrance_deg.len());
-    if found != expected {
+fn add_row(table: &mut RetroTableAsset, row: &TableRow<'_>) -> Result<(), String> {
+    let (count, expected) = (row.cells.len() - 1, table.entrance_deg.len());
+    if count != expected {
         return Err(format!(
-            "found {found} coefficients; expected {expected}, one for each entrance angle of the first row"
+            "found {count} coefficients; expected {expected}, one for each entrance angle of the first row"
         ));
     }
     let angle = angle(row.cells[0], "observation", 180.0, table.observation_deg.last())?;
@@ -109,16 +109,16 @@ fn add_row(table: &mut RetroTableAsset, row: &Row<'_>) -> Result<(), String> {
     Ok(())
 }
 
-fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64, String> {
-    let found = number(cell).ok_or_else(|| format!("found \"{cell}\"; expected an {which} angle: a number"))?;
-    if !(0.0..=most).contains(&found) {
-        return Err(format!("the {which} angle is {found}°; expected 0° to {most}°"));
+fn angle(cell: &str, which: &str, max: f64, before: Option<&f64>) -> Result<f64, String> {
+    let degrees = number(cell).ok_or_else(|| format!("found \"{cell}\"; expected an {which} angle: a number"))?;
+    if !(0.0..=max).contains(&degrees) {
+        return Err(format!("the {which} angle is {degrees}°; expected 0° to {max}°"));
     }
-    match before.filter(|last| found <= **last) {
+    match before.filter(|last| degrees <= **last) {
         Some(last) => {
-            Err(format!("{which} angle {found}° follows {last}°: sort the table by increasing angle, each once"))
+            Err(format!("{which} angle {degrees}° follows {last}°: sort the table by increasing angle, each once"))
         }
-        None => Ok(found),
+        None => Ok(degrees),
     }
 }
 
@@ -128,7 +128,7 @@ fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64
 /// The first error, with its line.
 pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
     let bytes = read_bytes(file, "numbers")?;
-    let mut table = NumbersAsset { hash: hash::of_bytes(&bytes), ..NumbersAsset::default() };
+    let mut table = NumbersAsset { hash: hash::hash_bytes(&bytes), ..NumbersAsset::default() };
     for (index, row) in rows(decode_text(file, &bytes)?).enumerate() {
         if index == 0 && row.cells.iter().all(|cell| number(cell).is_none()) {
             continue;
@@ -149,28 +149,28 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
 }
 
 /// Non-empty row.
-pub(crate) struct Row<'a> {
+pub(crate) struct TableRow<'a> {
     /// Line, counted from 1.
     pub(crate) line: usize,
     pub(crate) cells: Vec<&'a str>,
 }
 
-impl Row<'_> {
+impl TableRow<'_> {
     fn numbers(&self) -> Result<Vec<f64>, String> {
-        let told = |cell: &&str| number(cell).ok_or_else(|| format!("found \"{cell}\"; expected a number"));
-        self.cells.iter().map(told).collect()
+        let parse = |cell: &&str| number(cell).ok_or_else(|| format!("found \"{cell}\"; expected a number"));
+        self.cells.iter().map(parse).collect()
     }
 }
 
 /// Rows that are not comments. Cells are separated by commas, or else by blanks.
-pub(crate) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+pub(crate) fn rows(text: &str) -> impl Iterator<Item = TableRow<'_>> {
     text.lines().enumerate().filter_map(|(index, line)| {
         let content = line.split('#').next().unwrap_or_default().trim();
         let cells: Vec<&str> = match content.contains(',') {
             true => content.split(',').map(str::trim).collect(),
             false => content.split_whitespace().collect(),
         };
-        (!content.is_empty()).then_some(Row { line: index + 1, cells })
+        (!content.is_empty()).then_some(TableRow { line: index + 1, cells })
     })
 }
 

@@ -26,7 +26,7 @@ fn indices_come_with_or_without_a_header_and_with_any_gap() {
 
 #[test]
 fn a_table_of_indices_is_refused_with_its_line() {
-    for (text, told) in [
+    for (text, message) in [
         (
             "400,1,2\n390,1,2\n",
             "t.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once",
@@ -38,7 +38,7 @@ fn a_table_of_indices_is_refused_with_its_line() {
         ("400,1,inf\n", "t.csv:1: found \"inf\"; expected a number"),
         ("nm n k\n", "t.csv: holds no row; expected three columns: wavelength in nm, n, k"),
     ] {
-        assert_eq!(index(text).expect_err(text), told);
+        assert_eq!(index(text).expect_err(text), message);
     }
 }
 
@@ -52,7 +52,7 @@ fn coefficients_lie_by_observation_and_entrance_angle() {
 
 #[test]
 fn a_table_of_coefficients_is_refused_with_its_line() {
-    for (text, told) in [
+    for (text, message) in [
         ("a,5,5\n", "t.csv:1: entrance angle 5° follows 5°: sort the table by rising angle, each once"),
         ("a,5,95\n", "t.csv:1: found the entrance angle 95°; expected one from 0° to 90°"),
         ("a,5\n2,1\n1,2\n", "t.csv:3: observation angle 1° follows 2°: sort the table by rising angle, each once"),
@@ -62,6 +62,6 @@ fn a_table_of_coefficients_is_refused_with_its_line() {
         ("a,5\n", "t.csv: holds no observation angle; expected one row at least behind the entrance angles"),
         ("a\n", "t.csv: has no row of entrance angles; expected a word and one angle at least"),
     ] {
-        assert_eq!(retro(text).expect_err(text), told);
+        assert_eq!(retro(text).expect_err(text), message);
     }
 }

@@ -12,7 +12,7 @@ use etendue_core::storage::{BlockKey, BlockWriter, Blocks, Fill};
 const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Checksum of bytes: words of eight bytes, each mixed into the sum by a multiplication. Any change within one word changes it.
-pub(super) fn of(bytes: &[u8]) -> u64 {
+pub(super) fn checksum(bytes: &[u8]) -> u64 {
     let (words, rest) = bytes.as_chunks::<8>();
     let mut last = [0; 8];
     last[..rest.len()].copy_from_slice(rest);
@@ -41,7 +41,7 @@ pub(super) fn head(key: &BlockKey, checksums: &[u64]) -> Vec<u8> {
     head.extend_from_slice(&(checksums.len() as u32).to_le_bytes());
     head.extend_from_slice(key);
     let listed: Vec<u8> = checksums.iter().flat_map(|sum| sum.to_le_bytes()).collect();
-    let all = of(&[&head[..], &listed].concat());
+    let all = checksum(&[&head[..], &listed].concat());
     head.extend_from_slice(&all.to_le_bytes());
     head.extend_from_slice(&listed);
     head
@@ -84,18 +84,18 @@ impl TileFile {
         if file.metadata().ok().map(|metadata| metadata.len()) != end {
             return Err(());
         }
-        let mut found = vec![0; HEAD_BYTES + 8 * lengths.len()];
-        read_at(&file, &mut found, 0).map_err(|_| ())?;
-        let (sums, _) = found[HEAD_BYTES..].as_chunks::<8>();
+        let mut stored_head = vec![0; HEAD_BYTES + 8 * lengths.len()];
+        read_at(&file, &mut stored_head, 0).map_err(|_| ())?;
+        let (sums, _) = stored_head[HEAD_BYTES..].as_chunks::<8>();
         let checksums: Vec<u64> = sums.iter().map(|sum| u64::from_le_bytes(*sum)).collect();
-        if found != head(key, &checksums) {
+        if stored_head != head(key, &checksums) {
             return Err(());
         }
-        Ok(Some(Self::of(path.to_path_buf(), file, lengths, checksums)))
+        Ok(Some(Self::new(path.to_path_buf(), file, lengths, checksums)))
     }
 
     /// Returns a complete file.
-    pub(super) fn of(path: PathBuf, file: File, lengths: &[u32], checksums: Vec<u64>) -> Self {
+    pub(super) fn new(path: PathBuf, file: File, lengths: &[u32], checksums: Vec<u64>) -> Self {
         Self { path, file, offsets: offsets(lengths), checksums }
     }
 }
@@ -105,7 +105,7 @@ impl Blocks for TileFile {
         let file = self.path.display();
         read_at(&self.file, bytes, self.offsets[block])
             .map_err(|cause| format!("{file}: block {block} of this texture cache cannot be read: {cause}"))?;
-        if of(bytes) == self.checksums[block] {
+        if checksum(bytes) == self.checksums[block] {
             return Ok(());
         }
         let is_removed = std::fs::remove_file(&self.path).is_ok() || !self.path.exists();
@@ -167,7 +167,7 @@ static NUMBER: AtomicU64 = AtomicU64::new(0);
 /// Writes the file at `path`; returns it, open for reading, with the checksums of its blocks. On failure nothing remains.
 pub(super) fn write(path: &Path, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<(File, Vec<u64>), String> {
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let unfinished = Unfinished(path.with_extension(format!("{}-{number}.part", std::process::id())));
+    let unfinished = UnfinishedFile(path.with_extension(format!("{}-{number}.part", std::process::id())));
     let cannot = |cause: std::io::Error| format!("{}: cannot be written: {cause}", unfinished.0.display());
     let file = OpenOptions::new().read(true).write(true).create_new(true).open(&unfinished.0).map_err(cannot)?;
     let mut open = OpenFile { path: &unfinished.0, file, offsets: offsets(lengths), checksums: vec![0; lengths.len()] };
@@ -178,9 +178,9 @@ pub(super) fn write(path: &Path, key: &BlockKey, lengths: &[u32], fill: Fill<'_>
 }
 
 /// File under its temporary name, removed when dropped unless it was renamed.
-struct Unfinished(PathBuf);
+struct UnfinishedFile(PathBuf);
 
-impl Drop for Unfinished {
+impl Drop for UnfinishedFile {
     fn drop(&mut self) {
         // It may have its final name by now.
         let _ = std::fs::remove_file(&self.0);
@@ -205,7 +205,7 @@ impl OpenFile<'_> {
 impl BlockWriter for OpenFile<'_> {
     fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String> {
         debug_assert_eq!(self.offsets[block + 1] - self.offsets[block], bytes.len() as u64, "block {block}");
-        self.checksums[block] = of(bytes);
+        self.checksums[block] = checksum(bytes);
         let cannot = |cause: std::io::Error| format!("{}: cannot be written: {cause}", self.path.display());
         self.put(self.offsets[block], bytes).map_err(cannot)
     }
@@ -221,9 +221,9 @@ mod tests {
         for bit in 0..37 * 8 {
             let mut flipped = bytes.clone();
             flipped[bit / 8] ^= 1 << (bit % 8);
-            assert_ne!(of(&flipped), of(&bytes), "{bit}");
+            assert_ne!(checksum(&flipped), checksum(&bytes), "{bit}");
         }
-        assert_ne!(of(&[0; 8]), of(&[0; 9]));
-        assert_ne!(of(&[]), of(&[0]));
+        assert_ne!(checksum(&[0; 8]), checksum(&[0; 9]));
+        assert_ne!(checksum(&[]), checksum(&[0]));
     }
 }

@@ -79,12 +79,12 @@ impl BlockStore for TileCache {
         }
         match (TileFile::open(&file, key, lengths), self.may) {
             (Ok(None) | Err(()), CacheUse::Read) | (Ok(None), _) => None,
-            (Ok(Some(found)), may) => {
+            (Ok(Some(blocks)), may) => {
                 if may != CacheUse::Read {
                     room::touch(&file);
                 }
                 self.own.add(&file, block_file::bytes(lengths));
-                Some(Arc::new(found))
+                Some(Arc::new(blocks))
             }
             (Err(()), _) => {
                 // Removal by another program is equally good.
@@ -105,7 +105,7 @@ impl BlockStore for TileCache {
         }
         self.prepare(block_file::bytes(lengths))?;
         let (file, checksums) = block_file::write(&self.file(key), key, lengths, fill)?;
-        Ok(Arc::new(TileFile::of(self.file(key), file, lengths, checksums)))
+        Ok(Arc::new(TileFile::new(self.file(key), file, lengths, checksums)))
     }
 }
 
@@ -134,7 +134,7 @@ mod tests {
         [2, 0, 1].into_iter().try_for_each(|i| out.write(i, &block(i)))
     }
 
-    fn made(folder: &Path) -> (TileCache, PathBuf) {
+    fn written_cache(folder: &Path) -> (TileCache, PathBuf) {
         let cache = TileCache::new(Some(folder), CacheUse::Keep);
         cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be written");
         let file = cache.file(&KEY);
@@ -153,45 +153,45 @@ mod tests {
         let cache = TileCache::new(Some(&folder), CacheUse::Keep);
         assert!(cache.find(&KEY, &LENGTHS).is_none());
         let fresh = cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be made");
-        let found = cache.find(&KEY, &LENGTHS).expect("just made");
+        let reopened = cache.find(&KEY, &LENGTHS).expect("just made");
         for i in 0..3 {
-            assert_eq!((read(&*fresh, i), read(&*found, i)), (Ok(block(i)), Ok(block(i))));
+            assert_eq!((read(&*fresh, i), read(&*reopened, i)), (Ok(block(i)), Ok(block(i))));
         }
         assert_eq!(fs::read_dir(&folder).expect("folder").count(), 1, "nothing but the file");
         assert!(cache.find(&[8; 32], &LENGTHS).is_none());
     }
 
     #[test]
-    fn a_file_that_is_not_whole_counts_as_none_and_is_removed() {
+    fn an_incomplete_file_counts_as_none_and_is_removed() {
         let place = tempfile::tempdir().expect("temporary folder");
-        let (cache, file) = made(place.path());
-        let whole = fs::read(&file).expect("file");
+        let (cache, file) = written_cache(place.path());
+        let complete = fs::read(&file).expect("file");
         let flipped = |at: usize| {
-            let mut bytes = whole.clone();
+            let mut bytes = complete.clone();
             bytes[at] ^= 1;
             bytes
         };
-        let longer = [&whole[..], &[0]].concat();
+        let longer = [&complete[..], &[0]].concat();
         let head = [flipped(0), flipped(8), flipped(12), flipped(20), flipped(50), flipped(HEAD_BYTES + 3)];
-        for bytes in head.into_iter().chain([whole[..whole.len() - 1].to_vec(), whole[..20].to_vec(), vec![], longer]) {
+        for bytes in head.into_iter().chain([complete[..complete.len() - 1].to_vec(), complete[..20].to_vec(), vec![], longer]) {
             fs::write(&file, bytes).expect("write");
             assert!(cache.find(&KEY, &LENGTHS).is_none());
             assert!(!file.exists());
         }
-        fs::write(&file, &whole).expect("write");
+        fs::write(&file, &complete).expect("write");
         assert!(cache.find(&KEY, &[5, 0, 2999]).is_none(), "other lengths");
     }
 
     #[test]
-    fn a_damaged_block_is_told_and_its_file_removed() {
+    fn a_damaged_block_is_reported_and_its_file_removed() {
         let place = tempfile::tempdir().expect("temporary folder");
-        let (cache, file) = made(place.path());
+        let (cache, file) = written_cache(place.path());
         let mut bytes = fs::read(&file).expect("file");
         *bytes.last_mut().expect("bytes") ^= 1;
         fs::write(&file, bytes).expect("write");
-        let found = cache.find(&KEY, &LENGTHS).expect("head and length are right");
-        assert_eq!(read(&*found, 0), Ok(block(0)));
-        let message = read(&*found, 2).expect_err("one bit is another");
+        let cached = cache.find(&KEY, &LENGTHS).expect("head and length are right");
+        assert_eq!(read(&*cached, 0), Ok(block(0)));
+        let message = read(&*cached, 2).expect_err("one bit is another");
         assert!(
             message.ends_with(".tiles: block 2 is damaged; the file was removed: run again to create it again"),
             "{message}"
@@ -225,7 +225,7 @@ mod tests {
         let cache = TileCache::new(Some(place.path()), CacheUse::Keep);
         let keys: [BlockKey; 4] = [1, 2, 3, 4].map(|byte| [byte; 32]);
         // Sparse files: half of the limit each.
-        let half = etendue_scene::limits::TEXTURE_CACHE.most_bytes() / 2;
+        let half = etendue_scene::limits::TEXTURE_CACHE.max_bytes() / 2;
         for (key, s) in keys[..3].iter().zip(1..) {
             let file = fs::File::create(cache.file(key)).expect("a file");
             file.set_len(half).expect("sparse");
@@ -238,10 +238,10 @@ mod tests {
         let is_there = keys.map(|key| cache.file(&key).exists());
         assert_eq!(is_there, [false, true, false, true], "the oldest, then the next that is not the job's");
         assert!(place.path().join("theirs.tiles").exists());
-        let told = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
+        let message = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
         assert!(
-            told.contains("the texture cache is limited to 2048 MiB") && told.contains("`limit` texture-cache-mib="),
-            "{told}"
+            message.contains("the texture cache is limited to 2048 MiB") && message.contains("`limit` texture-cache-mib="),
+            "{message}"
         );
         assert_eq!(cache.check_room(&keys[3], &LENGTHS), Ok(()));
     }
@@ -255,10 +255,10 @@ mod tests {
         assert_eq!(read(&*blocks, 0), Ok(block(0)));
         assert!(read(&*blocks, 2).expect_err("not kept").contains("for its plan alone"));
         assert!(!folder.exists());
-        let (kept, file) = made(&folder);
+        let (owner, file) = written_cache(&folder);
         fs::write(&file, b"damaged").expect("write");
         assert!(cache.find(&KEY, &LENGTHS).is_none() && file.exists());
-        drop(kept);
+        drop(owner);
     }
 
     #[cfg(unix)]
@@ -266,12 +266,12 @@ mod tests {
     fn a_cache_in_an_output_folder_is_no_link() {
         let place = tempfile::tempdir().expect("temporary folder");
         let (folder, foreign) = (place.path().join("cache"), place.path().join("foreign"));
-        made(&foreign);
+        written_cache(&foreign);
         std::os::unix::fs::symlink(&foreign, &folder).expect("link");
         let cache = TileCache::new(Some(&folder), CacheUse::KeepInOutput);
         assert!(cache.find(&KEY, &LENGTHS).is_none());
-        let told = cache.make(&[8; 32], &LENGTHS, &mut fill).expect_err("a link");
-        assert!(told.contains("a symbolic link is in the place"), "{told}");
+        let message = cache.make(&[8; 32], &LENGTHS, &mut fill).expect_err("a link");
+        assert!(message.contains("a symbolic link is in the place"), "{message}");
         assert_eq!(fs::read_dir(&foreign).expect("folder").count(), 1);
     }
 }

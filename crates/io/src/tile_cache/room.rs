@@ -26,12 +26,12 @@ impl OwnFiles {
         let own = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let others: u64 = own.iter().filter(|(other, _)| *other != file).map(|(_, bytes)| bytes).sum();
         let needed = others + bytes;
-        if needed <= TEXTURE_CACHE.most_bytes() {
+        if needed <= TEXTURE_CACHE.max_bytes() {
             return Ok(());
         }
-        let (mib, most) = (needed.div_ceil(1 << 20), TEXTURE_CACHE.most());
+        let (mib, max_bytes) = (needed.div_ceil(1 << 20), TEXTURE_CACHE.current());
         Err(format!(
-            "the tiles of the job's textures need {mib} MiB, but the texture cache is limited to {most} MiB; use smaller images, give textures more \
+            "the tiles of the job's textures need {mib} MiB, but the texture cache is limited to {max_bytes} MiB; use smaller images, give textures more \
              memory, {}",
             TEXTURE_CACHE.remedy_bytes(needed.into())
         ))
@@ -48,14 +48,14 @@ pub(super) fn make(folder: &Path, bytes: u64, own: &OwnFiles) {
     let mut files: Vec<_> = entries
         .filter(|entry| is_ours(&entry.file_name().to_string_lossy()))
         .filter_map(|entry| {
-            let found = entry.metadata().ok().filter(fs::Metadata::is_file)?;
-            Some((found.modified().ok()?, entry.path(), found.len()))
+            let info = entry.metadata().ok().filter(fs::Metadata::is_file)?;
+            Some((info.modified().ok()?, entry.path(), info.len()))
         })
         .collect();
     files.sort();
     let mut sum: u64 = files.iter().map(|(_, _, bytes)| bytes).sum();
     for (_, file, length) in files {
-        if sum + bytes <= TEXTURE_CACHE.most_bytes() {
+        if sum + bytes <= TEXTURE_CACHE.max_bytes() {
             return;
         }
         if !own.has(&file) && fs::remove_file(&file).is_ok() {

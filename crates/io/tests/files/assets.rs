@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_io::{load_assets, mesh};
-use etendue_scene::asset::{AssetKind, AssetRequest, Covered, ImagePixels};
+use etendue_scene::asset::{AssetKind, AssetRequest, ReplacedMaterials, ImagePixels};
 use etendue_scene::{Description, Overrides};
 
 const JOB: &str = r#"format = 1
@@ -98,7 +98,7 @@ fn lamps_and_tables_are_read_by_their_kind() {
         path: folder.join(name),
         kind,
         place: description(folder).assets()[0].place.clone(),
-        covered: Covered::All,
+        covered: ReplacedMaterials::All,
     });
     let assets = load_assets(&requests).unwrap_or_else(|e| panic!("{e:?}"));
     assert_eq!(assets.photometry[&folder.join("l.ies")].candela, [9.0, 8.0, 9.0, 8.0]);
@@ -118,42 +118,42 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     let folder = place.path();
     write(folder, &[("m.obj", b"v 0 0 0\nf 1 2 3\n"), ("t.png", &png(10)[..40]), ("b.csv", b"400,0.5\n390,0.5\n")]);
     let errors = load_assets(&description(folder).assets()).expect_err("three faults");
-    let told: Vec<String> =
+    let messages: Vec<String> =
         errors.iter().map(|e| e.to_string().replace(&format!("{}/", folder.display()), "")).collect();
-    assert_eq!(told.len(), 3, "{told:#?}");
+    assert_eq!(messages.len(), 3, "{messages:#?}");
     assert_eq!(
-        told[0],
+        messages[0],
         "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
-        told[1],
+        messages[1],
         "m.obj:2: the face refers to vertex 2, but there are 1; the file is damaged or truncated (named at job.toml:5:8: scene.meshes.m.file)"
     );
-    assert!(told[2].starts_with("t.png: not a readable image (") && told[2].contains("truncated"), "{}", told[2]);
-    assert!(told[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", told[2]);
+    assert!(messages[2].starts_with("t.png: not a readable image (") && messages[2].contains("truncated"), "{}", messages[2]);
+    assert!(messages[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", messages[2]);
 }
 
 #[test]
-fn a_value_that_its_use_forbids_is_told_with_its_line() {
+fn a_value_that_its_use_forbids_is_reported_with_its_line() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = place.path();
     write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", b"newmtl x\n"), ("t.png", &png(10))]);
-    let told = |table: &[u8]| {
+    let messages = |table: &[u8]| {
         write(folder, &[("b.csv", table)]);
         let errors = load_assets(&description(folder).assets()).err().unwrap_or_default();
         errors.iter().map(|e| e.to_string().replace(&format!("{}/", folder.display()), "")).collect::<Vec<_>>()
     };
     assert_eq!(
-        told(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
+        messages(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
         ["b.csv:4: found 1.5 at 500 nm; expected a share between 0 and 1 \
           (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
     );
-    assert_eq!(told(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));
-    assert_eq!(told(b"400,0\n500,1\n"), [""; 0]);
+    assert_eq!(messages(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));
+    assert_eq!(messages(b"400,0\n500,1\n"), [""; 0]);
 }
 
 #[test]
-fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
+fn a_missing_texture_of_a_mesh_is_reported_with_the_mesh() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = place.path();
     write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", b"newmtl x\nmap_Kd lost.png\n")]);
@@ -163,8 +163,8 @@ fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
     assert!(errors.len() == 1 && message.starts_with("lost.png: no such image file; check the path"), "{message}");
     assert!(message.contains("named at m.obj"), "{message}");
     assert!(message.ends_with("; a path is relative to the file that names it)"), "{message}");
-    let message = read_picture(&folder.join("lost.png")).expect_err("nobody names it").to_string();
+    let message = read_image(&folder.join("lost.png")).expect_err("nobody names it").to_string();
     assert!(message.ends_with("lost.png: no such image file; check the path"), "{message}");
-    let message = read_picture(folder).expect_err("a folder").to_string();
+    let message = read_image(folder).expect_err("a folder").to_string();
     assert!(message.ends_with(": this is a folder; give a file in it"), "{message}");
 }

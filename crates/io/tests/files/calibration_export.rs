@@ -31,18 +31,18 @@ fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Model {
 
 /// Checks that both give the same projection over the whole image.
 #[track_caller]
-fn assert_same(found: &Calibration, expected: &Calibration, told: &str) {
-    assert_eq!(found.size_px(), expected.size_px(), "{told}");
-    let mut seen = 0;
+fn assert_same(actual: &Calibration, expected: &Calibration, label: &str) {
+    assert_eq!(actual.size_px(), expected.size_px(), "{label}");
+    let mut visible_count = 0;
     for i in 0..81 {
         let at = DVec2::new(f64::from(i % 9) * 80.0, f64::from(i / 9) * 60.0);
         let Some(direction) = expected.unproject(at) else { continue };
-        let again = found.project(direction).unwrap_or_else(|| panic!("{told}: {at} is not seen"));
+        let again = actual.project(direction).unwrap_or_else(|| panic!("{label}: {at} is not seen"));
         // Rounding of some hundred px.
-        assert!((again - at).length() < 1e-10, "{told}: {again} for {at}");
-        seen += 1;
+        assert!((again - at).length() < 1e-10, "{label}: {again} for {at}");
+        visible_count += 1;
     }
-    assert!(seen > 40, "{told}");
+    assert!(visible_count > 40, "{label}");
 }
 
 fn read(name: &str, text: &str, format: CalibrationFormat, camera: Option<&str>) -> Calibration {
@@ -98,27 +98,27 @@ fn models() -> Vec<(&'static str, Model, [bool; 3])> {
 
 #[test]
 fn every_model_that_a_format_knows_is_the_same_camera_in_it() {
-    for (told, model, known) in models() {
+    for (label, model, known) in models() {
         let calibration = camera(model);
         let named = NamedCamera { name: "left", calibration: &calibration };
         let ros = ros::camera_info(&named, 0.0);
-        assert_eq!(ros.is_ok(), known[0], "{told}: {ros:?}");
+        assert_eq!(ros.is_ok(), known[0], "{label}: {ros:?}");
         if let Ok(text) = ros {
-            assert_same(&read("ros.yaml", &text, CalibrationFormat::Ros, Some("left")), &calibration, told);
+            assert_same(&read("ros.yaml", &text, CalibrationFormat::Ros, Some("left")), &calibration, label);
         }
         let chain = kalibr::intrinsics(&named).map(|intrinsics| {
             let pose = CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY };
-            kalibr::camchain(Some("car"), &[kalibr::Link { camera: named, intrinsics, pose }], &[])
+            kalibr::camchain(Some("car"), &[kalibr::ChainLink { camera: named, intrinsics, pose }], &[])
         });
-        assert_eq!(chain.is_ok(), known[1], "{told}: {chain:?}");
+        assert_eq!(chain.is_ok(), known[1], "{label}: {chain:?}");
         if let Ok(text) = chain {
-            assert_same(&read("camchain.yaml", &text, CalibrationFormat::Kalibr, Some("cam0")), &calibration, told);
+            assert_same(&read("camchain.yaml", &text, CalibrationFormat::Kalibr, Some("cam0")), &calibration, label);
         }
         let line = colmap::camera(&named);
-        assert_eq!(line.is_ok(), known[2], "{told}: {line:?}");
+        assert_eq!(line.is_ok(), known[2], "{label}: {line:?}");
         if let Ok(line) = line {
             let text = colmap::cameras(&[line], &[]);
-            assert_same(&read("cameras.txt", &text, CalibrationFormat::Colmap, Some("1")), &calibration, told);
+            assert_same(&read("cameras.txt", &text, CalibrationFormat::Colmap, Some("1")), &calibration, label);
         }
     }
 }

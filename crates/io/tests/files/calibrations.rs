@@ -23,7 +23,7 @@ fn sample(name: &str) -> PathBuf {
 }
 
 fn read(file: &Path, format: CalibrationFormat, camera: Option<&str>) -> ImportedCamera {
-    read_calibration(file, format, camera).unwrap_or_else(|fault| panic!("{fault}"))
+    read_calibration(file, format, camera).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -90,16 +90,16 @@ fn radtan([x, y]: [f64; 2], [k1, k2, p1, p2, k3]: [f64; 5]) -> [f64; 2] {
 
 /// Checks that the camera sees every ray at the pixel of the definition, whose centres are at whole numbers.
 fn follows(camera: &Calibration, focal: [f64; 2], centre: [f64; 2], definition: impl Fn(DVec3) -> [f64; 2]) {
-    let mut seen = 0;
+    let mut visible_count = 0;
     for ray in rays() {
         let [x, y] = definition(ray);
         let expected = DVec2::new(focal[0] * x + centre[0] + 0.5, focal[1] * y + centre[1] + 0.5);
         // Definitions continue beyond a fold; the cameras do not.
         let Some(ours) = camera.project(ray) else { continue };
-        seen += 1;
+        visible_count += 1;
         assert!((ours - expected).length() < TOLERANCE_PX, "{ours} for {expected}: {camera:?}");
     }
-    assert!(seen > 100, "{seen}");
+    assert!(visible_count > 100, "{visible_count}");
 }
 
 #[test]
@@ -165,40 +165,40 @@ fn an_ocam_file_is_what_its_toolbox_defines() {
         let r = (x * x + y * y).sqrt();
         let z = -2.186e2 + r * r * (1.95e-3 + r * (-1.6e-6 + r * 6.9e-9));
         let pixel = DVec2::new(f64::from(j) + 0.5, f64::from(i) + 0.5);
-        let found = camera.calibration.unproject(pixel).expect("seen");
+        let direction = camera.calibration.unproject(pixel).expect("seen");
         // A direction from a polynomial of some hundred px: a dozen roundings of 1e-16.
-        assert!((found - DVec3::new(y, x, -z).normalize()).length() < 1e-14, "{found} at {pixel}");
+        assert!((direction - DVec3::new(y, x, -z).normalize()).length() < 1e-14, "{direction} at {pixel}");
         // And the field passes 90° where the polynomial changes its sign.
-        assert_eq!(found.z < 0.0, z > 0.0);
-        let back = camera.calibration.project(found).expect("seen");
+        assert_eq!(direction.z < 0.0, z > 0.0);
+        let back = camera.calibration.project(direction).expect("seen");
         assert!((back - pixel).length() < 1e-9 && atan2(r, -z) < 3.0);
     }
 }
 
 #[test]
 fn a_camera_of_several_is_chosen_by_its_name() {
-    let fault = |name: &str, format, camera| {
+    let error_text = |name: &str, format, camera| {
         let file = if name == "cameras.txt" { written(name) } else { sample(name) };
         read_calibration(&file, format, camera).expect_err("wrong").what().to_owned()
     };
     let chain = "contains the cameras cam0, cam1, cam2, cam3, cam4, cam5; select one by its name";
-    assert_eq!(fault("camchain.yaml", CalibrationFormat::Kalibr, None), chain);
+    assert_eq!(error_text("camchain.yaml", CalibrationFormat::Kalibr, None), chain);
     assert!(
-        fault("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9"))
+        error_text("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9"))
             .contains("no camera \"cam9\"; it contains cam0")
     );
-    assert!(fault("cameras.txt", CalibrationFormat::Colmap, None).contains("select one by its id"));
-    assert!(fault("camera_info.yaml", CalibrationFormat::Ros, Some("wide")).contains("narrow_stereo"));
-    assert!(fault("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("without a name"));
+    assert!(error_text("cameras.txt", CalibrationFormat::Colmap, None).contains("select one by its id"));
+    assert!(error_text("camera_info.yaml", CalibrationFormat::Ros, Some("wide")).contains("narrow_stereo"));
+    assert!(error_text("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("without a name"));
 }
 
 /// Message for a text, with its line.
-fn said(text: &str, format: CalibrationFormat) -> (Option<usize>, String) {
+fn located_error(text: &str, format: CalibrationFormat) -> (Option<usize>, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");
     std::fs::write(&file, text).expect("written");
-    let fault = read_calibration(&file, format, None).expect_err("wrong");
-    (fault.line(), fault.what().to_owned())
+    let error = read_calibration(&file, format, None).expect_err("wrong");
+    (error.line(), error.what().to_owned())
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn faults_name_the_line_and_what_was_expected() {
         (OpenCv, "{\"a\": ".into(), None, "not YAML or JSON"),
     ];
     let wrong = cases.into_iter().filter_map(|(format, text, line, expected)| {
-        let (at, what) = said(&text, format);
+        let (at, what) = located_error(&text, format);
         let right = what.contains(expected) && (line.is_none() || at == line);
         (!right).then(|| format!("{format:?}: line {at:?}: {what} (expected {line:?}: {expected})"))
     });

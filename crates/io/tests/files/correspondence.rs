@@ -33,8 +33,8 @@ fn bytes_are_those_of_the_stored_samples() {
         let fresh = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         fs::write(&fresh, &bytes).expect("write");
         let stored = fs::read(figures(name)).unwrap_or_default();
-        let told = "differs from the stored sample; if it should, copy it there and run tests/oracles/read_flow.py";
-        assert!(bytes == stored, "{} {told}", fresh.display());
+        let advice = "differs from the stored sample; if it should, copy it there and run tests/oracles/read_flow.py";
+        assert!(bytes == stored, "{} {advice}", fresh.display());
     }
 }
 

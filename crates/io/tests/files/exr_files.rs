@@ -8,10 +8,10 @@ use etendue_core::quantity::{Identity, Irradiance, Length, MeanElectrons, Quanti
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{
-    GroundTruth, Lengths, Samples, SpectralImage, encode_ground_truth, encode_plane, encode_radiance, encode_spectral,
+    GroundTruth, LengthPlanes, ExrSamples, SpectralImage, encode_ground_truth, encode_plane, encode_radiance, encode_spectral,
     read_exr, read_spectral,
 };
-use etendue_io::inspect::{Shown, inspect, inspect_showing};
+use etendue_io::inspect::{PreviewSelection, inspect, inspect_showing};
 
 const ODD: [f32; 6] = [0.0, -0.0, 1.5e-42, f32::MAX, f32::INFINITY, 1.0 / 3.0];
 
@@ -59,13 +59,13 @@ fn radiance_and_its_variance_come_back_to_the_bit() {
 }
 
 #[test]
-fn distances_stand_beside_the_radiance_and_come_back_to_the_bit() {
+fn distances_are_stored_with_the_radiance_bit_by_bit() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let values = cube::<Radiance>(0.0);
     let plane =
         |offset: f32| Plane::<Length>::from_samples(3, 2, ODD.map(|v| v + offset).to_vec()).expect("six pixels");
     let (distance, depth) = (plane(1.0), plane(2.0));
-    let lengths = Lengths { distance: &distance, depth: &depth };
+    let lengths = LengthPlanes { distance: &distance, depth: &depth };
     let bytes = encode_radiance(&values, None, Some(lengths), &provenance()).expect("encodable");
     let path = written(folder.path(), "a.exr", &bytes);
     let file = read_spectral(&path).expect("readable");
@@ -113,19 +113,19 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let exr = read_exr(&path).expect("readable");
     let names: Vec<&str> = exr.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["N.X", "N.Y", "N.Z", "depth.Z", "instance.ID", "semantic.ID"]);
-    assert_eq!(exr.channel("depth.Z"), Some(&Samples::Float(ODD.to_vec())));
-    assert_eq!(exr.channel("N.Z"), Some(&Samples::Float(vec![-0.8; 6])));
-    assert_eq!(exr.channel("instance.ID"), Some(&Samples::Uint(ids.samples().to_vec())));
+    assert_eq!(exr.channel("depth.Z"), Some(&ExrSamples::Float(ODD.to_vec())));
+    assert_eq!(exr.channel("N.Z"), Some(&ExrSamples::Float(vec![-0.8; 6])));
+    assert_eq!(exr.channel("instance.ID"), Some(&ExrSamples::Uint(ids.samples().to_vec())));
     let report = inspect(&path).expect("ground truth");
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
     assert!(report.notes[0].starts_with("the image shows depth.Z in the viridis colour map"), "{:?}", report.notes);
-    let of = |layer: &str| inspect_showing(&path, &Shown { layer: Some(layer.to_owned()), boxes: None });
-    let shown = |layer: &str| of(layer).expect("a layer").preview.expect("a picture").rgb;
+    let report_of = |layer: &str| inspect_showing(&path, &PreviewSelection { layer: Some(layer.to_owned()), boxes: None });
+    let shown = |layer: &str| report_of(layer).expect("a layer").preview.expect("a picture").rgb;
     assert_eq!(shown("instance.ID"), shown("semantic"));
     assert_eq!(shown("instance")[0], [0; 3], "the background");
     assert_eq!(shown("N"), [[128, 204, 26]; 6]);
-    let message = of("flow").expect_err("none").to_string();
+    let message = report_of("flow").expect_err("none").to_string();
     assert!(message.ends_with("has no layer \"flow\"; expected one of N, depth, instance, semantic"), "{message}");
     let message = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
     assert!(message.contains("job.toml: a description, neither a result nor an asset"), "{message}");
@@ -148,8 +148,8 @@ fn electrons_say_what_they_are() {
 fn a_truncated_file_is_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let bytes = encode_spectral(&cube::<Radiance>(0.0), None, &provenance()).expect("encodable");
-    for share in [0.01, 0.3, 0.9] {
-        let path = written(folder.path(), "a.exr", &bytes[..(bytes.len() as f64 * share) as usize]);
+    for fraction in [0.01, 0.3, 0.9] {
+        let path = written(folder.path(), "a.exr", &bytes[..(bytes.len() as f64 * fraction) as usize]);
         let message = read_spectral(&path).expect_err("truncated").to_string();
         assert!(message.contains("a.exr: not a readable EXR file") && message.contains("truncated"), "{message}");
     }
@@ -169,8 +169,8 @@ fn environments_in_half_floats_and_lossy_compression_are_read() {
     if !all_here("environments_in_half_floats_and_lossy_compression_are_read", &[&path]) {
         return;
     }
-    let picture = etendue_io::picture::read_picture(&path).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!((picture.width, picture.height), (512, 256));
+    let image = etendue_io::picture::read_image(&path).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((image.width, image.height), (512, 256));
     let report = inspect(&path).expect("an environment");
     // Means by OpenEXR 3.5.3 (its own DWA decoder), summed in 64 bits. Half floats hold 3 decimals, and the decoders may
     // round the last one differently: over 131 072 pixels such differences average out to far below 1e-5.

@@ -34,7 +34,7 @@ fn read(text: &str, camera: Option<&str>) -> Result<ImportedCamera, String> {
     let file = folder.path().join("camera.json");
     std::fs::write(&file, text).expect("written");
     read_calibration(&file, CalibrationFormat::FTheta, camera)
-        .map_err(|fault| format!("{}: {}", fault.line().unwrap_or(0), fault.what()))
+        .map_err(|error| format!("{}: {}", error.line().unwrap_or(0), error.what()))
 }
 
 /// Σ cᵢ xⁱ.
@@ -61,17 +61,17 @@ fn a_rig_s_pixels_look_where_its_polynomial_says() {
         let (sin, cos) = sin_cos(value(&c, offset.length()));
         let expected = (offset.normalize() * sin).extend(cos);
         let at = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
-        let seen = camera.calibration.unproject(at).expect("seen");
+        let direction = camera.calibration.unproject(at).expect("seen");
         // A dozen roundings of numbers up to 3.
-        assert!((seen - expected).length() < 1e-14, "{seen} for {expected} at {at}");
-        let back = camera.calibration.project(seen).expect("seen");
+        assert!((direction - expected).length() < 1e-14, "{direction} for {expected} at {at}");
+        let back = camera.calibration.project(direction).expect("seen");
         assert!((back - at).length() < 1e-9, "{back} for {at}");
     }
     // A linear term of zeros is none (DriveWorks, dwFThetaCameraConfig), and bw-poly runs from the distance.
     let tele = read(RIG, Some("camera:rear:tele:30fov")).expect("a rig").calibration;
     let (sin, cos) = sin_cos(2.6e-4 * 500.0);
-    let seen = tele.unproject(DVec2::new(1460.5, 540.5)).expect("seen");
-    assert!((seen - DVec3::new(sin, 0.0, cos)).length() < 1e-15, "{seen}");
+    let direction = tele.unproject(DVec2::new(1460.5, 540.5)).expect("seen");
+    assert!((direction - DVec3::new(sin, 0.0, cos)).length() < 1e-15, "{direction}");
 }
 
 #[test]
@@ -82,13 +82,13 @@ fn an_ncore_camera_projects_by_its_polynomial_up_to_its_angle() {
     for (i, j) in (1..14).flat_map(|i| (0..16).map(move |j| (i, j))) {
         let (angle, azimuth) = (0.1 * f64::from(i), 0.4 * f64::from(j));
         let ((sin, cos), (y, x)) = (sin_cos(angle), sin_cos(azimuth));
-        let seen = camera.calibration.project(DVec3::new(x * sin, y * sin, cos));
+        let pixel = camera.calibration.project(DVec3::new(x * sin, y * sin, cos));
         let expected = there * (DVec2::new(x, y) * value(&c, angle)) + DVec2::new(477.86, 371.405) + 0.5;
         if angle < 1.3461 {
             // Some hundred px and a dozen roundings.
-            assert!((seen.expect("seen") - expected).length() < 1e-11, "{seen:?} for {expected}");
+            assert!((pixel.expect("seen") - expected).length() < 1e-11, "{pixel:?} for {expected}");
         } else {
-            assert!(seen.is_none());
+            assert!(pixel.is_none());
         }
     }
 }
@@ -121,8 +121,8 @@ fn faults_name_the_line_and_what_was_expected() {
         ("{\"Model\": \"kannala\"}".to_owned(), None, "1: expected the model \"ftheta\""),
     ];
     for (text, camera, expected) in cases {
-        let fault = read(&text, camera).expect_err("wrong");
-        assert!(fault.contains(expected), "{fault} (expected {expected})");
+        let message = read(&text, camera).expect_err("wrong");
+        assert!(message.contains(expected), "{message} (expected {expected})");
     }
 }
 
@@ -131,6 +131,6 @@ fn a_polynomial_that_turns_back_inside_the_picture_is_refused() {
     // θ = 0.002 r − 2e-6 r² turns back at 500 px; the farthest corner is 612 px away.
     let text = r#"{"Model": "ftheta", "width": 1000, "height": 700, "cx": 499.5, "cy": 349.5,
                    "polynomial": "0 2e-3 -2e-6", "polynomial-type": "pixeldistance-to-angle"}"#;
-    let fault = read(text, None).expect("read").calibration.check().expect_err("folds").to_string();
-    assert!(fault.contains("folds the picture over at a radius of 500.0"), "{fault}");
+    let message = read(text, None).expect("read").calibration.check().expect_err("folds").to_string();
+    assert!(message.contains("folds the picture over at a radius of 500.0"), "{message}");
 }

@@ -1,7 +1,7 @@
 //! glTF: a file of another program compared with that program's own results, small files with known answers, and damaged ones.
 
 use etendue_io::mesh::read_mesh;
-use etendue_scene::asset::{ImagePixels, MeshAsset, SlotColour, SlotLayers, SlotNumber, SlotOver, SlotSurface};
+use etendue_scene::asset::{ImagePixels, MeshAsset, SlotColour, SlotLayers, SlotNumber, SlotTopLayer, SlotSurface};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::fs;
@@ -32,12 +32,12 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
     let figures: Value = serde_json::from_slice(&fs::read(oracle("scene.json")).expect("figures")).expect("JSON");
     assert_eq!(mesh.slot_materials.len(), 3);
     for (slot, material) in mesh.slot_materials.iter().enumerate() {
-        let (expected, found) = (&figures[&material.name], corners(&mesh, slot));
+        let (expected, actual) = (&figures[&material.name], corners(&mesh, slot));
         let number = |key: &str| expected[key].as_f64().expect("a figure");
-        assert_eq!(found.len() as f64, number("triangles"), "{}", material.name);
-        let area: f64 = found.iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
+        assert_eq!(actual.len() as f64, number("triangles"), "{}", material.name);
+        let area: f64 = actual.iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
         assert!((area - number("area")).abs() < 1e-5 * area, "{}: {area}", material.name);
-        let volume: f64 = found.iter().map(|[a, b, c]| a.cross(*b).dot(*c) / 6.0).sum();
+        let volume: f64 = actual.iter().map(|[a, b, c]| a.cross(*b).dot(*c) / 6.0).sum();
         let is_closed = material.name != "print";
         assert!(
             !is_closed || (volume - number("volume")).abs() < 1e-4,
@@ -45,10 +45,10 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
             material.name
         );
         for (i, pick) in [DVec3::min as fn(DVec3, DVec3) -> DVec3, DVec3::max].into_iter().enumerate() {
-            let bound = found.iter().flatten().copied().reduce(pick).expect("corners").to_array();
-            for (axis, found) in bound.into_iter().enumerate() {
+            let bound = actual.iter().flatten().copied().reduce(pick).expect("corners").to_array();
+            for (axis, coordinate) in bound.into_iter().enumerate() {
                 let expected = expected["bounds"][i][axis].as_f64().expect("a bound");
-                assert!((found - expected).abs() < 2e-6, "{}: {found} for {expected}", material.name);
+                assert!((coordinate - expected).abs() < 2e-6, "{}: {coordinate} for {expected}", material.name);
             }
         }
     }
@@ -59,11 +59,11 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
     assert_eq!(gold.alpha, SlotNumber::Number(roughness * roughness));
     let SlotColour::LinearSrgb([_, green, blue]) = gold.base else { panic!("{gold:?}") };
     assert!((green - 196.0 / 255.0).abs() < 1e-6 && (blue - 86.0 / 255.0).abs() < 1e-6);
-    assert_eq!(layers(&mesh, slot("matt")).over, SlotOver::Nothing);
+    assert_eq!(layers(&mesh, slot("matt")).top_layer, SlotTopLayer::Nothing);
     let print = layers(&mesh, slot("print"));
-    assert_eq!(print.over, SlotOver::Coat { index: 1.5 });
+    assert_eq!(print.top_layer, SlotTopLayer::Coat { index: 1.5 });
     let SlotColour::Picture(picture) = &print.base else { panic!("{print:?}") };
-    let (_, image) = mesh.pictures.iter().find(|(name, _)| *name == picture.file).expect("the picture came along");
+    let (_, image) = mesh.embedded_images.iter().find(|(name, _)| *name == picture.file).expect("the picture came along");
     assert_eq!((image.width, image.height), (4, 2));
     let ImagePixels::Rgb8(pixels) = &image.pixels else { panic!("{:?}", image.pixels) };
     assert_eq!(pixels[..4], [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]]);
@@ -110,8 +110,8 @@ fn read_bytes(name: &str, bytes: &[u8], others: &[(&str, &[u8])]) -> Result<Mesh
     let folder = tempfile::tempdir().expect("temporary folder");
     others.iter().for_each(|(name, bytes)| fs::write(folder.path().join(name), bytes).expect("written"));
     fs::write(folder.path().join(name), bytes).expect("written");
-    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
-    read_mesh(&folder.path().join(name)).map_err(told)
+    let relative_text = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    read_mesh(&folder.path().join(name)).map_err(relative_text)
 }
 
 /// Reads the square after a change.
@@ -136,7 +136,7 @@ fn png(rgba: [u8; 4]) -> Vec<u8> {
     bytes
 }
 
-fn with_picture(file: &mut Value, rgba: [u8; 4]) {
+fn with_image(file: &mut Value, rgba: [u8; 4]) {
     file["images"] = json!([{ "uri": format!("data:image/png;base64,{}", base64(&png(rgba))) }]);
     file["textures"] = json!([{ "source": 0 }]);
 }
@@ -148,16 +148,16 @@ fn coordinates_are_turned_over_and_transforms_applied() {
     assert_eq!(mesh.uvs, [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], "v runs downwards in glTF");
     // A quarter turn, twice as often along u, and 0.25 along v: (u, v) becomes (v, 0.25 − 2u).
     let mesh = changed(|file| {
-        with_picture(file, [255; 4]);
+        with_image(file, [255; 4]);
         let transform = json!({ "offset": [0, 0.25], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 1] });
         file["materials"][0]["pbrMetallicRoughness"] =
             json!({ "baseColorTexture": { "index": 0, "extensions": { "KHR_texture_transform": transform } } });
     })
     .expect("whole");
-    for ([u, v], found) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0_f32]].into_iter().zip(mesh.uvs) {
+    for ([u, v], actual) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0_f32]].into_iter().zip(mesh.uvs) {
         let expected = [v, 1.0 - (0.25 - 2.0 * u)];
         // Sine and cosine of a quarter turn in 32 bits.
-        assert!(found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-6), "{found:?} for {expected:?}");
+        assert!(actual.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-6), "{actual:?} for {expected:?}");
     }
 }
 
@@ -223,7 +223,7 @@ fn what_has_no_place_is_reported() {
 
 fn material(keys: Value) -> SlotLayers {
     let mesh = changed(|file| {
-        with_picture(file, [128, 64, 255, 51]);
+        with_image(file, [128, 64, 255, 51]);
         file["materials"][0] = keys;
     });
     layers(&mesh.unwrap_or_else(|e| panic!("{e}")), 0).clone()
@@ -231,28 +231,28 @@ fn material(keys: Value) -> SlotLayers {
 
 #[test]
 fn pictures_that_are_the_same_everywhere_are_numbers() {
-    let found = material(
+    let converted = material(
         json!({ "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 }, "roughnessFactor": 0.5 } }),
     );
     // Metal is blue, 255; roughness is green, 64 / 255, times 0.5; α its square, in steps of 1/65 535.
-    assert_eq!(found.metal, SlotNumber::Number(1.0));
-    let SlotNumber::Number(alpha) = found.alpha else { panic!("{found:?}") };
+    assert_eq!(converted.metal, SlotNumber::Number(1.0));
+    let SlotNumber::Number(alpha) = converted.alpha else { panic!("{converted:?}") };
     let roughness = 0.5 * 64.0 / 255.0;
     assert!((alpha - roughness * roughness).abs() < 1.0 / 65_535.0, "{alpha}");
 }
 
 #[test]
 fn opacity_is_masked_or_blended() {
-    let of = |mode: &str, cutoff: f64| {
+    let with_alpha = |mode: &str, cutoff: f64| {
         let mut keys = json!({ "alphaMode": mode, "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });
         if mode == "MASK" {
             keys["alphaCutoff"] = json!(cutoff);
         }
         material(keys).opacity
     };
-    assert_eq!(of("OPAQUE", 0.5), None);
-    assert_eq!((of("MASK", 0.5), of("MASK", 0.1)), (Some(SlotNumber::Number(0.0)), None), "51 / 255 is 0.2");
-    let Some(SlotNumber::Number(opacity)) = of("BLEND", 0.5) else { panic!("a number") };
+    assert_eq!(with_alpha("OPAQUE", 0.5), None);
+    assert_eq!((with_alpha("MASK", 0.5), with_alpha("MASK", 0.1)), (Some(SlotNumber::Number(0.0)), None), "51 / 255 is 0.2");
+    let Some(SlotNumber::Number(opacity)) = with_alpha("BLEND", 0.5) else { panic!("a number") };
     assert!((opacity - 0.2).abs() < 1.0 / 65_535.0, "{opacity}");
 }
 
@@ -261,25 +261,25 @@ fn extensions_become_coats_glass_cloth_and_light() {
     let plain = json!({ "metallicFactor": 0, "roughnessFactor": 0.5 });
     let with =
         |name: &str, value: Value| material(json!({ "pbrMetallicRoughness": plain, "extensions": { name: value } }));
-    let SlotOver::Coat { index } = with("KHR_materials_ior", json!({ "ior": 1.75 })).over else { panic!("a coat") };
+    let SlotTopLayer::Coat { index } = with("KHR_materials_ior", json!({ "ior": 1.75 })).top_layer else { panic!("a coat") };
     assert!((index - 1.75).abs() < 1e-6);
     // A quarter of the reflectance of 1.5: (n − 1)/(n + 1) = 0.1.
-    let SlotOver::Coat { index } = with("KHR_materials_specular", json!({ "specularFactor": 0.25 })).over else {
+    let SlotTopLayer::Coat { index } = with("KHR_materials_specular", json!({ "specularFactor": 0.25 })).top_layer else {
         panic!("a coat")
     };
     assert!((index - 1.1 / 0.9).abs() < 1e-6, "{index}");
     let coated =
-        with("KHR_materials_clearcoat", json!({ "clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.1 })).over;
+        with("KHR_materials_clearcoat", json!({ "clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.1 })).top_layer;
     assert!(
-        matches!(coated, SlotOver::TwoCoats { share: 0.75, alpha, .. } if (alpha - 0.01).abs() < 1e-9),
+        matches!(coated, SlotTopLayer::TwoCoats { fraction: 0.75, alpha, .. } if (alpha - 0.01).abs() < 1e-9),
         "{coated:?}"
     );
     let cloth =
-        with("KHR_materials_sheen", json!({ "sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5 })).over;
-    assert_eq!(cloth, SlotOver::Sheen { colour: [0.5, 0.25, 0.0], alpha: 0.25 });
+        with("KHR_materials_sheen", json!({ "sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5 })).top_layer;
+    assert_eq!(cloth, SlotTopLayer::Sheen { colour: [0.5, 0.25, 0.0], alpha: 0.25 });
     let pane = with("KHR_materials_transmission", json!({ "transmissionFactor": 1 })).transmission.expect("clear");
-    assert_eq!((pane.share, pane.solid), (SlotNumber::Number(1.0), None));
-    assert_eq!(with("KHR_materials_unlit", json!({})).over, SlotOver::Nothing);
+    assert_eq!((pane.fraction, pane.solid), (SlotNumber::Number(1.0), None));
+    assert_eq!(with("KHR_materials_unlit", json!({})).top_layer, SlotTopLayer::Nothing);
     let lamp = material(json!({
         "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
         "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 200 } }
@@ -289,7 +289,7 @@ fn extensions_become_coats_glass_cloth_and_light() {
 }
 
 #[test]
-fn buffers_and_pictures_are_found_beside_the_file() {
+fn buffers_and_images_are_found_next_to_the_file() {
     let mut file = square();
     let bytes: Vec<u8> = [0_f32, 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 0., 0., 1., 0., 1., 1., 0., 1.]
         .iter()
@@ -297,9 +297,9 @@ fn buffers_and_pictures_are_found_beside_the_file() {
         .chain([0, 1, 2, 0, 2, 3])
         .collect();
     file["buffers"][0]["uri"] = json!("far%20away/my%20data.bin");
-    let whole =
+    let mesh =
         read_bytes("a.gltf", file.to_string().as_bytes(), &[("my data.bin", &bytes)]).expect("found by its name");
-    assert_eq!(whole.positions, changed(|_| {}).expect("whole").positions);
+    assert_eq!(mesh.positions, changed(|_| {}).expect("whole").positions);
     let message = read_bytes("a.gltf", file.to_string().as_bytes(), &[]).expect_err("missing");
     assert!(
         message.contains("buffer 0 is not there")
@@ -310,7 +310,7 @@ fn buffers_and_pictures_are_found_beside_the_file() {
 }
 
 #[test]
-fn damage_is_told() {
+fn damage_is_reported() {
     let glb = fs::read(oracle("scene.glb")).expect("the file");
     for cut in [4, 11, 20, 100, glb.len() - 1] {
         let message = read_bytes("a.glb", &glb[..cut], &[]).expect_err("truncated");

@@ -16,8 +16,8 @@ fn read(text: &str, others: &[(&str, &str)]) -> Result<MeshAsset, String> {
         fs::write(folder.path().join(name), content).expect("write");
     }
     fs::write(folder.path().join("a.obj"), text).expect("write");
-    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
-    read_mesh(&folder.path().join("a.obj")).map_err(told)
+    let relative_text = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    read_mesh(&folder.path().join("a.obj")).map_err(relative_text)
 }
 
 #[test]
@@ -29,20 +29,20 @@ fn a_missing_mesh_says_so() {
 
 #[test]
 fn damage_is_named_with_its_line() {
-    let whole = format!("{CUBE_FACE}f 1 2 3 4\n");
-    let cut_in_a_vertex = &whole[..CUBE_FACE.len() - 4];
+    let complete = format!("{CUBE_FACE}f 1 2 3 4\n");
+    let cut_in_a_vertex = &complete[..CUBE_FACE.len() - 4];
     assert_eq!(
         read(cut_in_a_vertex, &[]),
         Err("a.obj:4: `v` has 1, expected 3 coordinates; the line may be truncated".to_owned())
     );
-    let cut_in_a_face = &whole[..whole.len() - 5];
+    let cut_in_a_face = &complete[..complete.len() - 5];
     assert_eq!(
         read(cut_in_a_face, &[]),
         Err("a.obj:5: `f` has 2, expected 3 or more corners; the line may be truncated".to_owned())
     );
     let before_the_faces = read(CUBE_FACE, &[]).expect_err("no faces");
     assert!(before_the_faces.contains("no faces; the file may be truncated"), "{before_the_faces}");
-    let without_an_end = read(whole.trim_end(), &[]).expect("still a mesh");
+    let without_an_end = read(complete.trim_end(), &[]).expect("still a mesh");
     assert_eq!(without_an_end.report, ["a.obj: the last line has no line end: the file may be truncated"]);
     assert_eq!(
         read(&format!("{CUBE_FACE}f 1 2 9\n"), &[]),
@@ -170,7 +170,7 @@ fn real_meshes_have_the_triangles_and_bounds_of_their_text() {
         else {
             panic!("{name}: {:?}", mesh.slot_materials);
         };
-        etendue_io::picture::read_picture(path).unwrap_or_else(|e| panic!("{e}"));
+        etendue_io::picture::read_image(path).unwrap_or_else(|e| panic!("{e}"));
     }
 }
 

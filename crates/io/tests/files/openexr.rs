@@ -66,8 +66,8 @@ fn equals_stored(bytes: &[u8], name: &str) {
     let fresh = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::write(&fresh, bytes).expect("write");
     let stored = fs::read(figures(name)).unwrap_or_default();
-    let told = "differs from the stored sample; if it should, copy it there and run tests/oracles/read_exr.py";
-    assert!(bytes == stored, "{} {told}", fresh.display());
+    let advice = "differs from the stored sample; if it should, copy it there and run tests/oracles/read_exr.py";
+    assert!(bytes == stored, "{} {advice}", fresh.display());
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn ground_truth_bytes_are_those_of_the_stored_sample() {
     equals_stored(&ground_truth(), "ground_truth.exr");
 }
 
-fn told(file: &str) -> Value {
+fn stored_figures(file: &str) -> Value {
     let text = fs::read_to_string(figures("exr.json")).expect("stored figures");
     serde_json::from_str::<Value>(&text).expect("JSON")[file].clone()
 }
@@ -94,17 +94,17 @@ fn floats(figures: &Value) -> Vec<f32> {
 
 #[test]
 fn openexr_reads_our_spectral_image() {
-    let told = told("spectral");
+    let expected = stored_figures("spectral");
     for (scale, layer) in [(1.0, "S0"), (0.125, "variance.S0")] {
         for (plane, nm) in cube::<Radiance>(scale).planes().iter().zip(["502,500000", "507,500000", "512,500000"]) {
-            let channel = &told["channels"][format!("{layer}.{nm}nm")];
+            let channel = &expected["channels"][format!("{layer}.{nm}nm")];
             assert_eq!(channel["type"], "float32");
             assert_eq!(floats(&channel["values"]), plane.samples(), "{layer} {nm}");
         }
     }
-    let names: Vec<&str> = told["channels"].as_object().expect("channels").keys().map(String::as_str).collect();
+    let names: Vec<&str> = expected["channels"].as_object().expect("channels").keys().map(String::as_str).collect();
     assert_eq!(names.len(), 9, "three bands, their variances, a preview: {names:?}");
-    let header = &told["header"];
+    let header = &expected["header"];
     assert_eq!(header["spectralLayoutVersion"], "1.0");
     assert_eq!(header["emissiveUnits"], "W.m^-2.sr^-1");
     assert_eq!(header["etendue:units"], "W.m^-2.sr^-1.nm^-1");
@@ -113,12 +113,12 @@ fn openexr_reads_our_spectral_image() {
     assert_eq!(header["etendue:seed"], "18446744073709551615");
     assert_eq!(header["etendue:camera_to_world"], "0 0 1 2.5; -1 0 0 0; 0 -1 0 1.6");
     assert!(header["compression"].as_str().is_some_and(|c| c.contains("ZIP_COMPRESSION")));
-    assert_eq!(told["height_width"], json!([2, 3]));
+    assert_eq!(expected["height_width"], json!([2, 3]));
 }
 
 #[test]
 fn openexr_reads_our_ground_truth() {
-    let channels = &told("ground_truth")["channels"];
+    let channels = &stored_figures("ground_truth")["channels"];
     for name in ["depth.Z", "distance.Z"] {
         assert_eq!(channels[name]["type"], "float32", "{name}");
         assert_eq!(floats(&channels[name]["values"]), LENGTHS, "{name}");

@@ -10,7 +10,7 @@ fn axis(format: CalibrationFormat, text: &str) -> DVec2 {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");
     std::fs::write(&file, text).expect("written");
-    let camera = read_calibration(&file, format, None).unwrap_or_else(|fault| panic!("{fault}\n{text}")).calibration;
+    let camera = read_calibration(&file, format, None).unwrap_or_else(|error| panic!("{error}\n{text}")).calibration;
     assert_eq!(camera.size_px(), [640, 480]);
     // The centre of the top-left pixel is exactly on the axis: no number is rounded.
     let at = camera.project(DVec3::Z).expect("the axis is seen");

@@ -14,8 +14,8 @@ fn oracle(name: &str) -> PathBuf {
 fn read_bytes(name: &str, bytes: &[u8]) -> Result<MeshAsset, String> {
     let folder = tempfile::tempdir().expect("temporary folder");
     fs::write(folder.path().join(name), bytes).expect("written");
-    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
-    read_mesh(&folder.path().join(name)).map_err(told)
+    let relative_text = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    read_mesh(&folder.path().join(name)).map_err(relative_text)
 }
 
 fn corners(mesh: &MeshAsset) -> Vec<[DVec3; 3]> {
@@ -32,22 +32,22 @@ fn files_of_another_program_stand_as_that_program_has_them() {
         let number = |key: &str| figures[name][key].as_f64().expect("a figure");
         assert_eq!(mesh.positions.len() as f64, number("vertices"), "{name}");
         assert_eq!(mesh.triangles.len() as f64, number("triangles"), "{name}");
-        let found = corners(&mesh);
-        let area: f64 = found.iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
+        let actual = corners(&mesh);
+        let area: f64 = actual.iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
         assert!((area - number("area")).abs() < 1e-3, "{name}: {area}");
         let middle = DVec3::from_array(mesh.origin);
-        let volume: f64 = found.iter().map(|t| t.map(|p| p - middle)).map(|[a, b, c]| a.cross(b).dot(c) / 6.0).sum();
+        let volume: f64 = actual.iter().map(|t| t.map(|p| p - middle)).map(|[a, b, c]| a.cross(b).dot(c) / 6.0).sum();
         assert!((volume - number("volume")).abs() < 1e-3, "{name}: {volume}, which tells the winding");
         for (i, pick) in [DVec3::min as fn(DVec3, DVec3) -> DVec3, DVec3::max].into_iter().enumerate() {
-            let bound = found.iter().flatten().copied().reduce(pick).expect("corners").to_array();
-            for (axis, found) in bound.into_iter().enumerate() {
+            let bound = actual.iter().flatten().copied().reduce(pick).expect("corners").to_array();
+            for (axis, coordinate) in bound.into_iter().enumerate() {
                 let expected = figures[name]["bounds"][i][axis].as_f64().expect("a bound");
-                assert!((found - expected).abs() < 2e-5, "{name}: {found} for {expected}");
+                assert!((coordinate - expected).abs() < 2e-5, "{name}: {coordinate} for {expected}");
             }
         }
-        for (axis, found) in mesh.normals[0].into_iter().enumerate() {
+        for (axis, component) in mesh.normals[0].into_iter().enumerate() {
             let expected = figures[name]["first normal"][axis].as_f64().expect("a normal");
-            assert!((f64::from(found) - expected).abs() < 1e-6, "{name}: {found} for {expected}");
+            assert!((f64::from(component) - expected).abs() < 1e-6, "{name}: {component} for {expected}");
         }
         let colours = format!("{name}.ply: vertex and face colours are not used: give the object a material");
         assert_eq!(mesh.report, [colours]);
@@ -67,15 +67,15 @@ const STAR: &str = "ply\r\nformat ascii 1.0\r\ncomment TextureFile star.png\r\ne
 
 #[test]
 fn a_concave_polygon_is_that_of_an_obj_file() {
-    let found = read_bytes("a.ply", STAR.as_bytes()).expect("read");
+    let actual = read_bytes("a.ply", STAR.as_bytes()).expect("read");
     let obj = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt .5 .25\nvt 0 1\nf 1/1 2/2 3/3 4/4 5/5\n";
     let other = read_bytes("a.obj", obj.as_bytes()).expect("read");
     assert_eq!(
-        (&found.positions, &found.uvs, &found.triangles, &found.slots),
+        (&actual.positions, &actual.uvs, &actual.triangles, &actual.slots),
         (&other.positions, &other.uvs, &other.triangles, &other.slots)
     );
     assert_eq!(
-        found.report,
+        actual.report,
         [
             "a.ply: properties that are not used: confidence, flags",
             "a.ply: the image `star.png` is not used: give it as a texture of the object's material",
@@ -123,15 +123,15 @@ fn zero_normals_are_those_of_a_face() {
 }
 
 #[track_caller]
-fn refused(bytes: &[u8], told: &str) {
-    assert_eq!(read_bytes("a.ply", bytes).expect_err("damaged"), told);
+fn refused(bytes: &[u8], expected: &str) {
+    assert_eq!(read_bytes("a.ply", bytes).expect_err("damaged"), expected);
 }
 
 /// The star after a change.
 #[track_caller]
-fn refused_star(from: &str, to: &str, told: &str) {
+fn refused_star(from: &str, to: &str, expected: &str) {
     assert!(STAR.contains(from));
-    refused(STAR.replace(from, to).as_bytes(), told);
+    refused(STAR.replace(from, to).as_bytes(), expected);
 }
 
 #[test]
@@ -185,8 +185,8 @@ fn damaged_rows_are_refused_with_their_line() {
         "7 4 0 2 1 4",
         "a.ply:23: face 0: a polygon of 4 corners intersects itself; triangulate the mesh in the modelling program",
     );
-    let whole = STAR.len();
-    let message = read_bytes("a.ply", &STAR.as_bytes()[..whole - 5]).expect_err("truncated");
+    let length = STAR.len();
+    let message = read_bytes("a.ply", &STAR.as_bytes()[..length - 5]).expect_err("truncated");
     assert_eq!(
         message,
         "a.ply:23: the header states 1 elements `edge`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again"
@@ -223,7 +223,7 @@ fn huge_counts_are_refused_at_once() {
 
 /// Numbers of another byte order than the header states: a face with an index beyond the vertices reveals it.
 #[test]
-fn the_wrong_order_of_bytes_is_told() {
+fn the_wrong_byte_order_is_reported() {
     let little = fs::read(oracle("little.ply")).expect("a file");
     let head = little.windows(11).position(|w| w == b"end_header\n").expect("a head");
     let text = String::from_utf8(little[..head].to_vec()).expect("text").replace("little_endian", "big_endian");

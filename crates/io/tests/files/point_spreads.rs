@@ -61,18 +61,18 @@ fn heads_of_all_kinds_are_read() {
 
 #[test]
 fn further_words_and_encodings_are_understood() {
-    let of = |from: &str, to: &str| read(&NEW.replace(from, to)).expect("legal");
-    let poly = of(
+    let replaced = |from: &str, to: &str| read(&NEW.replace(from, to)).expect("legal");
+    let poly = replaced(
         "0.5000 µm at 0.0000, 1.2250 (deg).",
         "Polychromatic Huygens PSF\n0.4861 to 0.6563 µm at 0.0000, 14.0000 (deg).",
     );
     assert_eq!((poly.wavelengths_nm, poly.field), ([486.1, 656.3], FieldPoint::Degrees([0.0, 14.0])));
-    let millimetres = of("1.2250 (deg).", "4.0000 mm.");
+    let millimetres = replaced("1.2250 (deg).", "4.0000 mm.");
     assert_eq!(millimetres.field, FieldPoint::Millimetres([0.0, 4.0]));
-    assert_eq!(of("Center point is: 3, 3", "Center point is: row 2, column 3").point, [2, 1]);
-    assert_eq!(of("2.20488001E+02 Millimeters", "2.0E+01 Centimeters").place_mm, Some([0.0, 200.0]));
-    assert_eq!(of("2.20488001E+02 Millimeters", "2.0E+00 Inches").place_mm, Some([0.0, 50.8]));
-    assert!((of("spacing is 0.289 µm", "spacing is 0.000289 mm").spacing_um - 0.289).abs() < 1e-12);
+    assert_eq!(replaced("Center point is: 3, 3", "Center point is: row 2, column 3").point, [2, 1]);
+    assert_eq!(replaced("2.20488001E+02 Millimeters", "2.0E+01 Centimeters").place_mm, Some([0.0, 200.0]));
+    assert_eq!(replaced("2.20488001E+02 Millimeters", "2.0E+00 Inches").place_mm, Some([0.0, 50.8]));
+    assert!((replaced("spacing is 0.289 µm", "spacing is 0.000289 mm").spacing_um - 0.289).abs() < 1e-12);
     let without = |from: &str| {
         let lines = NEW.lines().filter(|line| !line.starts_with(from));
         read(&lines.map(|line| format!("{line}\n")).collect::<String>()).expect("legal")
@@ -82,7 +82,7 @@ fn further_words_and_encodings_are_understood() {
     assert!(centreless.point == [2, 1] && centreless.notes[0].contains("no centre"), "{:?}", centreless.notes);
     let fft = FFT.replace("Center point is: row 3, column 2\n", "");
     assert_eq!(read(&fft).expect("legal").point, [1, 2]);
-    let turned = of("1.44500000E-04", "-1.44500000E-03");
+    let turned = replaced("1.44500000E-04", "-1.44500000E-03");
     assert!(
         turned.notes[1].contains("0.14 µm from the centre, but the header states 0.00, -1.45 µm"),
         "{:?}",
@@ -98,7 +98,7 @@ fn further_words_and_encodings_are_understood() {
 }
 
 #[test]
-fn listings_that_cannot_be_used_are_told_with_their_line() {
+fn listings_that_cannot_be_used_are_reported_with_their_line() {
     for (listing, phrases) in [
         (NEW.replace("PSF", "MTF"), &["psf.txt", "not a listing of a point-spread function"][..]),
         (NEW.replace("Data spacing is 0.289 µm.\n", ""), &["does not state the sample spacing"]),

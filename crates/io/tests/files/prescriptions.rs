@@ -202,13 +202,13 @@ fn apertures_of_every_kind_and_what_has_none() {
 #[test]
 fn an_aperture_that_is_none_is_refused_at_its_line() {
     let zmx = |line: &str| read("lens.zmx", &near_zmx().replace("ENPD 10.0", line)).expect_err(line);
-    for (line, told) in [
+    for (line, start) in [
         ("OBNA 1.0 0", "5: OBNA is 1.0; expected a number above 0 and below 1"),
         ("OBNA 0 0", "5: OBNA is 0; expected"),
         ("OBNA 90 1", "5: OBNA is 90; expected a number of degrees above 0 and below 90"),
         ("FNUM 0.5 0", "5: FNUM is 0.5; expected a number above 0.5"),
     ] {
-        assert!(zmx(line).starts_with(told), "{}", zmx(line));
+        assert!(zmx(line).starts_with(start), "{}", zmx(line));
     }
     let seq = |line: &str| read("lens.seq", &near_seq().replace("EPD 10.0", line)).expect_err(line);
     for line in ["NA 0", "NA 1", "NA -0.2", "NAO 0", "NAO 1.2", "FNO 0", "EPD 0", "EPD -1"] {
@@ -228,8 +228,8 @@ fn object_and_image_stand_where_the_file_has_them() {
     // CODE V: the image's thickness is a defocus; PIM lets the program compute the image position.
     let shifted = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "SI 0.0 -0.25")).expect("a lens");
     assert_eq!((shifted.back_focus_mm, shifted.defocus_mm), (39.75, 0.0));
-    let found = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "  PIM\nSI 0.0 -0.25")).expect("a lens");
-    assert_eq!((found.back_focus_mm, found.defocus_mm), (0.0, -0.25));
+    let lens_with_image = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "  PIM\nSI 0.0 -0.25")).expect("a lens");
+    assert_eq!((lens_with_image.back_focus_mm, lens_with_image.defocus_mm), (0.0, -0.25));
 }
 
 /// A singlet, with edits before GO.
@@ -270,7 +270,7 @@ fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
 
 #[test]
 fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
-    for (edit, told) in [
+    for (edit, start) in [
         ("RDY S7 25", "13: RDY S7: no such surface is defined before"),
         ("RDY S1 Z2 25", "13: RDY of a zoom position"),
         ("THI S2 PIM", "13: THI: found `PIM`; expected a number"),
@@ -282,8 +282,8 @@ fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
         ("S 0 1", "13: S: expected a surface defined before (S0 to S3)"),
         ("S9 0 1", "13: S9: expected a surface defined before"),
     ] {
-        let found = edited(edit).map(|_| ()).expect_err(edit);
-        assert!(found.starts_with(told), "{edit}: {found}");
+        let message = edited(edit).map(|_| ()).expect_err(edit);
+        assert!(message.starts_with(start), "{edit}: {message}");
     }
     let noted = edited("XYZ 3\nAUT\nCCY S1 100").expect("a lens");
     assert!(noted.notes[0].ends_with("XYZ (line 13), AUT (line 14)"), "{:?}", noted.notes);
@@ -297,7 +297,7 @@ fn planes_with_an_aperture_stay_and_a_mask_in_the_image_is_noted() {
     let baffle = read("lens.zmx", &ZMX.replacen("  DIAM 9 1", "  DIAM 9 1\n  CLAP 0 8 0", 1)).expect("a lens");
     assert_eq!(baffle.surfaces.len(), 6);
     let plane = &baffle.surfaces[0];
-    assert_eq!((plane.semi_aperture_mm, plane.rim, plane.thickness_mm, plane.line), (Some(8.0), true, 5.0, 17));
+    assert_eq!((plane.semi_aperture_mm, plane.clips_light, plane.thickness_mm, plane.line), (Some(8.0), true, 5.0, 17));
     let field_stop = read("lens.seq", &SEQ.replace("S 20.0 40.0", "S 20.0 30.0\nS 0 10.0\n CIR 4")).expect("a lens");
     assert_eq!((field_stop.surfaces.len(), field_stop.surfaces[5].semi_aperture_mm), (6, Some(4.0)));
     assert_eq!(field_stop.back_focus_mm, 10.0);

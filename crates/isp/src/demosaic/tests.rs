@@ -70,7 +70,7 @@ fn gradients_make_edges_sharper_than_bilinear() {
 
 #[test]
 fn the_outermost_pixels_are_the_mirrors() {
-    let padded = Padded::new(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 3, 2);
+    let padded = PaddedRow::new(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 3, 2);
     assert_eq!(padded.row(0, 0), [3.0, 2.0, 1.0, 2.0, 3.0, 2.0, 1.0]);
     assert_eq!(padded.row(0, -2), padded.row(2, 0));
     assert_eq!(padded.row(2, 2), padded.row(0, 0));

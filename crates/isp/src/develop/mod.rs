@@ -7,7 +7,7 @@ use etendue_core::{Plane, random::FrameAddress};
 use rayon::prelude::*;
 
 use crate::paper::{self, Stage};
-use crate::raw::{Mosaic, RawPicture, Tile, black_level, normalised};
+use crate::raw::{Mosaic, RawImage, Tile, black_level, normalised};
 use crate::white_balance::{WhiteBalance, grey_world};
 use crate::{colour_matrix::ColourMatrix, correction};
 
@@ -15,18 +15,18 @@ pub use processing::{Colour, DevelopError, Processing};
 
 /// A developed image.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Developed {
+pub struct DevelopmentResult {
     /// Linear sRGB, neither clipped below 0 nor above 1; camera channels end at white unless filters of linear light use values above it.
     pub linear: Plane<LinearRgb>,
     /// The same, clipped and encoded.
     pub display: Plane<Display>,
     /// Measured values of the development.
-    pub facts: Facts,
+    pub report: DevelopmentReport,
 }
 
 /// Values that development measured in the image.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
+pub struct DevelopmentReport {
     /// The subtracted black level, DN.
     pub black_level_dn: f64,
     /// The gains of the channels; empty for a mono image.
@@ -62,10 +62,10 @@ impl Processing {
 /// # Errors
 /// If image and processing contradict each other or a number is out of range.
 pub fn develop(
-    raw: &RawPicture<'_>,
+    raw: &RawImage<'_>,
     processing: &Processing,
     address: FrameAddress,
-) -> Result<Developed, DevelopError> {
+) -> Result<DevelopmentResult, DevelopError> {
     processing.check(raw.mosaic, raw.plane.width(), raw.plane.height())?;
     let black = black_level(processing.black_level, raw).ok_or(DevelopError::NoOpticalBlack)?;
     processing::check_levels(black, raw.white_level_dn)?;
@@ -79,12 +79,12 @@ pub fn develop(
     let mut linear = linear.expect("as many colours as samples");
     paper::apply_linear(&processing.image_filters, &mut linear, address);
     let display = processing.displayed(&linear, address);
-    let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
-    Ok(Developed { linear, display, facts })
+    let facts = DevelopmentReport { black_level_dn: black, white_balance: gains, corrected_pixels };
+    Ok(DevelopmentResult { linear, display, report: facts })
 }
 
 /// Shading gains; a saturated sample stays 1.
-fn shade(samples: &mut [f32], raw: &RawPicture<'_>, processing: &Processing) {
+fn shade(samples: &mut [f32], raw: &RawImage<'_>, processing: &Processing) {
     let Some(shading) = &processing.shading else { return };
     let (width, height) = (raw.plane.width(), raw.plane.height());
     samples.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
@@ -95,7 +95,7 @@ fn shade(samples: &mut [f32], raw: &RawPicture<'_>, processing: &Processing) {
 }
 
 /// The gains of the channels; empty for a mono image.
-fn gains(samples: &[f32], raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<f64> {
+fn gains(samples: &[f32], raw: &RawImage<'_>, colour: Option<&Colour>) -> Vec<f64> {
     match colour.map(|c| &c.white_balance) {
         None => Vec::new(),
         Some(WhiteBalance::Gains(gains)) => gains.clone(),
@@ -137,28 +137,28 @@ fn interpolated<const N: usize>(
     processing: &Processing,
 ) -> Vec<[f32; 3]> {
     let colour = processing.colour.as_ref().expect("checked: a tile has colour settings");
-    let picture = processing.demosaic.apply::<N>(&samples, width, tile);
+    let image = processing.demosaic.apply::<N>(&samples, width, tile);
     // The samples of a large image are dropped here, because its colours take three times their memory.
     drop(samples);
-    finished(picture, width, &colour.matrix, processing)
+    finished(image, width, &colour.matrix, processing)
 }
 
 /// Noise reduction, colour matrix and digital gain.
 fn finished<const N: usize>(
-    picture: Vec<[f32; N]>,
+    image: Vec<[f32; N]>,
     width: usize,
     matrix: &ColourMatrix,
     processing: &Processing,
 ) -> Vec<[f32; 3]> {
-    let picture = match &processing.noise_reduction {
-        Some(filter) => filter.apply(&picture, width),
-        None => picture,
+    let image = match &processing.noise_reduction {
+        Some(filter) => filter.apply(&image, width),
+        None => image,
     };
     let rows: [[f32; N]; 3] = matrix
         .rows()
         .each_ref()
         .map(|row| core::array::from_fn(|channel| (row[channel] * processing.exposure_gain) as f32));
-    picture.par_iter().map(|channels| product(&rows, channels)).collect()
+    image.par_iter().map(|channels| product(&rows, channels)).collect()
 }
 
 /// Left to right, so that three channels round as m₀ c₀ + m₁ c₁ + m₂ c₂.
@@ -188,8 +188,8 @@ mod tests {
     }
 
     /// A raw image of black 100 DN and white 1 100 DN.
-    fn raw<'a>(plane: &'a Plane<DigitalNumber>, mosaic: &'a Mosaic) -> RawPicture<'a> {
-        RawPicture { plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic, optical_black: None }
+    fn raw<'a>(plane: &'a Plane<DigitalNumber>, mosaic: &'a Mosaic) -> RawImage<'a> {
+        RawImage { plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic, optical_black: None }
     }
 
     fn plane(width: usize, height: usize, dn: impl Fn(usize, usize) -> Dn) -> Plane<DigitalNumber> {
@@ -197,7 +197,7 @@ mod tests {
         Plane::from_samples(width, height, samples).expect("filled")
     }
 
-    fn developed(dn: [Dn; 4], processing: &Processing) -> Developed {
+    fn developed(dn: [Dn; 4], processing: &Processing) -> DevelopmentResult {
         let plane = plane(8, 6, |x, y| dn[y % 2 * 2 + x % 2]);
         develop(&raw(&plane, &bayer()), processing, FrameAddress::default()).expect("legal")
     }
@@ -205,36 +205,36 @@ mod tests {
     #[test]
     fn neutral_stays_neutral() {
         // 0.2 of the range in green, and the same after balance in red and blue.
-        let picture = developed([200, 300, 300, 233], &Processing { exposure_gain: 2.0, ..processing() });
-        for rgb in picture.linear.samples() {
+        let image = developed([200, 300, 300, 233], &Processing { exposure_gain: 2.0, ..processing() });
+        for rgb in image.linear.samples() {
             // Blue is off by a third of a digital number: 0.0005 · 1.5 · 2, times up to 1.5 by the matrix.
             assert!(rgb.iter().all(|v| (v - 0.4).abs() < 2.5e-3), "{rgb:?}");
         }
         let code = (255.0 * colour::encode(0.4)).round() as u8;
-        assert!(to_8_bit(&picture.display).iter().flatten().all(|v| v.abs_diff(code) <= 1));
+        assert!(to_8_bit(&image.display).iter().flatten().all(|v| v.abs_diff(code) <= 1));
     }
 
     #[test]
     fn saturation_is_white_and_not_magenta() {
         for dn in [[1100; 4], [4095; 4], [900, 1100, 1100, 950]] {
-            let picture = developed(dn, &processing());
-            assert!(picture.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-6));
-            assert!(to_8_bit(&picture.display).iter().all(|rgb| *rgb == [255; 3]));
+            let image = developed(dn, &processing());
+            assert!(image.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-6));
+            assert!(to_8_bit(&image.display).iter().all(|rgb| *rgb == [255; 3]));
         }
     }
 
     #[test]
     fn what_is_shown_as_white_has_no_coloured_rims() {
         // A white light next to a wall of an eighth of white, in an image of gain 64: both are white, and so is their border.
-        let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
-        let plane = plane(18, 18, lamp);
+        let pattern = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
+        let plane = plane(18, 18, pattern);
         let bright = |filters| {
             let settings = Processing { exposure_gain: 64.0, image_filters: filters, ..processing() };
             develop(&raw(&plane, &bayer()), &settings, FrameAddress::default()).expect("legal")
         };
-        let whole = bright(Vec::new());
-        assert!(to_8_bit(&whole.display).iter().all(|rgb| *rgb == [255; 3]));
-        assert!(whole.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-5));
+        let without_defects = bright(Vec::new());
+        assert!(to_8_bit(&without_defects.display).iter().all(|rgb| *rgb == [255; 3]));
+        assert!(without_defects.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-5));
         // A filter of linear light receives the full range of the raw: 64 times white.
         let halved = paper::ColourChange { stage: Stage::Linear, operations: vec![paper::Operation::Brightness(0.5)] };
         let largest =
@@ -243,29 +243,29 @@ mod tests {
     }
 
     #[test]
-    fn noise_below_black_survives_to_the_linear_picture() {
-        let picture = developed([90; 4], &processing());
-        assert!(picture.linear.samples().iter().all(|rgb| rgb[1] < 0.0));
-        assert!(to_8_bit(&picture.display).iter().all(|rgb| *rgb == [0; 3]));
+    fn noise_below_black_survives_to_the_linear_image() {
+        let image = developed([90; 4], &processing());
+        assert!(image.linear.samples().iter().all(|rgb| rgb[1] < 0.0));
+        assert!(to_8_bit(&image.display).iter().all(|rgb| *rgb == [0; 3]));
     }
 
     #[test]
     fn mono_is_grey() {
         let plane = plane(3, 1, |x, _| [100, 600, 1100][x]);
-        let picture =
+        let image =
             develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None), FrameAddress::default()).expect("legal");
-        assert_eq!(picture.linear.samples(), [[0.0; 3], [0.5; 3], [1.0; 3]]);
+        assert_eq!(image.linear.samples(), [[0.0; 3], [0.5; 3], [1.0; 3]]);
     }
 
     #[test]
     fn grey_world_finds_the_gains_of_a_grey() {
         let mut grey = processing();
         grey.colour.as_mut().expect("colour").white_balance = WhiteBalance::GreyWorld;
-        let picture = developed([300, 500, 500, 350], &grey);
-        let gains = &picture.facts.white_balance;
-        assert!(gains.iter().zip([2.0, 1.0, 1.6]).all(|(found, want)| (found - want).abs() < 1e-6), "{gains:?}");
+        let image = developed([300, 500, 500, 350], &grey);
+        let gains = &image.report.white_balance;
+        assert!(gains.iter().zip([2.0, 1.0, 1.6]).all(|(actual, expected)| (actual - expected).abs() < 1e-6), "{gains:?}");
         // The same grey everywhere: 0.4 of the range, to f32.
-        assert!(picture.linear.samples().iter().flatten().all(|v| (v - 0.4).abs() < 1e-6));
+        assert!(image.linear.samples().iter().flatten().all(|v| (v - 0.4).abs() < 1e-6));
     }
 
     #[test]
@@ -281,13 +281,13 @@ mod tests {
             shading: Some(crate::Shading::Grid { columns: 2, gains }),
             ..Processing::plain(None)
         };
-        let raw = RawPicture { optical_black: Some(&dark), ..raw(&shaded, &Mosaic::Mono) };
-        let picture = develop(&raw, &settings, FrameAddress::default()).expect("legal");
-        assert_eq!((picture.facts.black_level_dn, picture.facts.corrected_pixels), (200.0, 1));
-        let grey = |x: usize| f64::from(picture.linear.at(x, 2)[0]);
-        let want = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
+        let raw = RawImage { optical_black: Some(&dark), ..raw(&shaded, &Mosaic::Mono) };
+        let image = develop(&raw, &settings, FrameAddress::default()).expect("legal");
+        assert_eq!((image.report.black_level_dn, image.report.corrected_pixels), (200.0, 1));
+        let grey = |x: usize| f64::from(image.linear.at(x, 2)[0]);
+        let expected = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
         // 1/900 from the ADC; the dead pixel takes the median of its neighbours, between which light differs by 0.03.
-        assert!((0..8).all(|x| (grey(x) - want(x)).abs() < if x == 5 { 0.04 } else { 2.5e-3 }));
+        assert!((0..8).all(|x| (grey(x) - expected(x)).abs() < if x == 5 { 0.04 } else { 2.5e-3 }));
     }
 
     #[test]
@@ -325,8 +325,8 @@ mod tests {
     #[test]
     fn contradictions_are_refused() {
         let (empty, mosaic) = (Plane::new(4, 4), bayer());
-        let raw = RawPicture { black_level_dn: 0.0, ..raw(&empty, &mosaic) };
-        let mono = RawPicture { mosaic: &Mosaic::Mono, ..raw };
+        let raw = RawImage { black_level_dn: 0.0, ..raw(&empty, &mosaic) };
+        let mono = RawImage { mosaic: &Mosaic::Mono, ..raw };
         let with = |gains: Vec<f64>| {
             let mut settings = processing();
             settings.colour.as_mut().expect("colour").white_balance = WhiteBalance::Gains(gains);
@@ -335,23 +335,23 @@ mod tests {
         let dim = Processing { exposure_gain: 0.0, ..processing() };
         let no_colour = Processing { colour: None, ..processing() };
         let shielded = Processing { black_level: crate::BlackLevel::OpticalBlack, ..processing() };
-        let beside = crate::Defects { map: vec![[4, 0]], outlier_threshold: None };
-        let beside = Processing { defects: beside, ..processing() };
+        let defects = crate::Defects { map: vec![[4, 0]], outlier_threshold: None };
+        let with_defects = Processing { defects, ..processing() };
         let malvar = Processing { demosaic: Demosaic::MalvarHeCutler, ..processing() };
         let rccb = Mosaic::tile(2, 2, vec![Red, Clear, Clear, Blue]).expect("legal");
         let thin = Plane::new(4, 1);
         let cases = [
-            (RawPicture { white_level_dn: 0.0, ..raw }, processing(), DevelopError::Levels { black: 0.0, white: 0.0 }),
+            (RawImage { white_level_dn: 0.0, ..raw }, processing(), DevelopError::Levels { black: 0.0, white: 0.0 }),
             (raw, with(vec![0.5, 1.0, 2.0]), DevelopError::WhiteBalance(vec![0.5, 1.0, 2.0])),
             (raw, with(vec![1.0]), DevelopError::Channels { mosaic: 3, settings: 1 }),
             (raw, dim, DevelopError::ExposureGain(0.0)),
             (raw, no_colour, DevelopError::NoColour),
             (raw, shielded, DevelopError::NoOpticalBlack),
-            (raw, beside, DevelopError::DefectOutside { x: 4, y: 0, width: 4, height: 4 }),
+            (raw, with_defects, DevelopError::DefectOutside { x: 4, y: 0, width: 4, height: 4 }),
             (mono, processing(), DevelopError::ColourOfMono),
-            (RawPicture { mosaic: &rccb, ..raw }, malvar, DevelopError::NotBayer),
+            (RawImage { mosaic: &rccb, ..raw }, malvar, DevelopError::NotBayer),
             (
-                RawPicture { plane: &thin, ..raw },
+                RawImage { plane: &thin, ..raw },
                 processing(),
                 DevelopError::TooSmall { width: 4, height: 1, least: 2 },
             ),
@@ -373,7 +373,7 @@ mod tests {
             defects: crate::Defects { map: vec![[3, 4]], outlier_threshold: Some(0.2) },
             demosaic: Demosaic::HamiltonAdams,
             noise_reduction: Some(crate::NoiseReduction::Bilateral(bilateral)),
-            sharpening: Some(crate::Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 }),
+            sharpening: Some(crate::UnsharpMask { amount: 1.0, radius_px: 1.0, threshold: 0.0 }),
             image_filters: vec![
                 paper::Filter::Glow(paper::Glow {
                     percentile: 50.0,

@@ -1,7 +1,7 @@
 //! The settings of development.
 
 use crate::correction::{Defects, Shading, ShadingError};
-use crate::detail::{DetailError, NoiseReduction, Unsharp};
+use crate::detail::{DetailError, NoiseReduction, UnsharpMask};
 use crate::paper::{self, FilterError};
 use crate::raw::{BlackLevel, Mosaic, Tile};
 use crate::{colour_matrix::ColourMatrix, demosaic::Demosaic, tone::ToneCurve, white_balance::WhiteBalance};
@@ -35,7 +35,7 @@ pub struct Processing {
     /// Encoding of linear light.
     pub tone: ToneCurve,
     /// Sharpening of the encoded image.
-    pub sharpening: Option<Unsharp>,
+    pub sharpening: Option<UnsharpMask>,
     /// The paper's filters, those of linear light first.
     pub image_filters: Vec<paper::Filter>,
 }
@@ -69,7 +69,7 @@ impl Processing {
         check_defects(&self.defects, width, height)?;
         self.shading.as_ref().map_or(Ok(()), Shading::check)?;
         self.noise_reduction.as_ref().map_or(Ok(()), NoiseReduction::check)?;
-        self.sharpening.as_ref().map_or(Ok(()), Unsharp::check)?;
+        self.sharpening.as_ref().map_or(Ok(()), UnsharpMask::check)?;
         paper::check(&self.image_filters)?;
         match (mosaic, &self.colour) {
             (Mosaic::Mono, None) => Ok(()),
@@ -87,9 +87,9 @@ impl Processing {
         if self.demosaic != Demosaic::Bilinear && !bayer {
             return Err(DevelopError::NotBayer);
         }
-        let least = self.demosaic.least_px(mosaic);
-        let fits = width.min(height) >= least;
-        if fits { Ok(()) } else { Err(DevelopError::TooSmall { width, height, least }) }
+        let minimum = self.demosaic.min_size_px(mosaic);
+        let fits = width.min(height) >= minimum;
+        if fits { Ok(()) } else { Err(DevelopError::TooSmall { width, height, least: minimum }) }
     }
 }
 

@@ -43,17 +43,17 @@ impl ColourChange {
         self.operations.iter().fold(Affine::IDENTITY, |all, next| all.then(&next.matrix(self.stage)))
     }
 
-    pub(super) fn apply_linear(&self, picture: &mut Plane<LinearRgb>) {
-        self.apply(picture, |v| v);
+    pub(super) fn apply_linear(&self, image: &mut Plane<LinearRgb>) {
+        self.apply(image, |v| v);
     }
 
-    pub(super) fn apply_display(&self, picture: &mut Plane<Display>) {
-        self.apply(picture, |v| v.clamp(0.0, 1.0));
+    pub(super) fn apply_display(&self, image: &mut Plane<Display>) {
+        self.apply(image, |v| v.clamp(0.0, 1.0));
     }
 
-    fn apply<Q: Quantity<Sample = [f32; 3]>>(&self, picture: &mut Plane<Q>, clip: impl Fn(f32) -> f32 + Sync) {
+    fn apply<Q: Quantity<Sample = [f32; 3]>>(&self, image: &mut Plane<Q>, clip: impl Fn(f32) -> f32 + Sync) {
         let matrix = self.matrix();
-        for_each(picture, |_, rgb| matrix.apply(rgb.map(f64::from)).map(|v| clip(v as f32)));
+        for_each(image, |_, rgb| matrix.apply(rgb.map(f64::from)).map(|v| clip(v as f32)));
     }
 }
 
@@ -82,12 +82,12 @@ impl Operation {
     /// Checks the ranges and the stage.
     fn check(&self, stage: Stage) -> Result<(), FilterError> {
         let finite = |name, values: &[f64]| {
-            let fault = values.iter().find(|v| !v.is_finite());
-            fault.map_or(Ok(()), |v| demand(false, name, *v, "that is finite"))
+            let not_finite = values.iter().find(|v| !v.is_finite());
+            not_finite.map_or(Ok(()), |v| demand(false, name, *v, "that is finite"))
         };
         match self {
             Self::Scale(factors) => finite("scale", factors),
-            Self::Offset(shares) => finite("offset", shares),
+            Self::Offset(offsets) => finite("offset", offsets),
             Self::Brightness(b) => demand(*b >= 0.0, "brightness", *b, "of 0 or more"),
             Self::Saturation(s) => demand(*s >= 0.0, "saturation", *s, "of 0 or more"),
             Self::HueRotationDeg(angle) => finite("hue_rotation_deg", &[*angle]),
@@ -101,7 +101,7 @@ impl Operation {
     pub fn matrix(&self, stage: Stage) -> Affine {
         match self {
             Self::Scale(factors) => diagonal(*factors),
-            Self::Offset(shares) => Affine::new(diagonal_rows([1.0; 3]), *shares),
+            Self::Offset(offsets) => Affine::new(diagonal_rows([1.0; 3]), *offsets),
             Self::Brightness(b) => diagonal([*b; 3]),
             Self::Saturation(s) => saturation(*s, weights(stage)),
             Self::HueRotationDeg(angle) => hue_rotation(angle.to_radians(), weights(stage)),
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pictures_come_back_from_every_space() {
+    fn images_come_back_from_every_space() {
         for (space, stage) in ColourSpace::ALL.into_iter().flat_map(|s| [Stage::Linear, Stage::Display].map(|t| (s, t)))
         {
             let change = ColourChange { stage, operations: vec![Operation::To(space), Operation::From(space)] };
@@ -188,12 +188,12 @@ mod tests {
             operations: [there.operations.clone(), vec![Operation::Offset([-2.0; 3])]].concat(),
             ..there
         };
-        let mut picture = Plane::from_samples(2, 1, vec![[0.1, 0.6, 0.9], [0.3, 0.2, 0.1]]).expect("filled");
-        let before = picture.clone();
-        back.apply_display(&mut picture);
+        let mut image = Plane::from_samples(2, 1, vec![[0.1, 0.6, 0.9], [0.3, 0.2, 0.1]]).expect("filled");
+        let before = image.clone();
+        back.apply_display(&mut image);
         let same =
-            picture.samples().iter().zip(before.samples()).all(|(a, b)| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6));
-        assert!(same, "{picture:?}");
+            image.samples().iter().zip(before.samples()).all(|(a, b)| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6));
+        assert!(same, "{image:?}");
         let mut bright = before.clone();
         ColourChange { stage: Stage::Display, operations: vec![Operation::Brightness(2.0)] }.apply_display(&mut bright);
         assert_eq!(bright.at(0, 0), [0.2, 1.0, 1.0]);

@@ -53,12 +53,12 @@ impl ColourSpace {
     }
 
     pub(crate) fn check(self, stage: Stage) -> Result<(), FilterError> {
-        let wanted = match (self, stage) {
+        let required = match (self, stage) {
             (Self::RgbNtsc | Self::RgbPal, Stage::Display) => "linear light",
             (Self::Yuv | Self::Yiq | Self::YCbCr, Stage::Linear) => "encoded images",
             _ => return Ok(()),
         };
-        Err(FilterError::Space { space: self.name(), wanted })
+        Err(FilterError::Space { space: self.name(), wanted: required })
     }
 
     /// From sRGB, linear or encoded as defined for the space.
@@ -193,10 +193,10 @@ mod tests {
             (ColourSpace::RgbPal, PAL_PRIMARIES, Affine::IDENTITY),
             (ColourSpace::RgbNtsc, NTSC_PRIMARIES, adaptation(D65_WHITE, white_c)),
         ];
-        for (space, primaries, seen) in spaces {
+        for (space, primaries, conversion) in spaces {
             for (i, [x, y]) in primaries.into_iter().enumerate() {
                 let lone = core::array::from_fn(|c| f64::from(u8::from(c == i)));
-                let xyz = seen.apply(Affine::new(XYZ_FROM_SRGB, [0.0; 3]).apply(space.to_rgb().apply(lone)));
+                let xyz = conversion.apply(Affine::new(XYZ_FROM_SRGB, [0.0; 3]).apply(space.to_rgb().apply(lone)));
                 let sum: f64 = xyz.iter().sum();
                 assert!((xyz[0] / sum - x).abs() < 1e-12 && (xyz[1] / sum - y).abs() < 1e-12, "{space:?} {i}: {xyz:?}");
             }
@@ -223,8 +223,8 @@ mod tests {
 
     #[test]
     fn known_colours_have_their_known_values() {
-        let near = |found: [f64; 3], want: [f64; 3], tolerance: f64| {
-            assert!((0..3).all(|c| (found[c] - want[c]).abs() < tolerance), "{found:?} {want:?}");
+        let near = |actual: [f64; 3], expected: [f64; 3], tolerance: f64| {
+            assert!((0..3).all(|c| (actual[c] - expected[c]).abs() < tolerance), "{actual:?} {expected:?}");
         };
         // Red: BT.601's Cr is 1, FCC's I is 0.6 and Q 0.21 (coefficients of two digits), PAL's V is 0.615.
         near(ColourSpace::YCbCr.from_rgb().apply([1.0, 0.0, 0.0]), [0.299, 0.5 - 0.168_736, 1.0], 1e-6);
@@ -236,8 +236,8 @@ mod tests {
     fn an_inverse_undoes_and_a_flat_map_has_none() {
         let map = Affine::new([[2.0, 1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, 1.0]], [0.1, -0.2, 0.3]);
         let back = map.then(&map.inverse().expect("determinant 1"));
-        for (row, want) in back.0.iter().zip(Affine::IDENTITY.0) {
-            assert!((0..4).all(|j| (row[j] - want[j]).abs() < 1e-14), "{back:?}");
+        for (row, expected) in back.0.iter().zip(Affine::IDENTITY.0) {
+            assert!((0..4).all(|j| (row[j] - expected[j]).abs() < 1e-14), "{back:?}");
         }
         assert_eq!(map.apply([1.0, 2.0, 3.0]), [4.1, -1.2, 4.3]);
         assert_eq!(Affine::new([[1.0; 3]; 3], [0.0; 3]).inverse(), None);

@@ -52,9 +52,9 @@ impl Drops {
     pub(super) fn check(&self) -> Result<(), FilterError> {
         let count = f64::from(self.count);
         demand((1.0..=1e5).contains(&count), "count", count, "from 1 to 100 000")?;
-        let [least, greatest] = self.radius_px;
-        demand(least > 0.0 && least <= greatest, "min_radius_px", least, "above 0 and at most max_radius_px")?;
-        demand(greatest.is_finite(), "max_radius_px", greatest, "that is finite")?;
+        let [minimum, maximum] = self.radius_px;
+        demand(minimum > 0.0 && minimum <= maximum, "min_radius_px", minimum, "above 0 and at most max_radius_px")?;
+        demand(maximum.is_finite(), "max_radius_px", maximum, "that is finite")?;
         demand(self.scale > 0.0, "scale", self.scale, "above 0")?;
         let blur = self.blur_px;
         let of_picture = blur * self.scale;
@@ -63,15 +63,15 @@ impl Drops {
         demand(self.fade_frames != Some(0), "fade_frames", 0.0, "of 1 or more")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<LinearRgb>, address: FrameAddress) {
-        let (width, height) = (picture.width(), picture.height());
+    pub(super) fn apply(&self, image: &mut Plane<LinearRgb>, address: FrameAddress) {
+        let (width, height) = (image.width(), image.height());
         if width == 0 || height == 0 {
             return;
         }
-        let blurred = detail::gaussian(picture.samples(), width, self.blur_px * self.scale);
+        let blurred = detail::gaussian(image.samples(), width, self.blur_px * self.scale);
         for i in 0..self.count {
             let drop = self.drop(i, [width as f64, height as f64], address);
-            self.draw(drop, picture, &blurred);
+            self.blend(drop, image, &blurred);
         }
     }
 
@@ -92,17 +92,17 @@ impl Drops {
             }
         };
         let [x, y, size, _] = words(life);
-        let [least, greatest] = self.radius_px;
+        let [minimum, maximum] = self.radius_px;
         Disc {
             centre_px: [x * size_px[0], y * size_px[1] + self.flow_px_per_frame * age],
-            radius_px: least + size * (greatest - least),
+            radius_px: minimum + size * (maximum - minimum),
             opacity: left,
         }
     }
 
     /// Draws a drop that shows the blurred image.
-    fn draw(&self, drop: Disc, picture: &mut Plane<LinearRgb>, blurred: &[[f32; 3]]) {
-        let (width, height) = (picture.width(), picture.height());
+    fn blend(&self, drop: Disc, image: &mut Plane<LinearRgb>, blurred: &[[f32; 3]]) {
+        let (width, height) = (image.width(), image.height());
         let Disc { centre_px: [cx, cy], radius_px: r, opacity } = drop;
         let range = |c: f64, length: usize| {
             let end = |at: f64| at.clamp(0.0, length as f64) as usize;
@@ -117,9 +117,9 @@ impl Drops {
                 }
                 let weight = (opacity * (inside / self.blur_px).min(1.0)) as f32;
                 let at = |c: f64, d: f64, length: usize| (c - self.scale * d).clamp(0.0, length as f64 - 1.0) as usize;
-                let seen = blurred[at(cy, dy, height) * width + at(cx, dx, width)];
-                let here = picture.at(x, y);
-                picture.set(x, y, core::array::from_fn(|c| here[c] + weight * (seen[c] - here[c])));
+                let blurred_colour = blurred[at(cy, dy, height) * width + at(cx, dx, width)];
+                let here = image.at(x, y);
+                image.set(x, y, core::array::from_fn(|c| here[c] + weight * (blurred_colour[c] - here[c])));
             }
         }
     }
@@ -145,7 +145,7 @@ mod tests {
 
     /// An upward ramp appears as a downward one, twice as steep.
     #[test]
-    fn a_drop_shows_the_picture_upside_down_and_smaller() {
+    fn a_drop_shows_the_image_upside_down_and_smaller() {
         let still = Drops { fade_frames: None, ..DROPS };
         // The first seed whose drop lies well inside the image.
         let of = |seed| FrameAddress { seed, ..frame(5) };
@@ -158,18 +158,18 @@ mod tests {
         let [cx, cy] = centre(seed);
         let mut ramp = Plane::filled(200, 160, [0.0; 3]);
         (0..160).for_each(|y| (0..200).for_each(|x| ramp.set(x, y, [y as f32, x as f32, 1.0])));
-        let mut picture = ramp.clone();
-        still.apply(&mut picture, of(seed));
+        let mut image = ramp.clone();
+        still.apply(&mut image, of(seed));
         let (x, y) = (cx as usize, cy as usize);
         // Nearest pixels: steps of 2 within one pixel.
         for (dx, dy) in [(0_i32, 0_i32), (5, 0), (0, 8), (-10, 4)] {
             let at = |c: usize, d: i32| (c as i64 + i64::from(d)) as usize;
-            let [v, u, one] = picture.at(at(x, dx), at(y, dy));
+            let [v, u, one] = image.at(at(x, dx), at(y, dy));
             assert!((f64::from(v) - (y as f64 - 2.0 * f64::from(dy))).abs() <= 2.0, "{dx} {dy}: {v}");
             assert!((f64::from(u) - (x as f64 - 2.0 * f64::from(dx))).abs() <= 2.0, "{dx} {dy}: {u}");
             assert!((one - 1.0).abs() < 1e-5, "even light stays");
         }
-        let changed = picture.samples().iter().zip(ramp.samples()).filter(|(a, b)| a != b).count() as f64;
+        let changed = image.samples().iter().zip(ramp.samples()).filter(|(a, b)| a != b).count() as f64;
         // The disc of 20 px, 1 257 pixels.
         assert!(changed > 1150.0 && changed < 1300.0, "{changed}");
     }

@@ -56,22 +56,22 @@ impl Glow {
         demand(self.strength >= 0.0, "strength", self.strength, "of 0 or more")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<LinearRgb>) {
-        let (gain, threshold, strength) = (self.gain(picture) as f32, self.threshold as f32, self.strength as f32);
-        for_each(picture, |_, rgb| rgb.map(|v| gain * v));
+    pub(super) fn apply(&self, image: &mut Plane<LinearRgb>) {
+        let (gain, threshold, strength) = (self.gain(image) as f32, self.threshold as f32, self.strength as f32);
+        for_each(image, |_, rgb| rgb.map(|v| gain * v));
         let excess: Vec<[f32; 3]> =
-            picture.samples().par_iter().map(|rgb| rgb.map(|v| (v - threshold).max(0.0))).collect();
-        let glow = detail::gaussian(&excess, picture.width(), self.radius_px);
-        for_each(picture, |i, rgb| core::array::from_fn(|c| rgb[c] + strength * glow[i][c]));
+            image.samples().par_iter().map(|rgb| rgb.map(|v| (v - threshold).max(0.0))).collect();
+        let glow = detail::gaussian(&excess, image.width(), self.radius_px);
+        for_each(image, |i, rgb| core::array::from_fn(|c| rgb[c] + strength * glow[i][c]));
     }
 
     /// The gain that brings the percentile to the target.
-    fn gain(&self, picture: &Plane<LinearRgb>) -> f64 {
-        let mut luminances: Vec<f32> = picture.samples().par_iter().map(|rgb| luma(*rgb)).collect();
+    fn gain(&self, image: &Plane<LinearRgb>) -> f64 {
+        let mut luminances: Vec<f32> = image.samples().par_iter().map(|rgb| luma(*rgb)).collect();
         let Some(last) = luminances.len().checked_sub(1) else { return 1.0 };
         let rank = (self.percentile / 100.0 * luminances.len() as f64).ceil() as usize;
-        let (_, found, _) = luminances.select_nth_unstable_by(rank.saturating_sub(1).min(last), f32::total_cmp);
-        if *found > 0.0 { self.target / f64::from(*found) } else { 1.0 }
+        let (_, value, _) = luminances.select_nth_unstable_by(rank.saturating_sub(1).min(last), f32::total_cmp);
+        if *value > 0.0 { self.target / f64::from(*value) } else { 1.0 }
     }
 }
 
@@ -102,13 +102,13 @@ impl ToneMap {
         demand(self.gain > 0.0, "gain", self.gain, "above 0")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<LinearRgb>) {
+    pub(super) fn apply(&self, image: &mut Plane<LinearRgb>) {
         let (original, gain) = (self.original_factor as f32, self.gain as f32);
         let mapped = |x: f32| match &self.sensitivity {
             Sensitivity::Exponential => -exp_m1(-(gain * x).max(0.0)),
             Sensitivity::Curve(curve) => curve.encode(gain * x),
         };
-        for_each(picture, |_, rgb| rgb.map(|x| ((1.0 - original) * mapped(x) + original * x).clamp(0.0, 1.0)));
+        for_each(image, |_, rgb| rgb.map(|x| ((1.0 - original) * mapped(x) + original * x).clamp(0.0, 1.0)));
     }
 }
 
@@ -120,29 +120,29 @@ mod tests {
 
     /// Mostly 0.1, with a light of 10 at the centre.
     fn night() -> Plane<LinearRgb> {
-        let mut picture = Plane::filled(41, 41, [0.1; 3]);
-        picture.set(20, 20, [10.0, 5.0, 0.0]);
-        picture
+        let mut image = Plane::filled(41, 41, [0.1; 3]);
+        image.set(20, 20, [10.0, 5.0, 0.0]);
+        image
     }
 
     #[test]
-    fn the_median_is_brought_to_the_target_and_the_lamp_glows() {
-        let mut picture = night();
-        GLOW.apply(&mut picture);
+    fn the_median_is_brought_to_the_target_and_the_lamp_emits() {
+        let mut image = night();
+        GLOW.apply(&mut image);
         // Far from the light only the gain of 2 acts; half of the excess of 19, 9 and 0 is added.
-        assert!(picture.at(0, 0).iter().all(|v| (v - 0.2).abs() < 1e-6));
+        assert!(image.at(0, 0).iter().all(|v| (v - 0.2).abs() < 1e-6));
         let added = |c: usize| -> f32 {
-            let lit: f32 = picture.samples().iter().map(|rgb| rgb[c]).sum();
+            let total: f32 = image.samples().iter().map(|rgb| rgb[c]).sum();
             let gained: f32 = night().samples().iter().map(|rgb| 2.0 * rgb[c]).sum();
-            lit - gained
+            total - gained
         };
         // Sums of 1 681 values of f32.
         assert!((added(0) - 9.5).abs() < 1e-2 && (added(1) - 4.5).abs() < 1e-2 && added(2).abs() < 1e-2);
-        assert!(picture.at(22, 20)[0] > 0.3 && picture.at(22, 20)[2] < 0.21);
+        assert!(image.at(22, 20)[0] > 0.3 && image.at(22, 20)[2] < 0.21);
     }
 
     #[test]
-    fn a_black_picture_stays_black() {
+    fn a_black_image_stays_black() {
         let mut black = Plane::filled(5, 5, [0.0; 3]);
         GLOW.apply(&mut black);
         assert!(black.samples().iter().all(|rgb| *rgb == [0.0; 3]));
@@ -169,21 +169,21 @@ mod tests {
 
         fn mapped(original_factor: f64, sensitivity: Sensitivity) -> Vec<f32> {
             let light = [-0.1, 0.0, 0.25, 0.5, 1.0, 4.0];
-            let mut picture = Plane::from_samples(6, 1, light.map(|v| [v; 3]).to_vec()).expect("filled");
-            ToneMap { original_factor, gain: 2.0, sensitivity }.apply(&mut picture);
-            picture.samples().iter().map(|rgb| rgb[0]).collect()
+            let mut image = Plane::from_samples(6, 1, light.map(|v| [v; 3]).to_vec()).expect("filled");
+            ToneMap { original_factor, gain: 2.0, sensitivity }.apply(&mut image);
+            image.samples().iter().map(|rgb| rgb[0]).collect()
         }
 
         #[test]
         fn the_original_factor_blends() {
             assert_eq!(mapped(1.0, Sensitivity::Exponential), [0.0, 0.0, 0.25, 0.5, 1.0, 1.0]);
-            let whole = mapped(0.0, Sensitivity::Exponential);
+            let mapped_values = mapped(0.0, Sensitivity::Exponential);
             // 1 − e^(−2x).
-            for (found, want) in whole.iter().zip([0.0, 0.0, 0.393_469, 0.632_121, 0.864_665, 0.999_665]) {
-                assert!((found - want).abs() < 1e-6, "{found} {want}");
+            for (actual, expected) in mapped_values.iter().zip([0.0, 0.0, 0.393_469, 0.632_121, 0.864_665, 0.999_665]) {
+                assert!((actual - expected).abs() < 1e-6, "{actual} {expected}");
             }
             let blend = mapped(0.4, Sensitivity::Exponential);
-            assert!((2..5).all(|i| (blend[i] - 0.6 * whole[i] - 0.4 * [0.25, 0.5, 1.0][i - 2]).abs() < 1e-6));
+            assert!((2..5).all(|i| (blend[i] - 0.6 * mapped_values[i] - 0.4 * [0.25, 0.5, 1.0][i - 2]).abs() < 1e-6));
         }
 
         #[test]

@@ -26,7 +26,7 @@ mod pixels;
 use etendue_core::quantity::{Display, LinearRgb};
 use etendue_core::{Plane, random::FrameAddress};
 
-use pixels::{Change, FilterAddress, change_brightness, demand, for_each};
+use pixels::{BrightnessChange, FilterAddress, change_brightness, demand, for_each};
 
 pub use colour::{Affine, ColourChange, ColourSpace, Operation};
 pub use drops::Drops;
@@ -80,22 +80,22 @@ impl Filter {
         }
     }
 
-    fn apply_linear(&self, picture: &mut Plane<LinearRgb>, address: FrameAddress) {
+    fn apply_linear(&self, image: &mut Plane<LinearRgb>, address: FrameAddress) {
         match self {
-            Self::Glow(filter) => filter.apply(picture),
-            Self::ToneMap(filter) => filter.apply(picture),
-            Self::Drops(filter) => filter.apply(picture, address),
-            Self::Colour(filter) => filter.apply_linear(picture),
+            Self::Glow(filter) => filter.apply(image),
+            Self::ToneMap(filter) => filter.apply(image),
+            Self::Drops(filter) => filter.apply(image, address),
+            Self::Colour(filter) => filter.apply_linear(image),
             Self::PulseNoise(_) | Self::GaussianNoise(_) | Self::UniformNoise(_) => {}
         }
     }
 
-    fn apply_display(&self, picture: &mut Plane<Display>, address: FilterAddress) {
+    fn apply_display(&self, image: &mut Plane<Display>, address: FilterAddress) {
         match self {
-            Self::PulseNoise(filter) => filter.apply(picture, address),
-            Self::GaussianNoise(filter) => filter.apply(picture, address),
-            Self::UniformNoise(filter) => filter.apply(picture, address),
-            Self::Colour(filter) => filter.apply_display(picture),
+            Self::PulseNoise(filter) => filter.apply(image, address),
+            Self::GaussianNoise(filter) => filter.apply(image, address),
+            Self::UniformNoise(filter) => filter.apply(image, address),
+            Self::Colour(filter) => filter.apply_display(image),
             Self::Glow(_) | Self::ToneMap(_) | Self::Drops(_) => {}
         }
     }
@@ -107,19 +107,19 @@ impl Filter {
 /// If a number is out of range or the order mixes the stages.
 pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
     filters.iter().try_for_each(Filter::check)?;
-    let fault = filters.windows(2).position(|pair| pair[1].stage() < pair[0].stage());
-    fault.map_or(Ok(()), |i| Err(FilterError::Order(i + 2)))
+    let position = filters.windows(2).position(|pair| pair[1].stage() < pair[0].stage());
+    position.map_or(Ok(()), |i| Err(FilterError::Order(i + 2)))
 }
 
 /// Applies the filters of linear light.
-pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>, address: FrameAddress) {
-    filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture, address));
+pub(crate) fn apply_linear(filters: &[Filter], image: &mut Plane<LinearRgb>, address: FrameAddress) {
+    filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(image, address));
 }
 
 /// Applies the filters of the encoded image.
-pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: FrameAddress) {
+pub(crate) fn apply_display(filters: &[Filter], image: &mut Plane<Display>, address: FrameAddress) {
     for (place, filter) in filters.iter().filter(|f| f.stage() == Stage::Display).enumerate() {
-        filter.apply_display(picture, FilterAddress { picture: address, place: place as u32 });
+        filter.apply_display(image, FilterAddress { image: address, place: place as u32 });
     }
 }
 
@@ -130,12 +130,12 @@ mod tests {
 
     /// The first filter of a frame.
     pub(super) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {
-        FilterAddress { picture: FrameAddress { seed, camera, frame, capture: 0 }, place: 0 }
+        FilterAddress { image: FrameAddress { seed, camera, frame, capture: 0 }, place: 0 }
     }
 
-    fn spread(picture: &Plane<Display>) -> f64 {
-        let n = picture.samples().len() as f64;
-        let values = || picture.samples().iter().map(|rgb| WHITE_DN * f64::from(rgb[1]));
+    fn standard_deviation(image: &Plane<Display>) -> f64 {
+        let n = image.samples().len() as f64;
+        let values = || image.samples().iter().map(|rgb| WHITE_DN * f64::from(rgb[1]));
         let mean = values().sum::<f64>() / n;
         (values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt()
     }
@@ -143,20 +143,20 @@ mod tests {
     #[test]
     fn two_noises_of_a_kind_are_independent() {
         let noise = Filter::GaussianNoise(GaussianNoise { sigma_dn: 6.0 });
-        let mut picture = Plane::filled(200, 200, [0.5; 3]);
-        apply_display(&[noise.clone(), noise], &mut picture, FrameAddress::default());
+        let mut image = Plane::filled(200, 200, [0.5; 3]);
+        apply_display(&[noise.clone(), noise], &mut image, FrameAddress::default());
         // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. Equal numbers in both would give 12 DN.
-        assert!((spread(&picture) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", spread(&picture));
+        assert!((standard_deviation(&image) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", standard_deviation(&image));
     }
 
     #[test]
-    fn numbers_are_those_of_an_8_bit_picture_and_clip_at_its_ends() {
+    fn numbers_are_those_of_an_8_bit_image_and_clip_at_its_ends() {
         let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, FrameAddress::default());
-        let mut picture = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
-        apply_display(&[Filter::PulseNoise(pulse)], &mut picture, seed);
+        let mut image = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
+        apply_display(&[Filter::PulseNoise(pulse)], &mut image, seed);
         // 51 of 255 is 0.2; black and white are the ends.
         let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6);
-        assert!(picture.samples().iter().all(|rgb| near(*rgb, [0.3, 0.7, 1.0]) || near(*rgb, [0.0, 0.3, 0.7])));
+        assert!(image.samples().iter().all(|rgb| near(*rgb, [0.3, 0.7, 1.0]) || near(*rgb, [0.0, 0.3, 0.7])));
     }
 
     #[test]

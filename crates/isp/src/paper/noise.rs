@@ -31,7 +31,7 @@ use etendue_core::maths::f64::{cos, ln};
 use etendue_core::random::{NoiseDraw, NoiseStream};
 use etendue_core::{Plane, quantity::Display};
 
-use super::{Change, FilterAddress, FilterError, change_brightness, demand};
+use super::{BrightnessChange, FilterAddress, FilterError, change_brightness, demand};
 
 /// A normal number added.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +45,8 @@ impl GaussianNoise {
         demand((0.0..=255.0).contains(&self.sigma_dn), "sigma_dn", self.sigma_dn, "from 0 to 255")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
-        change_brightness(picture, address, NoiseDraw::PaperGaussian, |stream| Change {
+    pub(super) fn apply(&self, image: &mut Plane<Display>, address: FilterAddress) {
+        change_brightness(image, address, NoiseDraw::PaperGaussian, |stream| BrightnessChange {
             factor: 1.0,
             offset_dn: self.sigma_dn * standard_normal(stream),
         });
@@ -73,8 +73,8 @@ impl PulseNoise {
         demand((0.0..=0.5).contains(&self.probability), "probability", self.probability, "from 0 to 0.5")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
-        change_brightness(picture, address, NoiseDraw::PaperPulse, |stream| {
+    pub(super) fn apply(&self, image: &mut Plane<Display>, address: FilterAddress) {
+        change_brightness(image, address, NoiseDraw::PaperPulse, |stream| {
             let u = stream.unit_f64();
             let sign = if u <= self.probability {
                 1.0
@@ -83,7 +83,7 @@ impl PulseNoise {
             } else {
                 0.0
             };
-            Change { factor: 1.0, offset_dn: sign * self.amplitude_dn }
+            BrightnessChange { factor: 1.0, offset_dn: sign * self.amplitude_dn }
         });
     }
 }
@@ -100,8 +100,8 @@ impl UniformNoise {
         demand((0.0..=2.0).contains(&self.range), "range", self.range, "from 0 to 2")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
-        change_brightness(picture, address, NoiseDraw::PaperUniform, |stream| Change {
+    pub(super) fn apply(&self, image: &mut Plane<Display>, address: FilterAddress) {
+        change_brightness(image, address, NoiseDraw::PaperUniform, |stream| BrightnessChange {
             factor: 1.0 + self.range * (stream.unit_f64() - 0.5),
             offset_dn: 0.0,
         });
@@ -115,10 +115,10 @@ mod tests {
 
     #[test]
     fn mean_spread_and_shape_are_those_of_a_normal_number() {
-        let mut picture = Plane::filled(200, 200, [0.5; 3]);
-        GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, address(3, 0, 1));
-        let values: Vec<f64> = picture.samples().iter().map(|rgb| (f64::from(rgb[1]) - 0.5) * 25.5).collect();
-        assert!(picture.samples().iter().all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]));
+        let mut image = Plane::filled(200, 200, [0.5; 3]);
+        GaussianNoise { sigma_dn: 10.0 }.apply(&mut image, address(3, 0, 1));
+        let values: Vec<f64> = image.samples().iter().map(|rgb| (f64::from(rgb[1]) - 0.5) * 25.5).collect();
+        assert!(image.samples().iter().all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]));
         let n = values.len() as f64;
         let moment = |k: i32| values.iter().map(|v| (0..k).fold(1.0, |p, _| p * v)).sum::<f64>() / n;
         // 4.5 standard errors of moments of 40 000 normal numbers: 1/√n, √(2/n), √(15/n), √(96/n).
@@ -129,9 +129,9 @@ mod tests {
     #[test]
     fn another_frame_has_other_noise_and_the_same_has_the_same() {
         let noisy = |frame| {
-            let mut picture = Plane::filled(8, 8, [0.5; 3]);
-            GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, address(3, 0, frame));
-            picture
+            let mut image = Plane::filled(8, 8, [0.5; 3]);
+            GaussianNoise { sigma_dn: 10.0 }.apply(&mut image, address(3, 0, frame));
+            image
         };
         assert!(noisy(0) == noisy(0) && noisy(0) != noisy(1));
     }
@@ -139,10 +139,10 @@ mod tests {
     #[test]
     fn pixels_rise_and_fall_as_often_as_said_and_all_channels_alike() {
         let noise = PulseNoise { amplitude_dn: 51.0, probability: 0.2 };
-        let mut picture = Plane::filled(200, 200, [0.4, 0.5, 0.6]);
-        noise.apply(&mut picture, address(5, 1, 2));
+        let mut image = Plane::filled(200, 200, [0.4, 0.5, 0.6]);
+        noise.apply(&mut image, address(5, 1, 2));
         let (mut up, mut down) = (0, 0);
-        for rgb in picture.samples() {
+        for rgb in image.samples() {
             let change = rgb[0] - 0.4;
             assert!((rgb[1] - 0.5 - change).abs() < 1e-6 && (rgb[2] - 0.6 - change).abs() < 1e-6);
             up += usize::from((change - 0.2).abs() < 1e-6);
@@ -155,9 +155,9 @@ mod tests {
     #[test]
     fn half_and_half_leaves_no_pixel_and_the_ends_clip() {
         let noise = PulseNoise { amplitude_dn: 255.0, probability: 0.5 };
-        let mut picture = Plane::filled(40, 40, [0.5; 3]);
-        noise.apply(&mut picture, FilterAddress::default());
-        assert!(picture.samples().iter().all(|rgb| *rgb == [0.0; 3] || *rgb == [1.0; 3]));
+        let mut image = Plane::filled(40, 40, [0.5; 3]);
+        noise.apply(&mut image, FilterAddress::default());
+        assert!(image.samples().iter().all(|rgb| *rgb == [0.0; 3] || *rgb == [1.0; 3]));
     }
 
     #[test]
@@ -170,10 +170,10 @@ mod tests {
 
     #[test]
     fn factors_fill_their_range_evenly_and_keep_the_hue() {
-        let mut picture = Plane::filled(200, 200, [0.2, 0.4, 0.6]);
-        UniformNoise { range: 0.5 }.apply(&mut picture, address(9, 0, 0));
+        let mut image = Plane::filled(200, 200, [0.2, 0.4, 0.6]);
+        UniformNoise { range: 0.5 }.apply(&mut image, address(9, 0, 0));
         let mut bins = [0_u32; 10];
-        for rgb in picture.samples() {
+        for rgb in image.samples() {
             let factor = f64::from(rgb[1]) / 0.4;
             assert!((f64::from(rgb[2]) / 0.6 - factor).abs() < 1e-6);
             bins[(((factor - 0.75) / 0.05) as usize).min(9)] += 1;
@@ -185,9 +185,9 @@ mod tests {
 
     #[test]
     fn the_ends_clip_and_ranges_have_bounds() {
-        let mut picture = Plane::filled(30, 30, [1.0; 3]);
-        UniformNoise { range: 2.0 }.apply(&mut picture, FilterAddress::default());
-        assert!(picture.samples().iter().flatten().all(|v| (0.0..=1.0).contains(v)));
+        let mut image = Plane::filled(30, 30, [1.0; 3]);
+        UniformNoise { range: 2.0 }.apply(&mut image, FilterAddress::default());
+        assert!(image.samples().iter().flatten().all(|v| (0.0..=1.0).contains(v)));
         assert!(UniformNoise { range: 2.1 }.check().is_err() && UniformNoise { range: f64::NAN }.check().is_err());
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn demand(legal: bool, name: &'static str, value: f64, range: &'stati
 /// Address of a filter's random numbers: two filters of a kind have different ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FilterAddress {
-    pub(super) picture: FrameAddress,
+    pub(super) image: FrameAddress,
     /// Its index among the filters of the encoded image.
     pub(super) place: u32,
 }
@@ -60,30 +60,30 @@ pub(super) const WHITE_DN: f64 = 255.0;
 
 /// Changes the brightness of each pixel by the same amount in all channels, in DN, from its own random number, and clips.
 pub(super) fn change_brightness(
-    picture: &mut Plane<Display>,
-    FilterAddress { picture: address, place }: FilterAddress,
-    draw: NoiseDraw,
-    change: impl Fn(&mut NoiseStream) -> Change + Sync,
+    image: &mut Plane<Display>,
+    FilterAddress { image: address, place }: FilterAddress,
+    purpose: NoiseDraw,
+    change: impl Fn(&mut NoiseStream) -> BrightnessChange + Sync,
 ) {
     let (width, key) =
-        (picture.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, place, draw));
-    for_each(picture, |i, rgb| {
+        (image.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, place, purpose));
+    for_each(image, |i, rgb| {
         let mut stream = key.stream(Pixel { x: (i % width) as u32, y: (i / width) as u32 });
-        let Change { factor, offset_dn } = change(&mut stream);
+        let BrightnessChange { factor, offset_dn } = change(&mut stream);
         rgb.map(|v| (f64::from(v) * factor + offset_dn / WHITE_DN).clamp(0.0, 1.0) as f32)
     });
 }
 
 /// Change of a pixel's brightness.
-pub(super) struct Change {
+pub(super) struct BrightnessChange {
     pub(super) factor: f64,
     pub(super) offset_dn: f64,
 }
 
 /// Replaces every pixel. Runs in the rayon pool of the caller.
 pub(super) fn for_each<Q: Quantity<Sample = [f32; 3]>>(
-    picture: &mut Plane<Q>,
+    image: &mut Plane<Q>,
     change: impl Fn(usize, [f32; 3]) -> [f32; 3] + Sync,
 ) {
-    picture.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| *rgb = change(i, *rgb));
+    image.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| *rgb = change(i, *rgb));
 }

@@ -5,19 +5,19 @@ use etendue_io::emva_descriptor::DescribedLevel;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
-    DarkStack, FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
+    DarkStack, MIN_OUTLIERS, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
 };
 
-use super::parameter::{Findings, Kind};
-use super::{folder::Laboratory, shot::Shot};
-use crate::measure::ptc::{self, Found, Group, PtcRequest};
+use super::parameter::{Findings, ImageKind};
+use super::{folder::Laboratory, shot::LaboratoryImage};
+use crate::measure::ptc::{self, PtcResults, FrameGroup, PtcRequest};
 use crate::{measure::Selection, report::Estimate};
 
 /// Border, px: pixels there have fewer neighbours to exchange light with.
-const BORDER: usize = 2;
+const BORDER_PX: usize = 2;
 /// Photons per second where their number is not known: any unit of light serves.
-const ANY_LIGHT_PER_S: f64 = 1e6;
-const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective pixels";
+const PLACEHOLDER_PHOTONS_PER_S: f64 = 1e6;
+const QUANTITIES: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective pixels";
 
 /// Sensor results.
 #[derive(Clone, Debug)]
@@ -41,67 +41,67 @@ pub(super) fn measure(
     findings: &mut Findings,
     observer: &dyn Observer,
 ) -> Result<Option<Electronics>, Error> {
-    let (dark, flat) = (laboratory.shots(Kind::Dark), laboratory.shots(Kind::Flat));
-    for (shots, kind) in [(&dark, Kind::Dark), (&flat, Kind::Flat)] {
+    let (dark, flat) = (laboratory.shots(ImageKind::Dark), laboratory.shots(ImageKind::Flat));
+    for (shots, kind) in [(&dark, ImageKind::Dark), (&flat, ImageKind::Flat)] {
         if shots.is_empty() {
-            findings.missing(WHAT, kind);
+            findings.missing(QUANTITIES, kind);
             return Ok(None);
         }
     }
     let selection = selection(laboratory, &flat);
     let photons_per_s = laboratory.stated.flat.as_ref().map(|light| light.photons_per_s.value);
-    let made = levels(&dark, 0.0)
-        .and_then(|dark| Ok([dark, levels(&flat, photons_per_s.unwrap_or(ANY_LIGHT_PER_S))?].concat()));
-    let made = made.and_then(|levels| ptc::groups(&selection, &levels, observer));
-    let Some(groups) = findings.attempt(WHAT, made)? else { return Ok(None) };
-    let Some(found) = findings.attempt(
-        WHAT,
-        ptc::of_groups(&groups).map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string())),
+    let all_levels = levels(&dark, 0.0)
+        .and_then(|dark| Ok([dark, levels(&flat, photons_per_s.unwrap_or(PLACEHOLDER_PHOTONS_PER_S))?].concat()));
+    let groups_result = all_levels.and_then(|levels| ptc::groups(&selection, &levels, observer));
+    let Some(groups) = findings.record(QUANTITIES, groups_result)? else { return Ok(None) };
+    let Some(results) = findings.record(
+        QUANTITIES,
+        ptc::measure_groups(&groups).map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string())),
     )?
     else {
         return Ok(None);
     };
     let request =
         PtcRequest { relative_light: photons_per_s.is_none(), selection: selection.clone(), ..PtcRequest::new("") };
-    findings.part("Photon transfer", Kind::Flat, ptc::report(&request, &found));
-    let (hot, dead) = outliers(laboratory, &groups, &found);
-    let patterns = findings.attempt("DSNU, PRNU", patterns(&found, &hot, &dead))?.flatten();
+    findings.part("Photon transfer", ImageKind::Flat, ptc::report(&request, &results));
+    let (hot, dead) = outliers(laboratory, &groups, &results);
+    let patterns = findings.record("DSNU, PRNU", patterns(&results, &hot, &dead))?.flatten();
     let efficiency = match &laboratory.stated.flat {
         Some(light) => findings
-            .attempt("quantum efficiency of the channels", efficiency(&selection, &flat, &found))?
+            .record("quantum efficiency of the channels", efficiency(&selection, &flat, &results))?
             .map(|e| (e, light.wavelength_nm.value)),
         None => None,
     };
     let size = [groups[0].stack.width(), groups[0].stack.height()];
     let electronics = Electronics {
-        figures: found.figures,
-        black_level_dn: black_level(&found.figures, patterns.as_ref(), size),
-        dark_current_e_s: found
+        figures: results.figures,
+        black_level_dn: black_level(&results.figures, patterns.as_ref(), size),
+        dark_current_e_s: results
             .figures
             .dark_current_mean_e_per_s
-            .map(|mean| cool(mean, hot.as_ref(), groups[0].stack.width() * groups[0].stack.height())),
-        saturated: found.data.saturation_reached(),
+            .map(|mean| without_hot_pixels(mean, hot.as_ref(), groups[0].stack.width() * groups[0].stack.height())),
+        saturated: results.data.saturation_reached(),
         patterns,
         hot,
         dead,
         efficiency,
     };
-    electronics.tell(findings);
+    electronics.report_results(findings);
     Ok(Some(electronics))
 }
 
 /// The pixels to measure: green ones of a mosaic, without the border.
-fn selection(laboratory: &Laboratory, shots: &[&Shot]) -> Selection {
+fn selection(laboratory: &Laboratory, shots: &[&LaboratoryImage]) -> Selection {
     let region = shots.first().map(|shot| {
         let [x, y, width, height] = shot.picture_px;
-        [x + BORDER, y + BORDER, width.saturating_sub(2 * BORDER), height.saturating_sub(2 * BORDER)]
+        [x + BORDER_PX, y + BORDER_PX, width.saturating_sub(2 * BORDER_PX), height.saturating_sub(2 * BORDER_PX)]
     });
     let camera = &laboratory.camera;
-    Selection { channel: camera.channel(), cfa: camera.told_cfa.clone(), region, ..Selection::default() }
+    Selection { channel: camera.channel(), cfa: camera.stated_cfa.clone(), region, ..Selection::default() }
 }
 
 /// Groups frames by exposure time.
-fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Error> {
+fn levels(shots: &[&LaboratoryImage], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Error> {
     let mut levels: Vec<DescribedLevel> = Vec::new();
     for shot in shots {
         let exposure_s = shot.exposure_s.ok_or_else(|| {
@@ -136,36 +136,36 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
 }
 
 /// Hot and dead pixels.
-fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option<Outliers>, Option<Outliers>) {
+fn outliers(laboratory: &Laboratory, groups: &[FrameGroup], results: &PtcResults) -> (Option<Outliers>, Option<Outliers>) {
     let dark = || groups.iter().filter(|group| group.level.photons == 0.0);
-    let by_time = |a: &&Group, b: &&Group| a.level.exposure_s.total_cmp(&b.level.exposure_s);
+    let by_time = |a: &&FrameGroup, b: &&FrameGroup| a.level.exposure_s.total_cmp(&b.level.exposure_s);
     let hot = dark().min_by(by_time).zip(dark().max_by(by_time)).and_then(|(short, long)| {
         let [long, short] =
             [long, short].map(|group| DarkStack { frames: &group.stack, exposure_s: group.level.exposure_s });
-        hot_pixels(&long, &short, found.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
+        hot_pixels(&long, &short, results.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
     });
-    (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
+    (hot, results.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
 }
 
 /// Fixed patterns of the pixels that are neither hot nor dead: those have their own keys.
-fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> Result<Option<Nonuniformity>, Error> {
-    let Some(fixed) = &found.fixed else { return Ok(None) };
+fn patterns(results: &PtcResults, hot: &Option<Outliers>, dead: &Option<Outliers>) -> Result<Option<Nonuniformity>, Error> {
+    let Some(fixed) = &results.fixed else { return Ok(None) };
     let places: Vec<[usize; 2]> =
-        [hot, dead].into_iter().flatten().flat_map(|outliers| outliers.places.clone()).collect();
-    let [dark, bright] = [&fixed.dark, &fixed.bright].map(|stack| Pattern::of(&stack.replacing(&places)));
-    let refused = |fault: etendue_metrology::photon_transfer::TransferError| {
-        Error::coded(ErrorCode::NotMeasurable, fault.to_string())
+        [hot, dead].into_iter().flatten().flat_map(|outliers| outliers.positions.clone()).collect();
+    let [dark, bright] = [&fixed.dark, &fixed.bright].map(|stack| Pattern::from_stack(&stack.replacing(&places)));
+    let refused = |error: etendue_metrology::photon_transfer::TransferError| {
+        Error::coded(ErrorCode::NotMeasurable, error.to_string())
     };
-    let gain = found.figures.gain_dn_per_e;
-    nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &found.data).map(Some).map_err(refused)
+    let gain = results.figures.gain_dn_per_e;
+    nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &results.data).map(Some).map_err(refused)
 }
 
 /// Returns the mean dark current without the contribution of hot pixels. The uncertainty includes the sampling of pixels of this
 /// unit (variation between units).
-fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
+fn without_hot_pixels(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
     let Some(hot) = hot else { return mean };
-    let (u, specimen) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());
-    Estimate::new(mean.value - hot.added_e_s, (u * u + specimen * specimen).sqrt())
+    let (u, unit_uncertainty) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());
+    Estimate::new(mean.value - hot.added_e_s, (u * u + unit_uncertainty * unit_uncertainty).sqrt())
 }
 
 /// Returns the mean without light. The uncertainty includes the variation of pixels, rows and columns between units.
@@ -173,15 +173,15 @@ fn black_level(figures: &Figures, patterns: Option<&Nonuniformity>, [columns, ro
     let mean = figures.dark_level_dn;
     let Some(Nonuniformity { dsnu_dn, .. }) = patterns else { return mean };
     let part = |e: Estimate, count: usize| e.value * e.value / count as f64;
-    let specimen = part(dsnu_dn.pixel, columns * rows) + part(dsnu_dn.row, rows) + part(dsnu_dn.column, columns);
+    let unit_term = part(dsnu_dn.pixel, columns * rows) + part(dsnu_dn.row, rows) + part(dsnu_dn.column, columns);
     let u = mean.standard_uncertainty;
-    Estimate::new(mean.value, (u * u + specimen).sqrt())
+    Estimate::new(mean.value, (u * u + unit_term).sqrt())
 }
 
 /// Quantum efficiency of each channel: that of the measured channel times the channel's relative signal in the brightest
 /// unsaturated frames.
-fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Vec<(&'static str, Estimate)>, Error> {
-    let own = found.figures.quantum_efficiency;
+fn efficiency(selection: &Selection, flat: &[&LaboratoryImage], results: &PtcResults) -> Result<Vec<(&'static str, Estimate)>, Error> {
+    let own = results.figures.quantum_efficiency;
     if selection.channel.is_none() {
         return Ok(vec![("mono", own)]);
     }
@@ -194,29 +194,29 @@ fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Ve
     let colours = colours.ok_or_else(|| {
         Error::coded(ErrorCode::NotMeasurable, format!("{}: has no red, green and blue", brightest.name()))
     })?;
-    let black = found.figures.dark_level_dn.value;
+    let black = results.figures.dark_level_dn.value;
     let [red, green, blue] = colours.each_ref().map(|c| {
         let mean = patch_statistics(&c.image, c.shared_px).mean;
         Estimate::new(mean.value - black, mean.standard_uncertainty)
     });
-    let of = |c: Estimate| {
+    let relative_efficiency = |c: Estimate| {
         let ratio = c.value / green.value;
         let parts = [c, green, own].map(|e| e.standard_uncertainty / e.value);
         let relative = parts.iter().map(|r| r * r).sum::<f64>().sqrt();
         Estimate::new(own.value * ratio, own.value * ratio * relative)
     };
-    Ok(vec![("red", of(red)), ("green", own), ("blue", of(blue))])
+    Ok(vec![("red", relative_efficiency(red)), ("green", own), ("blue", relative_efficiency(blue))])
 }
 
 impl Electronics {
-    fn tell(&self, findings: &mut Findings) {
+    fn report_results(&self, findings: &mut Findings) {
         let f = &self.figures;
-        let from = Kind::Flat;
-        findings.found(from, "sensor.gain_dn_per_e", "system gain K", "DN/e⁻", f.gain_dn_per_e);
-        findings.found(Kind::Dark, "sensor.read_noise_e", "read noise", "e⁻", f.dark_noise_e);
-        findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", self.black_level_dn);
+        let from = ImageKind::Flat;
+        findings.add_parameter(from, "sensor.gain_dn_per_e", "system gain K", "DN/e⁻", f.gain_dn_per_e);
+        findings.add_parameter(ImageKind::Dark, "sensor.read_noise_e", "read noise", "e⁻", f.dark_noise_e);
+        findings.add_parameter(ImageKind::Dark, "sensor.black_level_dn", "black level", "DN", self.black_level_dn);
         match self.saturated {
-            true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
+            true => findings.add_parameter(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
             false => findings.unknown(
                 "saturation capacity",
                 "the variance does not fall at the brightest level in flat/, so \
@@ -224,8 +224,8 @@ impl Electronics {
             ),
         }
         match self.dark_current_e_s {
-            Some(current) => findings.found(
-                Kind::Dark,
+            Some(current) => findings.add_parameter(
+                ImageKind::Dark,
                 "sensor.dark_current_e_s",
                 "dark current of pixels that are not hot",
                 "e⁻/s",
@@ -238,7 +238,7 @@ impl Electronics {
                 for (channel, value) in channels {
                     let (key, label) =
                         (format!("sensor.quantum_efficiency.{channel}"), format!("quantum efficiency, {channel}"));
-                    findings.found(from, &key, &label, "", *value);
+                    findings.add_parameter(from, &key, &label, "", *value);
                 }
                 findings.unknown("quantum efficiency at other wavelengths", "the light in flat/ has one wavelength");
             }
@@ -253,60 +253,60 @@ impl Electronics {
 
     fn patterns(&self, findings: &mut Findings) {
         let Some(patterns) = &self.patterns else {
-            let why = "stacks of three frames or more at one exposure time are missing: one in dark/, one in flat/ at half of saturation";
-            return findings.unknown("DSNU and PRNU", why);
+            let reason = "stacks of three frames or more at one exposure time are missing: one in dark/, one in flat/ at half of saturation";
+            return findings.unknown("DSNU and PRNU", reason);
         };
-        let mut put = |from: Kind, key: &str, label: &str, unit, value| {
-            findings.found(from, &format!("sensor.non_uniformity.{key}"), label, unit, value);
+        let mut add_parameter = |from: ImageKind, key: &str, label: &str, unit, value| {
+            findings.add_parameter(from, &format!("sensor.non_uniformity.{key}"), label, unit, value);
         };
         let (dsnu, prnu) = (patterns.dsnu_e, patterns.prnu);
-        put(Kind::Dark, "dsnu_e", "DSNU, pixels", "e⁻", dsnu.pixel);
-        put(Kind::Dark, "dsnu_row_e", "DSNU, rows", "e⁻", dsnu.row);
-        put(Kind::Dark, "dsnu_column_e", "DSNU, columns", "e⁻", dsnu.column);
-        put(Kind::Flat, "prnu", "PRNU, pixels", "", prnu.pixel);
-        put(Kind::Flat, "prnu_row", "PRNU, rows", "", prnu.row);
-        put(Kind::Flat, "prnu_column", "PRNU, columns", "", prnu.column);
+        add_parameter(ImageKind::Dark, "dsnu_e", "DSNU, pixels", "e⁻", dsnu.pixel);
+        add_parameter(ImageKind::Dark, "dsnu_row_e", "DSNU, rows", "e⁻", dsnu.row);
+        add_parameter(ImageKind::Dark, "dsnu_column_e", "DSNU, columns", "e⁻", dsnu.column);
+        add_parameter(ImageKind::Flat, "prnu", "PRNU, pixels", "", prnu.pixel);
+        add_parameter(ImageKind::Flat, "prnu_row", "PRNU, rows", "", prnu.row);
+        add_parameter(ImageKind::Flat, "prnu_column", "PRNU, columns", "", prnu.column);
     }
 
     fn outliers(&self, findings: &mut Findings) {
         match &self.hot {
             None => findings.unknown("hot pixels", "frames in dark/ have one exposure time only"),
-            Some(hot) => match hot.share.zip(hot.mean_e_s) {
-                Some((share, mean)) => {
-                    findings.found(Kind::Dark, "sensor.dark.hot.fraction", "hot pixels, fraction", "", share);
-                    findings.found(
-                        Kind::Dark,
+            Some(hot) => match hot.fraction.zip(hot.mean_e_s) {
+                Some((fraction, mean)) => {
+                    findings.add_parameter(ImageKind::Dark, "sensor.dark.hot.fraction", "hot pixels, fraction", "", fraction);
+                    findings.add_parameter(
+                        ImageKind::Dark,
                         "sensor.dark.hot.mean_e_s",
                         "hot pixels, mean additional current",
                         "e⁻/s",
                         mean,
                     );
                 }
-                None => findings.unknown("hot pixels", few(hot, &format!("have more than {:.0} e⁻/s", hot.limit))),
+                None => findings.unknown("hot pixels", outlier_list(hot, &format!("have more than {:.0} e⁻/s", hot.limit))),
             },
         }
         if let Some(dead) = &self.dead {
-            match dead.share {
-                Some(share) => findings.found(
-                    Kind::Flat,
+            match dead.fraction {
+                Some(fraction) => findings.add_parameter(
+                    ImageKind::Flat,
                     "sensor.non_uniformity.dead_fraction",
                     "dead pixels, fraction",
                     "",
-                    share,
+                    fraction,
                 ),
-                None => findings.unknown("dead pixels", few(dead, "respond to light with less than half of the mean")),
+                None => findings.unknown("dead pixels", outlier_list(dead, "respond to light with less than half of the mean")),
             }
         }
     }
 }
 
-fn few(outliers: &Outliers, what: &str) -> String {
-    let count = outliers.places.len();
-    let places: Vec<String> = outliers.places.iter().map(|[x, y]| format!("{x},{y}")).collect();
+fn outlier_list(outliers: &Outliers, label: &str) -> String {
+    let count = outliers.positions.len();
+    let places: Vec<String> = outliers.positions.iter().map(|[x, y]| format!("{x},{y}")).collect();
     let at = if places.is_empty() {
         String::new()
     } else {
         format!(" (column, row of the measured area: {})", places.join("; "))
     };
-    format!("{count} pixels {what}{at}: at least {FEWEST} are needed to determine a fraction")
+    format!("{count} pixels {label}{at}: at least {MIN_OUTLIERS} are needed to determine a fraction")
 }

@@ -5,13 +5,13 @@ use etendue_io::failure::Error;
 use etendue_scene::record::laboratory::ChartOfPoints;
 
 use super::folder::Laboratory;
-use super::parameter::{Findings, Kind};
+use super::parameter::{Findings, ImageKind};
 use crate::measure::readings::BALANCED;
-use crate::measure::views::{Found, TriedModel};
+use crate::measure::views::{CalibratedViews, CandidateModel};
 use crate::measure::{CameraModel, ChartInput, Target, TruthInput, ViewsRequest};
 use crate::report::{Cell, Report, Table};
 
-const WHAT: &str = "focal length, principal point, distortion";
+const QUANTITIES: &str = "focal length, principal point, distortion";
 
 /// Candidate models, the simplest first.
 const MODELS: [CameraModel; 5] =
@@ -21,10 +21,10 @@ pub(super) fn measure(
     laboratory: &Laboratory,
     findings: &mut Findings,
     observer: &dyn Observer,
-) -> Result<Option<Found>, Error> {
-    let shots = laboratory.shots(Kind::Chart);
+) -> Result<Option<CalibratedViews>, Error> {
+    let shots = laboratory.shots(ImageKind::Chart);
     if shots.is_empty() {
-        findings.missing(WHAT, Kind::Chart);
+        findings.missing(QUANTITIES, ImageKind::Chart);
         return Ok(None);
     }
     let stated = laboratory.stated.chart.as_ref();
@@ -36,13 +36,13 @@ pub(super) fn measure(
         }),
         grid: stated.and_then(|chart| chart.grid.as_ref()).map(|grid| grid.value.map(|n| n as usize)),
         channel: mosaic.then(|| BALANCED.to_owned()),
-        cfa: laboratory.camera.told_cfa.clone().filter(|_| mosaic),
-        truth: TruthInput { truth: laboratory.truth(Kind::Chart).filter(|_| stated.is_none()), camera: None },
+        cfa: laboratory.camera.stated_cfa.clone().filter(|_| mosaic),
+        truth: TruthInput { truth: laboratory.truth(ImageKind::Chart).filter(|_| stated.is_none()), camera: None },
         ..ChartInput::default()
     };
     if stated.is_none() && chart.truth.truth.is_none() {
-        let why = "the distance between the chart's points is not stated; add [chart] pitch_mm to laboratory.toml, or a truth.json next to the images";
-        findings.unknown(WHAT, why);
+        let reason = "the distance between the chart's points is not stated; add [chart] pitch_mm to laboratory.toml, or a truth.json next to the images";
+        findings.unknown(QUANTITIES, reason);
         return Ok(None);
     }
     let request = ViewsRequest {
@@ -51,25 +51,25 @@ pub(super) fn measure(
         pixel_pitch_um: laboratory.camera.pixel_pitch_um,
         ..ViewsRequest::new(shots.iter().map(|shot| shot.file.clone()).collect())
     };
-    let made = request.found_by_best_of(&MODELS, request.options(), observer);
-    let Some((found, tried)) = findings.attempt(WHAT, made)? else { return Ok(None) };
+    let fitted = request.calibrate_best_of(&MODELS, request.options(), observer);
+    let Some((calibrated, candidates)) = findings.record(QUANTITIES, fitted)? else { return Ok(None) };
     let mut report =
         Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
-    found.add_to(&mut report, &request);
-    report.table(models(&tried));
-    findings.part("Projection and distortion", Kind::Chart, report);
-    tell(&found, laboratory, findings);
-    Ok(Some(found))
+    calibrated.add_to(&mut report, &request);
+    report.table(models(&candidates));
+    findings.part("Projection and distortion", ImageKind::Chart, report);
+    report_results(&calibrated, laboratory, findings);
+    Ok(Some(calibrated))
 }
 
-fn tell(found: &Found, laboratory: &Laboratory, findings: &mut Findings) {
+fn report_results(calibrated: &CalibratedViews, laboratory: &Laboratory, findings: &mut Findings) {
     if laboratory.camera.pixel_pitch_um.is_none() {
         findings.unknown(
             "focal length in millimetres",
             "the pixel pitch is not stated; add pixel_pitch_um to laboratory.toml",
         );
     }
-    for parameter in &found.camera.parameters {
+    for parameter in &calibrated.camera.parameters {
         let name = parameter.name;
         let (key, unit) = (format!("lens.projection.{name}"), if name.ends_with("_px") { "px" } else { "" });
         let label = match name {
@@ -77,21 +77,21 @@ fn tell(found: &Found, laboratory: &Laboratory, findings: &mut Findings) {
             "fy_px" => "principal distance, rows".to_owned(),
             "cx_px" => "principal point, column".to_owned(),
             "cy_px" => "principal point, row".to_owned(),
-            _ => format!("{name} ({})", found.model),
+            _ => format!("{name} ({})", calibrated.model),
         };
-        findings.found(Kind::Chart, &key, &label, unit, parameter.estimate);
+        findings.add_parameter(ImageKind::Chart, &key, &label, unit, parameter.estimate);
         if let Some(pitch_um) = laboratory.camera.pixel_pitch_um.filter(|_| name == "fx_px") {
             let mm = parameter.estimate.scaled(0.001 * pitch_um);
-            findings.found(Kind::Chart, "lens.principal_distance_mm", "principal distance", "mm", mm);
+            findings.add_parameter(ImageKind::Chart, "lens.principal_distance_mm", "principal distance", "mm", mm);
         }
     }
 }
 
 /// Goodness of fit of each model.
-fn models(tried: &[TriedModel]) -> Table {
-    let least = tried.iter().filter(|t| t.whole).map(|t| t.information).fold(f64::INFINITY, f64::min);
-    let row = |t: &TriedModel| {
-        let verdict = match (t.whole, t.information == least) {
+fn models(candidates: &[CandidateModel]) -> Table {
+    let min_information = candidates.iter().filter(|t| t.is_valid).map(|t| t.information).fold(f64::INFINITY, f64::min);
+    let row = |t: &CandidateModel| {
+        let verdict = match (t.is_valid, t.information == min_information) {
             (false, _) => "folds the image over",
             (true, true) => "selected",
             (true, false) => "",
@@ -100,7 +100,7 @@ fn models(tried: &[TriedModel]) -> Table {
         vec![
             name,
             Cell::Number(t.rms_px, 5),
-            Cell::Number(1e3 * (t.information - least), 2),
+            Cell::Number(1e3 * (t.information - min_information), 2),
             Cell::Text(verdict.to_owned()),
         ]
     };
@@ -112,6 +112,6 @@ fn models(tried: &[TriedModel]) -> Table {
             ("criterion_over_least", "criterion above the minimum, 10⁻³"),
             ("verdict", ""),
         ],
-        rows: tried.iter().map(row).collect(),
+        rows: candidates.iter().map(row).collect(),
     }
 }

@@ -3,14 +3,14 @@
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_scene::record;
 
-use super::shot::Shot;
+use super::shot::LaboratoryImage;
 
 /// Placeholder for the pixel pitch, µm, if nothing states it.
-pub(super) const PITCH_UM: f64 = 5.0;
+pub(super) const PLACEHOLDER_PITCH_UM: f64 = 5.0;
 
 /// Facts about the camera.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Camera {
+pub(super) struct CameraFacts {
     /// Maker, model and number, as far as EXIF data state them.
     pub(super) name: Option<String>,
     pub(super) size_px: [usize; 2],
@@ -20,34 +20,34 @@ pub(super) struct Camera {
     /// Colour filters as a camera file names them; "mono" if side-cars state that there are none.
     pub(super) cfa: Option<String>,
     /// Filters that raw images do not state themselves, in the form that measurements accept.
-    pub(super) told_cfa: Option<String>,
+    pub(super) stated_cfa: Option<String>,
     /// Reading of a saturated pixel, DN, if stated.
     pub(super) white_level_dn: Option<f64>,
 }
 
-impl Camera {
-    pub(super) fn of(shots: &[Shot], stated: &record::Laboratory) -> Result<Self, Error> {
-        let first = |fact: fn(&Shot) -> Option<f64>| shots.iter().find_map(fact);
-        let said = stated.cfa.as_ref().map(|cfa| cfa.value.clone());
-        let of_exif = shots.iter().find_map(|shot| shot.exif.filters.clone());
-        let of_exif = of_exif.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
-        let of_side_car = shots.iter().find_map(|shot| shot.raw.as_ref().map(|raw| &raw.filters.channels));
-        if let (Some(said), Some(channels)) = (&said, of_side_car) {
+impl CameraFacts {
+    pub(super) fn from_shots(shots: &[LaboratoryImage], stated: &record::Laboratory) -> Result<Self, Error> {
+        let first = |fact: fn(&LaboratoryImage) -> Option<f64>| shots.iter().find_map(fact);
+        let stated_cfa = stated.cfa.as_ref().map(|cfa| cfa.value.clone());
+        let exif_filters = shots.iter().find_map(|shot| shot.exif.filters.clone());
+        let exif_filters = exif_filters.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
+        let side_car_channels = shots.iter().find_map(|shot| shot.raw.as_ref().map(|raw| &raw.filters.channels));
+        if let (Some(stated_cfa), Some(channels)) = (&stated_cfa, side_car_channels) {
             return Err(Error::coded(
                 ErrorCode::NoEffect,
                 format!(
-                    "laboratory.toml: cfa = \"{said}\" has no effect: side-cars state the filters {}; remove it",
+                    "laboratory.toml: cfa = \"{stated_cfa}\" has no effect: side-cars state the filters {}; remove it",
                     channels.join(", ")
                 ),
             ));
         }
-        let told_cfa = said.or(of_exif);
+        let known_cfa = stated_cfa.or(exif_filters);
         let letters = |channels: &Vec<String>| match channels.len() {
             1 => "mono".to_owned(),
             _ => channels.iter().filter_map(|channel| channel.chars().next()).collect(),
         };
-        let cfa = of_side_car.map(letters).or(told_cfa.clone()).map(|cfa| cfa.to_ascii_lowercase());
-        let words = |shot: &Shot| {
+        let cfa = side_car_channels.map(letters).or(known_cfa.clone()).map(|cfa| cfa.to_ascii_lowercase());
+        let words = |shot: &LaboratoryImage| {
             let parts =
                 [&shot.exif.make, &shot.exif.model, &shot.exif.serial].map(|part| part.clone().unwrap_or_default());
             Some(parts.join(" ").split_whitespace().collect::<Vec<_>>().join(" ")).filter(|name| !name.is_empty())
@@ -67,7 +67,7 @@ impl Camera {
             white_level_dn: first(|shot| shot.raw.as_ref().map(|raw| raw.white_level_dn))
                 .or_else(|| first(|shot| shot.exif.white_level_dn)),
             cfa,
-            told_cfa,
+            stated_cfa: known_cfa,
         })
     }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use etendue_io::escape::escaped;
 
-use super::parameter::{Findings, Kind, Parameter, Part};
+use super::parameter::{Findings, ImageKind, Parameter, PartialReport};
 use super::{camera::CameraFile, folder::Laboratory};
 use crate::page::{REPORT_STYLE, curves, details, html_page, notes};
 use crate::report::{Estimate, with_uncertainty};
@@ -28,15 +28,15 @@ pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &Camera
 /// Summary of the inputs.
 fn head(laboratory: &Laboratory) -> String {
     let [width, height] = laboratory.camera.size_px;
-    let count = |kind: &Kind| laboratory.shots(*kind).len();
-    let kinds = Kind::ALL.iter().filter(|kind| count(kind) > 0);
+    let count = |kind: &ImageKind| laboratory.shots(*kind).len();
+    let kinds = ImageKind::ALL.iter().filter(|kind| count(kind) > 0);
     let used = kinds.map(|kind| format!("{} × {}/", count(kind), kind.folder())).collect::<Vec<_>>().join(", ");
     let filters = laboratory.camera.cfa.clone().unwrap_or_else(|| "unknown filters".to_owned());
     format!("<p class=\"quiet\">{width} × {height} px, {}. Measured by: {used}.</p>\n", escaped(&filters))
 }
 
 fn navigation(findings: &Findings) -> String {
-    let link = |(i, part): (usize, &Part)| format!("<a href=\"#part-{i}\">{}</a>", escaped(part.title));
+    let link = |(i, part): (usize, &PartialReport)| format!("<a href=\"#part-{i}\">{}</a>", escaped(part.title));
     let parts: Vec<String> = findings.parts.iter().enumerate().map(link).collect();
     format!(
         "<nav><a href=\"#parameters\">Parameters</a> <a href=\"#not-known\">Not known</a> {} <a href=\"#file\">Camera file</a></nav>\n",
@@ -57,8 +57,8 @@ fn parameters(findings: &Findings) -> String {
                     %</th><th>from</th><th>key</th></tr></thead>\n"
             .to_owned();
     for section in ["lens", "effects", "sensor", "isp"] {
-        let of = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
-        let rows: String = of.map(parameter).collect();
+        let section_parameters = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
+        let rows: String = section_parameters.map(parameter).collect();
         if !rows.is_empty() {
             let _ = writeln!(
                 html,
@@ -87,17 +87,17 @@ fn parameter(p: &Parameter) -> String {
         escaped(&p.label),
         escaped(&expanded(p.value)),
         escaped(p.unit),
-        p.from.folder(),
+        p.image_kind.folder(),
         escaped(&p.key)
     )
 }
 
 fn not_known(findings: &Findings, camera: &CameraFile) -> String {
-    let row = |what: &str, why: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(what), escaped(why));
-    let mut rows: String = findings.unknown.iter().map(|u| row(&u.what, &u.why)).collect();
-    if !camera.stand_ins.is_empty() {
-        let why = "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";
-        rows += &row(&camera.stand_ins.join(", "), why);
+    let row = |quantity: &str, reason: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(quantity), escaped(reason));
+    let mut rows: String = findings.unknown.iter().map(|u| row(&u.quantity, &u.reason)).collect();
+    if !camera.placeholders.is_empty() {
+        let reason = "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";
+        rows += &row(&camera.placeholders.join(", "), reason);
     }
     if rows.is_empty() {
         rows = row("–", "every quantity was determined");
@@ -108,12 +108,12 @@ fn not_known(findings: &Findings, camera: &CameraFile) -> String {
     )
 }
 
-fn measurement(index: usize, part: &Part) -> String {
+fn measurement(index: usize, part: &PartialReport) -> String {
     let report = &part.report;
     let mut html = format!(
         "<section id=\"part-{index}\"><h2>{}</h2>\n<p>From the images in {}/: {}.</p>\n",
         escaped(part.title),
-        part.from.folder(),
+        part.image_kind.folder(),
         escaped(report.method())
     );
     html += &curves(report);

@@ -16,25 +16,25 @@ pub struct Parameter {
     /// Value with its standard uncertainty.
     pub value: Estimate,
     /// Kind of images that determines it.
-    pub from: Kind,
+    pub image_kind: ImageKind,
 }
 
 /// A quantity that could not be determined.
 #[derive(Clone, Debug)]
-pub struct Unknown {
+pub struct UndeterminedQuantity {
     /// Name of the quantity.
-    pub what: String,
+    pub quantity: String,
     /// Reason, and what would determine it.
-    pub why: String,
+    pub reason: String,
 }
 
 /// One measurement of the characterisation.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct PartialReport {
     /// Heading.
     pub title: &'static str,
     /// Kind of images used.
-    pub from: Kind,
+    pub image_kind: ImageKind,
     /// Report of the measurement.
     pub report: Report,
 }
@@ -43,39 +43,39 @@ pub struct Part {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Findings {
     pub(super) parameters: Vec<Parameter>,
-    pub(super) unknown: Vec<Unknown>,
-    pub(super) parts: Vec<Part>,
+    pub(super) unknown: Vec<UndeterminedQuantity>,
+    pub(super) parts: Vec<PartialReport>,
 }
 
 impl Findings {
-    pub(super) fn found(&mut self, from: Kind, key: &str, label: &str, unit: &'static str, value: Estimate) {
+    pub(super) fn add_parameter(&mut self, from: ImageKind, key: &str, label: &str, unit: &'static str, value: Estimate) {
         let (key, label) = (key.to_owned(), label.to_owned());
         match value.value.is_finite() && value.standard_uncertainty.is_finite() {
-            true => self.parameters.push(Parameter { key, label, unit, value, from }),
+            true => self.parameters.push(Parameter { key, label, unit, value, image_kind: from }),
             false => self.unknown(&label, format!("the images in {}/ do not determine it", from.folder())),
         }
     }
 
-    pub(super) fn unknown(&mut self, what: &str, why: impl Into<String>) {
-        self.unknown.push(Unknown { what: what.to_owned(), why: why.into() });
+    pub(super) fn unknown(&mut self, quantity: &str, reason: impl Into<String>) {
+        self.unknown.push(UndeterminedQuantity { quantity: quantity.to_owned(), reason: reason.into() });
     }
 
-    pub(super) fn part(&mut self, title: &'static str, from: Kind, report: Report) {
-        self.parts.push(Part { title, from, report });
+    pub(super) fn part(&mut self, title: &'static str, from: ImageKind, report: Report) {
+        self.parts.push(PartialReport { title, image_kind: from, report });
     }
 
     /// Records a quantity as unknown because its images are missing.
-    pub(super) fn missing(&mut self, what: &str, kind: Kind) {
-        self.unknown(what, format!("no images in {}/ ({})", kind.folder(), kind.about()));
+    pub(super) fn missing(&mut self, quantity: &str, kind: ImageKind) {
+        self.unknown(quantity, format!("no images in {}/ ({})", kind.folder(), kind.about()));
     }
 
     /// Returns the result of a measurement; if it failed, records its quantity as unknown.
-    pub(super) fn attempt<T>(&mut self, what: &str, made: Result<T, Error>) -> Result<Option<T>, Error> {
-        match made {
-            Ok(found) => Ok(Some(found)),
-            Err(Error::Input(faults)) => {
-                let why: Vec<String> = faults.iter().map(ToString::to_string).collect();
-                self.unknown(what, why.join("; "));
+    pub(super) fn record<T>(&mut self, quantity: &str, result: Result<T, Error>) -> Result<Option<T>, Error> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(Error::Input(errors)) => {
+                let reasons: Vec<String> = errors.iter().map(ToString::to_string).collect();
+                self.unknown(quantity, reasons.join("; "));
                 Ok(None)
             }
             Err(other) => Err(other),
@@ -85,7 +85,7 @@ impl Findings {
 
 /// Subject of a folder of images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum ImageKind {
     /// No light, two frames or more per exposure time.
     Dark,
     /// Uniform illumination on the bare sensor, two frames or more per exposure time.
@@ -100,7 +100,7 @@ pub enum Kind {
     Checker,
 }
 
-impl Kind {
+impl ImageKind {
     /// All kinds, in the order of measurement.
     pub const ALL: [Self; 6] = [Self::Dark, Self::Flat, Self::Field, Self::Chart, Self::Edges, Self::Checker];
 

@@ -19,7 +19,7 @@ const PLACES: usize = PERIOD * PERIOD;
 /// the reading of a saturated pixel, if known. A mosaic of a single row or column has no tiles and is returned unchanged.
 pub(super) fn balanced_mosaic(mosaic: &Image, saturated: Option<f64>) -> Image {
     let (width, height) = (mosaic.width(), mosaic.height());
-    let balance = Balance::of(mosaic, saturated);
+    let balance = TileStatistics::from_mosaic(mosaic, saturated);
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let samples = places.map(|(x, y)| balance.applied(place(x, y), mosaic.at(x, y)));
     Image::from_samples(width, height, samples.collect()).expect("as many as before")
@@ -30,13 +30,13 @@ fn place(x: usize, y: usize) -> usize {
 }
 
 /// Mean and standard deviation of each place of the tile.
-struct Balance {
+struct TileStatistics {
     mean: [f64; PLACES],
     deviation: [f64; PLACES],
 }
 
-impl Balance {
-    fn of(mosaic: &Image, saturated: Option<f64>) -> Self {
+impl TileStatistics {
+    fn from_mosaic(mosaic: &Image, saturated: Option<f64>) -> Self {
         let unsaturated = |tile: &[f64; PLACES]| saturated.is_none_or(|full| tile.iter().all(|v| *v < full));
         let mean = mean(tiles(mosaic).filter(unsaturated));
         let squares = |tile: [f64; PLACES]| std::array::from_fn(|p| (tile[p] - mean[p]) * (tile[p] - mean[p]));
@@ -74,20 +74,20 @@ fn mean(tiles: impl Iterator<Item = [f64; PLACES]>) -> [f64; PLACES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_metrology::target::{Sought, Target, find};
+    use etendue_metrology::target::{TargetQuery, Target, find};
     use glam::DVec2;
 
     const RESPONSE: [f32; PLACES] = [0.58, 1.0, 0.9, 0.85];
     const BLACK: [f32; PLACES] = [0.06, 0.06, 0.07, 0.05];
 
-    fn picture(width: usize, height: usize, reading: impl Fn(usize, usize) -> f32) -> Image {
+    fn light_image(width: usize, height: usize, reading: impl Fn(usize, usize) -> f32) -> Image {
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         Image::from_samples(width, height, places.map(|(x, y)| reading(x, y)).collect()).expect("as many as places")
     }
 
     fn mosaic(light: &Image) -> Image {
         let reading = |x, y| RESPONSE[place(x, y)] * light.at(x, y) + BLACK[place(x, y)];
-        picture(light.width(), light.height(), reading)
+        light_image(light.width(), light.height(), reading)
     }
 
     /// Squares of 14.5 px with corners offset by `shift`, blurred only by the area of the pixels, brighter towards the right.
@@ -101,14 +101,14 @@ mod tests {
             if within && white { 0.8 + 0.002 * x } else { 0.04 }
         };
         let at = |i: usize, k: usize| i as f64 + (k as f64 + 0.5) / STEPS as f64;
-        picture(132, 118, |x, y| {
+        light_image(132, 118, |x, y| {
             let all = (0..STEPS * STEPS).map(|k| square(at(x, k % STEPS), at(y, k / STEPS))).sum::<f64>();
             (all / (STEPS * STEPS) as f64) as f32
         })
     }
 
     fn corners(image: &Image) -> Vec<DVec2> {
-        let grid = find(image, Sought { target: Some(Target::Checkerboard), size: None }).expect("a chart");
+        let grid = find(image, TargetQuery { target: Some(Target::Checkerboard), size: None }).expect("a chart");
         grid.nodes.iter().map(|node| node.at).collect()
     }
 
@@ -119,9 +119,9 @@ mod tests {
         for phase in 0..8 {
             let shift = [0.25 * f64::from(phase), 0.25 * f64::from(5 * phase % 8)];
             let light = checkerboard(shift, 0.03 * f64::from(phase % 3));
-            let (mono, found) = (corners(&light), corners(&balanced_mosaic(&mosaic(&light), None)));
-            assert_eq!((mono.len(), found.len()), (35, 35));
-            let distances = mono.iter().zip(&found).map(|(a, b)| a.distance(*b));
+            let (mono, balanced) = (corners(&light), corners(&balanced_mosaic(&mosaic(&light), None)));
+            assert_eq!((mono.len(), balanced.len()), (35, 35));
+            let distances = mono.iter().zip(&balanced).map(|(a, b)| a.distance(*b));
             worst = distances.fold(worst, f64::max);
         }
         assert!(worst < 0.005, "{worst} px");
@@ -129,31 +129,31 @@ mod tests {
 
     /// Light with equal steps at all places is reproduced exactly, up to one scale and one shift.
     #[test]
-    fn of_light_alike_at_all_places_nothing_of_the_filters_is_left() {
-        let light = picture(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
+    fn uniform_light_leaves_no_trace_of_the_filters() {
+        let light = light_image(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
         let grey = balanced_mosaic(&mosaic(&light), None);
-        let of = |i: usize| (f64::from(light.samples()[i]), f64::from(grey.samples()[i]));
-        let ((l0, g0), (l1, g1)) = (of(0), of(2));
+        let light_and_grey = |i: usize| (f64::from(light.samples()[i]), f64::from(grey.samples()[i]));
+        let ((l0, g0), (l1, g1)) = (light_and_grey(0), light_and_grey(2));
         for i in 0..96 {
-            let (l, g) = of(i);
+            let (l, g) = light_and_grey(i);
             assert!((g - (g0 + (l - l0) * (g1 - g0) / (l1 - l0))).abs() < 1e-6, "{i}: {g}");
         }
     }
 
     #[test]
     fn saturated_tiles_do_not_count() {
-        let light = picture(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
+        let light = light_image(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
         let clipped = |x: usize, y: usize| if y >= 6 { 1.0 } else { mosaic(&light).at(x, y) };
-        let with = balanced_mosaic(&picture(12, 8, clipped), Some(1.0));
+        let with = balanced_mosaic(&light_image(12, 8, clipped), Some(1.0));
         let without = balanced_mosaic(&mosaic(&light).part(0, 0, 12, 6), None);
         assert_eq!(with.samples()[..72], without.samples()[..]);
     }
 
     #[test]
     fn flat_and_thin_pictures_keep_their_readings() {
-        let flat = balanced_mosaic(&picture(6, 4, |x, y| [1.0, 2.0, 4.0, 9.0][place(x, y)]), None);
+        let flat = balanced_mosaic(&light_image(6, 4, |x, y| [1.0, 2.0, 4.0, 9.0][place(x, y)]), None);
         assert!(flat.samples().iter().all(|v| *v == 4.0));
-        let row = picture(5, 1, |x, _| x as f32);
+        let row = light_image(5, 1, |x, _| x as f32);
         assert_eq!(balanced_mosaic(&row, None).samples(), row.samples());
     }
 }

@@ -10,7 +10,7 @@ use etendue_metrology::Image;
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, Patch, measure_contrast};
 use etendue_metrology::patch_statistics::saturated_percent;
 
-use super::pictures::{PictureInput, refused, region_label};
+use super::pictures::{MeasurementInput, refused, region_label};
 use super::readings::Readings;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
@@ -44,20 +44,20 @@ pub struct CdpRequest {
     pub flat: Option<PathBuf>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl CdpRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
+    pub fn new(image: impl Into<PathBuf>) -> Self {
         Self {
-            picture: picture.into(),
+            picture: image.into(),
             darker: Vec::new(),
             brighter: Vec::new(),
             contrast: Vec::new(),
             tolerance: 0.5,
             flat: None,
-            input: PictureInput::default(),
+            input: MeasurementInput::default(),
         }
     }
 }
@@ -66,7 +66,7 @@ impl CdpRequest {
 const CHARTS: [&str; 2] = [ContrastPatches::NAME, OecfSteps::NAME];
 
 /// Two patches of the scene.
-struct Pair {
+struct PatchPair {
     darker: [usize; 4],
     brighter: [usize; 4],
     contrast: f64,
@@ -84,7 +84,7 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     let settings = ContrastSettings {
         black: request.input.levels.black(&readings),
         full_scale: request.input.levels.full_scale(&readings),
-        share: request.tolerance,
+        tolerance: request.tolerance,
         shared_px: readings.shared_px,
     };
     let flat = request.flat.as_deref().map(|file| FlatField::read(file, request, &readings)).transpose()?;
@@ -154,24 +154,24 @@ impl FlatField {
     }
 }
 
-fn places(pair: &Pair) -> String {
+fn places(pair: &PatchPair) -> String {
     format!("{},{} {},{}", pair.darker[0], pair.darker[1], pair.brighter[0], pair.brighter[1])
 }
 
-fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> {
+fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<PatchPair>, Error> {
     if let Some(truth) = request.input.truth(&CHARTS, &request.picture, readings)? {
         let (mut patches, _) = truth.patches(readings)?;
         truth.shown(&request.picture, &patches, readings)?;
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
-        let pair = |two: &[super::truth::place::Patch]| Pair {
+        let pair = |two: &[super::truth::place::PatchPlace]| PatchPair {
             darker: two[0].at,
             brighter: two[1].at,
             contrast: two[1].luminance_cd_m2 / two[0].luminance_cd_m2 - 1.0,
             luminance_cd_m2: Some(two[0].luminance_cd_m2),
         };
-        let found: Vec<Pair> = patches.windows(2).map(pair).filter(|pair| pair.contrast > 0.0).collect();
+        let patch_pairs: Vec<PatchPair> = patches.windows(2).map(pair).filter(|pair| pair.contrast > 0.0).collect();
         let none = || refused(&request.picture, "shows fewer than two patches of different luminance");
-        return if found.is_empty() { Err(none()) } else { Ok(found) };
+        return if patch_pairs.is_empty() { Err(none()) } else { Ok(patch_pairs) };
     }
     let (darker, brighter, contrasts) = (&request.darker, &request.brighter, &request.contrast);
     if darker.len() != brighter.len() || darker.len() != contrasts.len() {
@@ -181,7 +181,7 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
         )
         .with_code(ErrorCode::WrongCount));
     }
-    let pair = |((darker, brighter), contrast): ((&[usize; 4], &[usize; 4]), &f64)| Pair {
+    let pair = |((darker, brighter), contrast): ((&[usize; 4], &[usize; 4]), &f64)| PatchPair {
         darker: *darker,
         brighter: *brighter,
         contrast: *contrast,
@@ -190,10 +190,10 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
     Ok(darker.iter().zip(brighter).zip(contrasts).map(pair).collect())
 }
 
-fn report(found: &[(Pair, ContrastPair)]) -> Report {
+fn report(pairs: &[(PatchPair, ContrastPair)]) -> Report {
     let method = "contrast detection probability after IEEE P2020 (Weber contrast; ± one standard uncertainty)";
     let mut report = Report::new("cdp", method);
-    let row = |(pair, measured): &(Pair, ContrastPair)| {
+    let row = |(pair, measured): &(PatchPair, ContrastPair)| {
         vec![
             Cell::Text(places(pair)),
             pair.luminance_cd_m2.map_or(Cell::Nothing, |l| Cell::Number(l, 3)),
@@ -215,18 +215,18 @@ fn report(found: &[(Pair, ContrastPair)]) -> Report {
             ("cta", "CTA"),
             ("csnr", "CSNR"),
         ],
-        rows: found.iter().map(row).collect(),
+        rows: pairs.iter().map(row).collect(),
     });
-    report.plot(plot(found));
+    report.plot(plot(pairs));
     report
 }
 
 /// Against luminance if known, otherwise against the scene's contrast.
-fn plot(found: &[(Pair, ContrastPair)]) -> Plot {
-    let known = found.iter().all(|(pair, _)| pair.luminance_cd_m2.is_some());
-    let x = |pair: &Pair| pair.luminance_cd_m2.filter(|_| known).unwrap_or(pair.contrast);
-    let series = |name: &str, of: fn(&ContrastPair) -> etendue_metrology::Estimate| {
-        let points = found.iter().map(|(pair, m)| (x(pair), of(m).value, 2.0 * of(m).standard_uncertainty));
+fn plot(measured: &[(PatchPair, ContrastPair)]) -> Plot {
+    let known = measured.iter().all(|(pair, _)| pair.luminance_cd_m2.is_some());
+    let x = |pair: &PatchPair| pair.luminance_cd_m2.filter(|_| known).unwrap_or(pair.contrast);
+    let series = |name: &str, quantity: fn(&ContrastPair) -> etendue_metrology::Estimate| {
+        let points = measured.iter().map(|(pair, m)| (x(pair), quantity(m).value, 2.0 * quantity(m).standard_uncertainty));
         Series::with_errors(name, Mark::Points, points)
     };
     Plot {

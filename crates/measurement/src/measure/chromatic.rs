@@ -51,12 +51,12 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
             format!("{}: no channel {missing}; expected a colour image", file.display()),
         ));
     }
-    let seen = |name: &str| request.chart.seen_in(file, &photograph, Some(name));
-    let [red, green, blue] = [seen("R")?, seen("G")?, seen("B")?];
+    let detect = |name: &str| request.chart.detect_in_channel(file, &photograph, Some(name));
+    let [red, green, blue] = [detect("R")?, detect("G")?, detect("B")?];
     let size = green.size_px;
-    let found =
+    let measured =
         [("red", displacements(&green.grid, &red.grid, size)), ("blue", displacements(&green.grid, &blue.grid, size))];
-    if let Some((name, _)) = found.iter().find(|(_, list)| list.is_empty()) {
+    if let Some((name, _)) = measured.iter().find(|(_, list)| list.is_empty()) {
         let file = file.display();
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
@@ -65,26 +65,26 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
             ),
         ));
     }
-    if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
+    if measured.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
         let file = file.display();
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
             format!("{file}: red, green and blue are the same: expected a colour image"),
         ));
     }
-    let mut report = report(&found);
-    report.table_if(request.chart.points, every_point(&found));
+    let mut report = report(&measured);
+    report.table_if(request.chart.points, every_point(&measured));
     report.encoding(&photograph.stated);
     Ok(report)
 }
 
-fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
+fn report(measured: &[(&'static str, Vec<Displacement>)]) -> Report {
     let mut report = Report::new(
         "chromatic",
         "lateral chromatic displacement relative to green, about the image centre (ISO 19084)",
     );
     let mut rows = Vec::new();
-    for (name, list) in found {
+    for (name, list) in measured {
         let worst = list.iter().max_by(|a, b| a.by.length().total_cmp(&b.by.length()));
         if let Some(worst) = worst {
             let label = format!("{name}, largest displacement");
@@ -116,13 +116,13 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
         ],
         rows,
     });
-    report.plot(plot("radial", found, |d| d.radial, |r| r.radial));
-    report.plot(plot("tangential", found, |d| d.tangential, |r| r.tangential));
+    report.plot(plot("radial", measured, |d| d.radial, |r| r.radial));
+    report.plot(plot("tangential", measured, |d| d.tangential, |r| r.tangential));
     report
 }
 
 /// Every point of the chart in red and in blue.
-fn every_point(found: &[(&'static str, Vec<Displacement>)]) -> Table {
+fn every_point(measured: &[(&'static str, Vec<Displacement>)]) -> Table {
     let row = |name: &str, point: &Displacement| {
         vec![
             Cell::Text(name.to_owned()),
@@ -147,21 +147,21 @@ fn every_point(found: &[(&'static str, Vec<Displacement>)]) -> Table {
             ("tangential_px", "tangential px"),
             ("uncertainty_px", "± px"),
         ],
-        rows: found.iter().flat_map(|(name, list)| list.iter().map(|point| row(name, point))).collect(),
+        rows: measured.iter().flat_map(|(name, list)| list.iter().map(|point| row(name, point))).collect(),
     }
 }
 
 /// One component of all points, and its means over rings.
 fn plot(
     component: &str,
-    found: &[(&'static str, Vec<Displacement>)],
-    of_point: fn(&Displacement) -> f64,
-    of_ring: fn(&Ring) -> Estimate,
+    measured: &[(&'static str, Vec<Displacement>)],
+    point_value: fn(&Displacement) -> f64,
+    ring_value: fn(&Ring) -> Estimate,
 ) -> Plot {
-    let series = found.iter().flat_map(|(name, list)| {
+    let series = measured.iter().flat_map(|(name, list)| {
         let colour = if *name == "red" { Colour::Red } else { Colour::Blue };
-        let points = list.iter().map(|d| (100.0 * d.field, of_point(d)));
-        let means = rings(list).into_iter().map(|r| (100.0 * r.field, of_ring(&r)));
+        let points = list.iter().map(|d| (100.0 * d.field, point_value(d)));
+        let means = rings(list).into_iter().map(|r| (100.0 * r.field, ring_value(&r)));
         let means = means.map(|(field, mean)| (field, mean.value, 2.0 * mean.standard_uncertainty));
         [
             Series::new(name, Mark::Points, points).coloured(colour),

@@ -11,8 +11,8 @@ use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_spectra::{colour, illuminant, observer, reflectance::colorchecker};
 use glam::DVec2;
 
-use super::pictures::{PictureInput, refused};
-use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use super::pictures::{MeasurementInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::PatchPlace};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 
@@ -36,7 +36,7 @@ pub struct ColourRequest {
     pub patch: f64,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 fn corner(text: &str) -> Result<DVec2, String> {
@@ -45,8 +45,8 @@ fn corner(text: &str) -> Result<DVec2, String> {
 
 impl ColourRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
-        Self { picture: picture.into(), corners: Vec::new(), patch: 0.5, input: PictureInput::default() }
+    pub fn new(image: impl Into<PathBuf>) -> Self {
+        Self { picture: image.into(), corners: Vec::new(), patch: 0.5, input: MeasurementInput::default() }
     }
 }
 
@@ -62,7 +62,7 @@ pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
 }
 
 /// The patches of a chart in the camera's colours.
-pub(crate) struct Seen {
+pub(crate) struct MeasuredPatches {
     pub(crate) patches: Vec<ColourPatch>,
     pub(crate) black: f64,
     pub(crate) full_scale: Option<f64>,
@@ -72,36 +72,36 @@ pub(crate) struct Seen {
 }
 
 /// The report, and its inputs.
-pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error> {
+pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, MeasuredPatches), Error> {
     let Some(colours) = request.input.selection.colours(&request.picture)? else {
         let expected = "expected a colour image: channels R, G and B, or a raw mosaic of them";
         return Err(refused(&request.picture, expected));
     };
     let (patches, white_xyz) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
-        Some(truth) => (told(&truth, &request.picture, &colours)?, truth.white_xyz()),
+        Some(truth) => (patches_from_truth(&truth, &request.picture, &colours)?, truth.white_xyz()),
         None => (between_corners(request, &colours)?, colour::D65_WHITE),
     };
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
     let shared_px = colours[1].shared_px;
-    let found = measure_colour(&patches, black, full_scale, white_xyz, shared_px);
-    let found = found.map_err(|error| refused(&request.picture, error))?;
-    let mut report = report(&patches, &found);
+    let result = measure_colour(&patches, black, full_scale, white_xyz, shared_px);
+    let result = result.map_err(|error| refused(&request.picture, error))?;
+    let mut report = report(&patches, &result);
     report.encoding(&colours[1].stated);
     for patch in &patches {
         for (channel, name) in patch.pixels.iter().zip(["red", "green", "blue"]) {
             report.note_cut(&format!("{}, {name}", patch.name.replace('_', " ")), channel, full_scale);
         }
     }
-    Ok((report, Seen { patches, black, full_scale, shared_px, white_xyz }))
+    Ok((report, MeasuredPatches { patches, black, full_scale, shared_px, white_xyz }))
 }
 
 /// The patches that a chart's ground truth locates and describes, in its own light.
-fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
-    let lists: Vec<Vec<Patch>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
+fn patches_from_truth(truth: &Truth, image: &Path, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
+    let lists: Vec<Vec<PatchPlace>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
     // Green rises with luminance.
-    truth.shown(picture, &lists[1], &colours[1])?;
-    let one = |patch: &Patch| {
+    truth.shown(image, &lists[1], &colours[1])?;
+    let one = |patch: &PatchPlace| {
         let pixels = |c: usize| {
             let place = lists[c].iter().find(|other| other.name == patch.name)?;
             colours[c].part(place.at, &patch.name).ok()
@@ -129,10 +129,10 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::reflectance::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
-        let beyond =
+        let outside =
             || Error::argument("corners", "`corners`: a patch is outside the image").with_code(ErrorCode::OutOfRange);
         let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px.0, colours[1].picture_px.1)
-            .ok_or_else(beyond)?;
+            .ok_or_else(outside)?;
         let one = |c: usize| colours[c].part(at, "`corners`: a patch").map_err(|error| error.with_field("corners"));
         let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })
@@ -140,11 +140,11 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     colorchecker().iter().enumerate().map(patch).collect()
 }
 
-fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
+fn report(patches: &[ColourPatch], result: &ColourError) -> Report {
     let method = "ColorChecker after a fitted 3 × 3 matrix, CIEDE2000 (± one standard uncertainty)";
     let mut report = Report::new("colour", method);
-    report.figure("mean_delta_e00", "mean ΔE00", "", found.mean);
-    report.fact("largest_delta_e00", "largest ΔE00", "", found.largest);
+    report.figure("mean_delta_e00", "mean ΔE00", "", result.mean);
+    report.fact("largest_delta_e00", "largest ΔE00", "", result.largest);
     let number = |x: f64| Cell::Number(x, 2);
     let row = |((patch, difference), [seen, reference]): ((&ColourPatch, &Estimate), &[[f64; 3]; 2])| {
         let lab = seen.iter().chain(reference).map(|x| number(*x));
@@ -162,7 +162,7 @@ fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
             ("reference_a", "true a*"),
             ("reference_b", "true b*"),
         ],
-        rows: patches.iter().zip(&found.differences).zip(&found.colours).map(row).collect(),
+        rows: patches.iter().zip(&result.differences).zip(&result.colours).map(row).collect(),
     });
     let to = ["X", "Y", "Z"];
     report.table(Table {
@@ -170,21 +170,21 @@ fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
         columns: vec![("to", "XYZ ="), ("red", "red"), ("green", "green"), ("blue", "blue")],
         rows: to
             .iter()
-            .zip(found.matrix)
+            .zip(result.matrix)
             .map(|(name, row)| {
                 let cells = row.map(|m| Cell::Estimate(Estimate::new(m, 0.0)));
                 std::iter::once(Cell::Text((*name).to_owned())).chain(cells).collect()
             })
             .collect(),
     });
-    report.plot(plot(found));
+    report.plot(plot(result));
     report
 }
 
 /// Red-green and yellow-blue coordinates of the patches: references, and values from the matrix.
-fn plot(found: &ColourError) -> Plot {
+fn plot(result: &ColourError) -> Plot {
     let places = |name: &str, which: usize| {
-        Series::new(name, Mark::Points, found.colours.iter().map(move |pair| (pair[which][1], pair[which][2])))
+        Series::new(name, Mark::Points, result.colours.iter().map(move |pair| (pair[which][1], pair[which][2])))
     };
     Plot {
         title: "colours of the patches".to_owned(),

@@ -6,7 +6,7 @@ use clap::Args;
 use etendue_core::observer::Observer;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
-use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
+use etendue_metrology::photon_transfer::temperature::{DarkCurrentFit, GrowthLaw, fit};
 use etendue_stats::chi_square;
 
 use super::ptc::{PtcRequest, measured};
@@ -41,11 +41,11 @@ impl DarkCurrentRequest {
     }
 }
 
-fn name(law: Law) -> (&'static str, &'static str) {
+fn name(law: GrowthLaw) -> (&'static str, &'static str) {
     match law {
-        Law::Doubling => ("doubling", "doubling at a fixed temperature interval"),
-        Law::Generation => ("generation", "generation in depleted silicon"),
-        Law::Diffusion => ("diffusion", "diffusion in silicon"),
+        GrowthLaw::Doubling => ("doubling", "doubling at a fixed temperature interval"),
+        GrowthLaw::Generation => ("generation", "generation in depleted silicon"),
+        GrowthLaw::Diffusion => ("diffusion", "diffusion in silicon"),
     }
 }
 
@@ -56,7 +56,7 @@ fn name(law: Law) -> (&'static str, &'static str) {
 pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let mut encodings = Vec::new();
     let current = |(celsius, descriptor): &(f64, PathBuf)| {
-        let (figures, stated) = measured(&PtcRequest::of(descriptor.clone(), &request.selection), observer)?;
+        let (figures, stated) = measured(&PtcRequest::from_descriptor(descriptor.clone(), &request.selection), observer)?;
         encodings.push(stated);
         let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
             Error::coded(
@@ -67,7 +67,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
         Ok((*celsius, current))
     };
     let currents = request.series.iter().map(current).collect::<Result<Vec<_>, Error>>()?;
-    let growths = Law::ALL
+    let fits = GrowthLaw::ALL
         .into_iter()
         .map(|law| {
             fit(law, &currents, request.reference_c)
@@ -81,7 +81,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
             format!("{a} and {b} contain the same measurement; give a separate one for each temperature"),
         ));
     }
-    let mut report = report(&currents, &growths, request.reference_c);
+    let mut report = report(&currents, &fits, request.reference_c);
     encodings.iter().for_each(|stated| report.encoding(stated));
     Ok(report)
 }
@@ -92,10 +92,10 @@ fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
     pairs.into_iter().find(|[j, i]| currents[*j].1 == currents[*i].1)
 }
 
-fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {
+fn report(currents: &[(f64, Estimate)], fits: &[DarkCurrentFit], reference_c: f64) -> Report {
     let method = "dark current over temperature, EMVA 1288 section 7 and physical models of silicon (± one standard uncertainty)";
     let mut report = Report::new("dark-current", method);
-    for growth in growths {
+    for growth in fits {
         let (key, label) = name(growth.law);
         let at = format!("at {reference_c} °C: {label}");
         report.figure(&format!("{key}_reference_e_per_s"), &at, "e⁻/s", growth.reference_e_per_s);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use etendue_arguments::in_range;
-use etendue_io::failure::{Error, ErrorCode, check_whole};
+use etendue_io::failure::{Error, ErrorCode, check_integer};
 use etendue_io::photograph::{Photograph, read_photograph};
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};
@@ -14,10 +14,10 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 
 /// The depth channel of this program's ground truth.
-const DEPTH: &str = "depth.Z";
+const DEPTH_CHANNEL: &str = "depth.Z";
 
 /// Allowed distances from an edge that count as near, pixels.
-const EDGE_PX: RangeInclusive<u32> = 0..=100;
+const EDGE_RANGE_PX: RangeInclusive<u32> = 0..=100;
 
 /// `etendue measure depth`
 #[derive(Args, Clone, Debug)]
@@ -98,7 +98,7 @@ pub enum DepthAlignment {
 /// # Errors
 /// If the images cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
-    check_whole("edge_px", request.edge_px, EDGE_PX)?;
+    check_integer("edge_px", request.edge_px, EDGE_RANGE_PX)?;
     for (field, unit) in [("estimate_unit_m", request.estimate_unit_m), ("truth_unit_m", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {
             return Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {unit}"))
@@ -107,14 +107,14 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     }
     let estimate = depth(&request.estimate, request.estimate_channel.as_deref(), request.estimate_unit_m)?;
     let truth = depth(&request.truth, request.truth_channel.as_deref(), request.truth_unit_m)?;
-    let usual = DepthSettings::default();
+    let defaults = DepthSettings::default();
     let settings = DepthSettings {
-        ranges_m: if request.ranges_m.is_empty() { usual.ranges_m } else { request.ranges_m.clone() },
+        ranges_m: if request.ranges_m.is_empty() { defaults.ranges_m } else { request.ranges_m.clone() },
         outlier_ratio: request.outlier_ratio,
-        outlier_least_m: request.outlier_least_m,
+        min_outlier_m: request.outlier_least_m,
         edge_ratio: request.edge_ratio,
         edge_px: request.edge_px as usize,
-        focal_base_px_m: request.focal_base_px_m,
+        focal_baseline_px_m: request.focal_base_px_m,
         alignment: match request.align {
             DepthAlignment::None => Alignment::None,
             DepthAlignment::Median => Alignment::Median,
@@ -126,40 +126,40 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
             format!("{} against {}: {error}", request.estimate.display(), request.truth.display()),
         )
     };
-    let found = measure_depth(&estimate, &truth, &settings).map_err(message)?;
+    let result = measure_depth(&estimate, &truth, &settings).map_err(message)?;
     let mut report =
         Report::new("depth", "depth against ground truth, pixels at edges separately (± one standard uncertainty)");
-    report.figure("bias_m", "bias", "m", found.all.bias_m);
-    report.figure("mean_m", "mean magnitude of the error", "m", found.all.mean_m);
-    report.figure("rmse_m", "root mean square error", "m", found.all.rmse_m);
-    report.figure("relative_percent", "relative error, mean magnitude", "%", found.all.relative.scaled(100.0));
-    report.figure("squared_relative_m", "squared error over depth", "m", found.all.squared_relative_m);
-    report.figure("rmse_log", "root mean square of logarithms", "", found.all.rmse_log);
+    report.figure("bias_m", "bias", "m", result.all.bias_m);
+    report.figure("mean_m", "mean magnitude of the error", "m", result.all.mean_m);
+    report.figure("rmse_m", "root mean square error", "m", result.all.rmse_m);
+    report.figure("relative_percent", "relative error, mean magnitude", "%", result.all.relative.scaled(100.0));
+    report.figure("squared_relative_m", "squared error over depth", "m", result.all.squared_relative_m);
+    report.figure("rmse_log", "root mean square of logarithms", "", result.all.rmse_log);
     report.figure(
         "silog_percent",
         "their standard deviation, SILog × 100",
         "%",
-        found.all.scale_invariant.scaled(100.0),
+        result.all.scale_invariant.scaled(100.0),
     );
-    report.figure("inverse_rmse_per_km", "root mean square error of 1/depth", "1/km", found.all.inverse_rmse_per_km);
-    report.figure("outliers_percent", "outliers", "%", found.all.outliers.scaled(100.0));
-    if let Some([d1, disparity]) = found.all.disparity {
+    report.figure("inverse_rmse_per_km", "root mean square error of 1/depth", "1/km", result.all.inverse_rmse_per_km);
+    report.figure("outliers_percent", "outliers", "%", result.all.outliers.scaled(100.0));
+    if let Some([d1, disparity]) = result.all.disparity {
         report.figure("d1_percent", "disparities off by more than 3 px and 5 %, D1", "%", d1.scaled(100.0));
         report.figure("disparity_px", "mean error of disparity, EPE", "px", disparity);
     }
-    let seen = (found.all.pixels + found.all.missing) as f64;
+    let compared = (result.all.pixels + result.all.missing) as f64;
     report.fact(
         "density_percent",
         "estimated",
         "% of the pixels with ground truth",
-        100.0 * found.all.pixels as f64 / seen,
+        100.0 * result.all.pixels as f64 / compared,
     );
-    report.fact("scale", "the estimate was multiplied by", "", found.scale);
-    let all = ("all".to_owned(), &found.all);
+    report.fact("scale", "the estimate was multiplied by", "", result.scale);
+    let all = ("all".to_owned(), &result.all);
     let limits =
         |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("from {low} m") };
-    let ranges = found.ranges.iter().map(|(low, high, errors)| (limits(*low, *high), errors));
-    let edges = ("edges".to_owned(), &found.edges);
+    let ranges = result.ranges.iter().map(|(low, high, errors)| (limits(*low, *high), errors));
+    let edges = ("edges".to_owned(), &result.edges);
     let rows = std::iter::once(all).chain(ranges).chain([edges]);
     report.table(Table {
         key: "ranges",
@@ -177,19 +177,19 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
         ],
         rows: rows.map(|(name, errors)| row(name, errors)).collect(),
     });
-    if found.ranges.iter().any(|(_, _, errors)| errors.pixels > 0) {
-        report.plot(plot(&found.ranges));
+    if result.ranges.iter().any(|(_, _, errors)| errors.pixels > 0) {
+        report.plot(plot(&result.ranges));
     }
     Ok(report)
 }
 
 /// Errors against depth: each range at its middle, an unbounded one at its beginning.
 fn plot(ranges: &[(f64, f64, DepthErrors)]) -> Plot {
-    let seen = ranges.iter().filter(|(_, _, errors)| errors.pixels > 0);
+    let non_empty = ranges.iter().filter(|(_, _, errors)| errors.pixels > 0);
     let at = |low: f64, high: f64| if high.is_finite() { 0.5 * (low + high) } else { low };
-    let curve = |of: fn(&DepthErrors) -> Estimate| {
-        seen.clone().map(move |(low, high, errors)| {
-            let error = of(errors);
+    let curve = |quantity: fn(&DepthErrors) -> Estimate| {
+        non_empty.clone().map(move |(low, high, errors)| {
+            let error = quantity(errors);
             (at(*low, *high), error.value, 2.0 * error.standard_uncertainty)
         })
     };
@@ -209,7 +209,7 @@ fn row(name: String, e: &DepthErrors) -> Vec<Cell> {
     if e.pixels == 0 {
         return counts.into_iter().chain((0..7).map(|_| Cell::Nothing)).collect();
     }
-    let percent = |share: Estimate| Cell::Estimate(share.scaled(100.0));
+    let percent = |fraction: Estimate| Cell::Estimate(fraction.scaled(100.0));
     let errors = [Cell::Estimate(e.bias_m), Cell::Estimate(e.rmse_m), percent(e.relative), percent(e.outliers)];
     counts.into_iter().chain(errors).chain(e.within.map(percent)).collect()
 }
@@ -224,12 +224,12 @@ fn depth(file: &Path, channel: Option<&str>, unit_m: f64) -> Result<Image, Error
 /// Numbers of the named channel, or depth.Z, or the only one.
 fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) -> Result<&'a [f32], Error> {
     let named = |name: &str| photograph.channel(name).map(|c| c.samples.as_slice());
-    let found = match (channel, &photograph.channels[..]) {
+    let chosen_channel = match (channel, &photograph.channels[..]) {
         (Some(name), _) => named(name),
         (None, [only]) => Some(only.samples.as_slice()),
-        (None, _) => named(DEPTH),
+        (None, _) => named(DEPTH_CHANNEL),
     };
-    found.ok_or_else(|| {
+    chosen_channel.ok_or_else(|| {
         let names = photograph.names().join(", ");
         Error::coded(
             ErrorCode::NotStated,

@@ -7,10 +7,10 @@ use etendue_arguments::place;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
-use etendue_projection::Sense;
+use etendue_projection::DistortionDirection;
 use glam::DVec2;
 
-use super::point_list::{ChartInput, Seen};
+use super::point_list::{ChartInput, DetectedChart};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 
@@ -41,54 +41,54 @@ impl DistortionRequest {
 /// # Errors
 /// If the image shows no chart, or too little of one.
 pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
-    let seen = request.chart.seen(&request.file)?;
+    let detected = request.chart.detect(&request.file)?;
     let centre = request.centre_px.map(DVec2::from);
     let message = |error| Error::coded(ErrorCode::NotMeasurable, format!("{}: {error}", request.file.display()));
-    let found = fitted(&seen.grid, seen.size_px, centre).map_err(message)?;
-    Ok(report(&seen, &found, request.chart.points))
+    let measured = fitted(&detected.grid, detected.size_px, centre).map_err(message)?;
+    Ok(report(&detected, &measured, request.chart.points))
 }
 
-fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
+fn report(detected: &DetectedChart, measured: &Distortion, points: bool) -> Report {
     let method =
         "distortion without a model: ideal positions from a map with unit scale and no tilt at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
-    seen.stated.iter().for_each(|stated| report.encoding(stated));
-    report.setting("centre_px", centre_words(found.centre_px));
-    report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
-    report.fact("columns", "columns", "", seen.grid.size[0] as f64);
-    report.fact("rows", "rows", "", seen.grid.size[1] as f64);
-    report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
-    report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
-    report.fact("sigma_px", "standard deviation of points from the map", "px", found.ideal.sigma_px());
-    report.fact("beyond_k1_k2_px", "its terms beyond k1 and k2, at the farthest point", "px", found.ideal.tau_px());
-    if let Some(last) = found.curve.last() {
+    detected.stated.iter().for_each(|stated| report.encoding(stated));
+    report.setting("centre_px", centre_words(measured.centre_px));
+    report.fact("points", "points of the chart", "", detected.grid.nodes.len() as f64);
+    report.fact("columns", "columns", "", detected.grid.size[0] as f64);
+    report.fact("rows", "rows", "", detected.grid.size[1] as f64);
+    report.fact("step_px", "step of the chart at the centre", "px", measured.ideal.step_px());
+    report.fact("degree", "degree of the map", "", measured.ideal.degree() as f64);
+    report.fact("sigma_px", "standard deviation of points from the map", "px", measured.ideal.sigma_px());
+    report.fact("beyond_k1_k2_px", "its terms beyond k1 and k2, at the farthest point", "px", measured.ideal.tau_px());
+    if let Some(last) = measured.curve.last() {
         let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
         report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
         report.figure("distortion_there_percent", "distortion there", "%", percent);
     }
-    local(&mut report, found);
-    lines(&mut report, &found.lines);
-    if let Some(height) = found.height {
+    local(&mut report, measured);
+    lines(&mut report, &measured.lines);
+    if let Some(height) = measured.height {
         report.figure("picture_height_percent", "image height, sides over middle minus 1", "%", percent(height));
     }
-    radial(&mut report, "forward", &found.forward);
-    radial(&mut report, "backward", &found.backward);
+    radial(&mut report, "forward", &measured.forward);
+    radial(&mut report, "backward", &measured.backward);
     report.note(
         "k1 and k2 in half diagonals, r' = r (1 + k1 r² + k2 r⁴); centres in raster coordinates, pixel centres at +0.5",
     );
-    if let Some(note) = disagreement(found) {
+    if let Some(note) = disagreement(measured) {
         report.note(note);
     }
-    report.table(curve(found));
-    report.table_if(points, every_point(found));
-    report.plot(plot(found));
-    report.camera(camera(&found.backward));
+    report.table(curve(measured));
+    report.table_if(points, every_point(measured));
+    report.plot(plot(measured));
+    report.camera(camera(&measured.backward));
     report
 }
 
 /// Describes where the curve departs from k₁ and k₂ by more than twice their joint standard uncertainty.
-fn disagreement(found: &Distortion) -> Option<String> {
-    let (point, by_fit, error) = found.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
+fn disagreement(measured: &Distortion) -> Option<String> {
+    let (point, by_fit, error) = measured.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
     let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
     Some(format!(
         "the curve differs from k1 and k2 by {error:.1} times their joint uncertainty (95 %) at {:.1} % of the field ({} % and \
@@ -117,42 +117,42 @@ fn lines(report: &mut Report, lines: &[LineBow]) {
 }
 
 fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
-    let way = match fit.sense {
-        Sense::IdealToObserved => "ideal to observed",
-        Sense::ObservedToIdeal => "observed to ideal",
+    let direction = match fit.sense {
+        DistortionDirection::IdealToObserved => "ideal to observed",
+        DistortionDirection::ObservedToIdeal => "observed to ideal",
     };
     let mut figure =
-        |name: &str, unit, value| report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), unit, value);
+        |name: &str, unit, value| report.figure(&format!("{key}_{name}"), &format!("{name}, {direction}"), unit, value);
     figure("k1", "", fit.k1);
     figure("k2", "", fit.k2);
     for (name, centre) in ["centre_x_px", "centre_y_px"].into_iter().zip(fit.centre_px) {
         if centre.standard_uncertainty.is_finite() {
-            report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), "px", centre);
+            report.figure(&format!("{key}_{name}"), &format!("{name}, {direction}"), "px", centre);
         } else {
-            let label = format!("{name}, {way}, not determined: the curve's");
+            let label = format!("{name}, {direction}, not determined: the curve's");
             report.fact(&format!("{key}_{name}"), &label, "px", centre.value);
         }
     }
-    let of = ["k1", "k2", "centre_x_px", "centre_y_px"].map(|name| format!("{key}_{name}")).to_vec();
-    report.covariance(Covariance { of, rows: fit.covariance.map(|row| row.to_vec()).to_vec() });
-    report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);
+    let keys = ["k1", "k2", "centre_x_px", "centre_y_px"].map(|name| format!("{key}_{name}")).to_vec();
+    report.covariance(Covariance { of: keys, rows: fit.covariance.map(|row| row.to_vec()).to_vec() });
+    report.fact(&format!("{key}_rms_px"), &format!("rms_px, {direction}"), "px", fit.rms_px);
 }
 
 /// The largest local geometric distortion (ISO 17850) and its position.
-fn local(report: &mut Report, found: &Distortion) {
-    if let Some(largest) = found.largest {
+fn local(report: &mut Report, measured: &Distortion) {
+    if let Some(largest) = measured.largest {
         report.figure("local_largest_percent", "largest local geometric distortion", "%", percent(largest.distortion));
         let field = 100.0 * largest.field;
         report.fact("local_largest_at_percent", "at", "% of the half diagonal", field);
     }
 }
 
-fn percent(share: Estimate) -> Estimate {
-    Estimate::new(100.0 * share.value, 100.0 * share.standard_uncertainty)
+fn percent(fraction: Estimate) -> Estimate {
+    Estimate::new(100.0 * fraction.value, 100.0 * fraction.standard_uncertainty)
 }
 
 /// Every point of the chart: observed position, position without distortion, and local geometric distortion.
-fn every_point(found: &Distortion) -> Table {
+fn every_point(measured: &Distortion) -> Table {
     let row = |l: &LocalDistortion| {
         let places = [l.at.x, l.at.y, l.ideal.x, l.ideal.y].map(|c| Cell::Number(c, 3));
         let index = l.index.map(|i| Cell::Number(i as f64, 0));
@@ -176,20 +176,20 @@ fn every_point(found: &Distortion) -> Table {
             ("field_percent", "field %"),
             ("distortion_percent", "distortion %"),
         ],
-        rows: found.local.iter().map(row).collect(),
+        rows: measured.local.iter().map(row).collect(),
     }
 }
 
-fn curve(found: &Distortion) -> Table {
+fn curve(measured: &Distortion) -> Table {
     let row = |p: &etendue_metrology::distortion::CurvePoint| {
         let percent = Estimate::new(100.0 * (p.ratio.value - 1.0), 100.0 * p.ratio.standard_uncertainty);
-        let share = |x: f64| Cell::Number(100.0 * x, 1);
+        let percent_cell = |x: f64| Cell::Number(100.0 * x, 1);
         vec![
-            share(p.field),
+            percent_cell(p.field),
             Cell::Estimate(p.ratio),
             Cell::Estimate(percent),
             Cell::Number(p.spread, 6),
-            share(p.covered),
+            percent_cell(p.covered),
         ]
     };
     Table {
@@ -201,13 +201,13 @@ fn curve(found: &Distortion) -> Table {
             ("spread", "spread"),
             ("covered_percent", "covered %"),
         ],
-        rows: found.curve.iter().map(row).collect(),
+        rows: measured.curve.iter().map(row).collect(),
     }
 }
 
-fn plot(found: &Distortion) -> Plot {
-    let curve = found.curve.iter().map(|p| (100.0 * p.field, p.ratio.value, 2.0 * p.ratio.standard_uncertainty));
-    let local = found.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion.value));
+fn plot(measured: &Distortion) -> Plot {
+    let curve = measured.curve.iter().map(|p| (100.0 * p.field, p.ratio.value, 2.0 * p.ratio.standard_uncertainty));
+    let local = measured.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion.value));
     Plot {
         title: "Distortion".to_owned(),
         x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),

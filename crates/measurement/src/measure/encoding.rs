@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
+use etendue_io::photograph::{PhotographChannel, Encoding, Photograph, SourcedEncoding, read_photograph};
 use etendue_io::table::read_numbers;
 use etendue_isp::ToneCurve;
 use etendue_plan_report::tone_curve::tone_curve;
@@ -49,22 +49,22 @@ fn table(file: &Path) -> Result<Encoding, Error> {
         return Err(Error::coded(ErrorCode::UnsuitableFile, message));
     }
     let points: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[1])).collect();
-    let of_light = points.first().is_some_and(|first| first.0 == 0.0);
-    Ok(if of_light { Encoding::Table(points) } else { Encoding::Oecf { points, largest_output: None } })
+    let is_inverse = points.first().is_some_and(|first| first.0 == 0.0);
+    Ok(if is_inverse { Encoding::Table(points) } else { Encoding::Oecf { points, largest_output: None } })
 }
 
 impl EncodingChoice {
     /// Encoding that the user states; `None` if none.
-    fn stated(&self) -> Result<Option<Stated>, Error> {
+    fn stated(&self) -> Result<Option<SourcedEncoding>, Error> {
         let encoding = match &self.chosen {
             None => return Ok(None),
             Some(ChosenEncoding::Linear) => Encoding::Linear,
             Some(ChosenEncoding::Srgb) => Encoding::Srgb,
             Some(ChosenEncoding::Table(file)) => {
-                return Ok(Some(Stated::new(table(file)?, format!("`encoding` {}", file.display()))));
+                return Ok(Some(SourcedEncoding::new(table(file)?, format!("`encoding` {}", file.display()))));
             }
         };
-        Ok(Some(Stated::new(encoding, "`encoding`")))
+        Ok(Some(SourcedEncoding::new(encoding, "`encoding`")))
     }
 
     /// Opens an image whose numbers are to be converted to light.
@@ -87,7 +87,7 @@ impl EncodingChoice {
     pub(crate) fn stored(&self, file: &Path) -> Result<Photograph, Error> {
         let mut photograph = self.photograph(file)?;
         if self.chosen.is_none() && photograph.raw.is_none() {
-            photograph.stated = Stated::new(Encoding::Linear, "numbers are measured as stored");
+            photograph.stated = SourcedEncoding::new(Encoding::Linear, "numbers are measured as stored");
         }
         Ok(photograph)
     }
@@ -104,18 +104,18 @@ impl EncodingChoice {
                 ),
             ));
         }
-        let Stated { encoding, reason, guessed } = &photograph.stated;
+        let SourcedEncoding { encoding, reason, guessed } = &photograph.stated;
         if *encoding != Encoding::Linear && !guessed {
-            let what = format!("{file}: {} numbers ({reason})", encoding.name());
+            let description = format!("{file}: {} numbers ({reason})", encoding.name());
             let remedy =
                 if self.chosen.is_some() { "leave it out" } else { "if they are linear, set `encoding` to linear" };
             return Err(Error::coded(
                 ErrorCode::UnsuitableFile,
-                format!("{what}; expected numbers proportional to charge: {remedy}"),
+                format!("{description}; expected numbers proportional to charge: {remedy}"),
             ));
         }
         if photograph.raw.is_none() && self.chosen.is_none() {
-            photograph.stated = Stated::new(Encoding::Linear, "raw numbers are measured as stored");
+            photograph.stated = SourcedEncoding::new(Encoding::Linear, "raw numbers are measured as stored");
         }
         Ok(photograph)
     }
@@ -137,11 +137,11 @@ pub(crate) enum ToLight {
 }
 
 impl ToLight {
-    pub(crate) fn of(file: &Path, photograph: &Photograph) -> Result<Self, Error> {
+    pub(crate) fn from_photograph(file: &Path, photograph: &Photograph) -> Result<Self, Error> {
         if let Some(companding) = companding(photograph) {
             return Ok(Self::Companded(companding));
         }
-        let Stated { encoding, reason, .. } = &photograph.stated;
+        let SourcedEncoding { encoding, reason, .. } = &photograph.stated;
         if *encoding == Encoding::Linear {
             return Ok(Self::Stored);
         }
@@ -153,14 +153,14 @@ impl ToLight {
     }
 
     /// Light of a channel. Numbers of 8 and 16 bits repeat: each is decoded once.
-    pub(crate) fn of_channel(&self, channel: &Channel) -> Vec<f32> {
+    pub(crate) fn channel_light(&self, channel: &PhotographChannel) -> Vec<f32> {
         let Self::Curve(curve, full_scale) = self else {
             return channel.samples.iter().map(|v| self.number(f64::from(*v)) as f32).collect();
         };
         let light = |v: f32| curve.decode((f64::from(v) / full_scale) as f32);
-        let whole = (2.0..=65_535.0).contains(full_scale);
+        let is_integer_scale = (2.0..=65_535.0).contains(full_scale);
         let table: Vec<f32> =
-            if whole { (0..=*full_scale as u32).map(|v| light(v as f32)).collect() } else { Vec::new() };
+            if is_integer_scale { (0..=*full_scale as u32).map(|v| light(v as f32)).collect() } else { Vec::new() };
         let decode = |v: &f32| match table.get(*v as usize) {
             Some(light) if v.fract() == 0.0 && *v >= 0.0 => *light,
             _ => light(*v),
@@ -190,15 +190,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_and_tables_are_told_apart() {
+    fn words_and_tables_are_distinguished() {
         assert_eq!(chosen("srgb"), Ok(ChosenEncoding::Srgb));
         assert_eq!(chosen("curve.CSV"), Ok(ChosenEncoding::Table("curve.CSV".into())));
-        assert!(chosen("gamma").is_err_and(|told| told.contains("FILE.csv")));
+        assert!(chosen("gamma").is_err_and(|message| message.contains("FILE.csv")));
     }
 
     fn light(stated: Encoding, full_scale: Option<f64>, numbers: &[f32]) -> Vec<f32> {
-        let channel = Channel { name: "Y".into(), samples: numbers.to_vec() };
-        let stated = Stated::new(stated, "told");
+        let channel = PhotographChannel { name: "Y".into(), samples: numbers.to_vec() };
+        let stated = SourcedEncoding::new(stated, "told");
         let photograph = Photograph {
             width: numbers.len(),
             height: 1,
@@ -208,8 +208,8 @@ mod tests {
             raw: None,
             correlated_block_px: 1,
         };
-        let to_light = ToLight::of(Path::new("a.png"), &photograph).expect("a curve");
-        to_light.of_channel(&photograph.channels[0])
+        let to_light = ToLight::from_photograph(Path::new("a.png"), &photograph).expect("a curve");
+        to_light.channel_light(&photograph.channels[0])
     }
 
     #[test]
@@ -224,8 +224,8 @@ mod tests {
         assert!((light(table, Some(255.0), &[204.0])[0] - 0.5).abs() < 1e-6);
         // Of a measured function in the image's own numbers, half way in the logarithm.
         let oecf = Encoding::Oecf { points: vec![(2.0, 10.0), (8.0, 50.0), (32.0, 100.0)], largest_output: None };
-        let found = light(oecf, Some(255.0), &[10.0, 30.0, 100.0]);
-        assert!((found[0] - 0.0625).abs() < 1e-6 && (found[1] - 0.125).abs() < 1e-6 && found[2] == 1.0, "{found:?}");
+        let linear = light(oecf, Some(255.0), &[10.0, 30.0, 100.0]);
+        assert!((linear[0] - 0.0625).abs() < 1e-6 && (linear[1] - 0.125).abs() < 1e-6 && linear[2] == 1.0, "{linear:?}");
         assert!((light(Encoding::Srgb, None, &[0.5])[0] - 0.214_041).abs() < 1e-5);
     }
 }

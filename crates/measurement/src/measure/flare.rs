@@ -8,7 +8,7 @@ use etendue_charts::design::Flare;
 use etendue_io::failure::Error;
 use etendue_metrology::{Estimate, flare::measure_flare};
 
-use super::pictures::{PictureInput, refused, region_label};
+use super::pictures::{MeasurementInput, refused, region_label};
 use super::readings::{Readings, field_position};
 use super::truth::place::TrapPlace;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -28,13 +28,13 @@ pub struct FlareRequest {
     pub white: Option<[usize; 4]>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl FlareRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
-        Self { picture: picture.into(), traps: Vec::new(), white: None, input: PictureInput::default() }
+    pub fn new(image: impl Into<PathBuf>) -> Self {
+        Self { picture: image.into(), traps: Vec::new(), white: None, input: MeasurementInput::default() }
     }
 }
 
@@ -56,9 +56,9 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
         measure_flare(&trap, &whites, black, full_scale, readings.shared_px)
             .map_err(|error| refused(&request.picture, error))
     };
-    let found = traps.iter().map(measured).collect::<Result<Vec<_>, Error>>()?;
+    let estimates = traps.iter().map(measured).collect::<Result<Vec<_>, Error>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
-    let mut report = report(&places, &found, readings.picture_px.0, readings.picture_px.1);
+    let mut report = report(&places, &estimates, readings.picture_px.0, readings.picture_px.1);
     report.encoding(&readings.stated);
     for place in &traps {
         report.note_cut(&region_label("trap", place.trap), &readings.part_of("traps", place.trap)?, full_scale);
@@ -84,12 +84,12 @@ fn traps(request: &FlareRequest, readings: &Readings) -> Result<Vec<TrapPlace>, 
     }
 }
 
-fn report(traps: &[[usize; 4]], found: &[Estimate], width_px: usize, height_px: usize) -> Report {
+fn report(traps: &[[usize; 4]], measured: &[Estimate], width_px: usize, height_px: usize) -> Report {
     let mut report = Report::new("flare", "flare after ISO 18844: light in traps relative to the white field");
-    let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
-    let mean = found.iter().map(|f| f.value).sum::<f64>() / found.len() as f64;
-    let squares = found.iter().map(|f| f.standard_uncertainty * f.standard_uncertainty).sum::<f64>();
-    let mean = Estimate::new(mean, squares.sqrt() / found.len() as f64);
+    let largest = measured.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
+    let mean = measured.iter().map(|f| f.value).sum::<f64>() / measured.len() as f64;
+    let squares = measured.iter().map(|f| f.standard_uncertainty * f.standard_uncertainty).sum::<f64>();
+    let mean = Estimate::new(mean, squares.sqrt() / measured.len() as f64);
     report.figure("mean_flare_percent", "mean flare", "%", mean.scaled(100.0));
     report.figure("flare_percent", "largest flare", "%", largest.unwrap_or(Estimate::new(0.0, 0.0)).scaled(100.0));
     let row = |(at, value): (&[usize; 4], &Estimate)| {
@@ -102,9 +102,9 @@ fn report(traps: &[[usize; 4]], found: &[Estimate], width_px: usize, height_px: 
     report.table(Table {
         key: "traps",
         columns: vec![("at_px", "at px"), ("field_percent", "field %"), ("flare_percent", "flare %")],
-        rows: traps.iter().zip(found).map(row).collect(),
+        rows: traps.iter().zip(measured).map(row).collect(),
     });
-    let points = traps.iter().zip(found).map(|(at, flare)| {
+    let points = traps.iter().zip(measured).map(|(at, flare)| {
         (100.0 * field_position(at, width_px, height_px), 100.0 * flare.value, 200.0 * flare.standard_uncertainty)
     });
     report.plot(Plot {

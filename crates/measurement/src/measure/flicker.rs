@@ -9,8 +9,8 @@ use etendue_metrology::flicker::{Flicker, FlickerTiming, RowBands, measure_flick
 use etendue_metrology::{Estimate, Image};
 
 use super::frame_times::{FrameTimes, completed};
-use super::pictures::{PictureInput, refused};
-use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use super::pictures::{MeasurementInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::PatchPlace};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 
@@ -33,24 +33,24 @@ pub struct FlickerRequest {
     pub exposure_us: Option<f64>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl FlickerRequest {
     /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
-        Self { frames, row_time_us: None, frame_rate_hz: None, exposure_us: None, input: PictureInput::default() }
+        Self { frames, row_time_us: None, frame_rate_hz: None, exposure_us: None, input: MeasurementInput::default() }
     }
 }
 
 /// Charts with one light, and with many.
-const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const UNIFORM_CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 3] = [FlatField::NAME, Backlit::NAME, LedFlicker::NAME];
 
 const METHOD: &str = "bands over rows and changes over frames, by least squares; modulation as IEEE P2020 defines it (± one standard uncertainty)";
 
 /// Data of the frames.
-struct Sequence {
+struct FlickerFrames {
     frames: Vec<Readings>,
     timing: FlickerTiming,
     levels: (f64, Option<f64>),
@@ -69,7 +69,7 @@ pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
     let (sequence, truth) = read(request)?;
     let mut report = Report::new("flicker", METHOD);
     notes.into_iter().for_each(|note| report.note(note));
-    match truth.as_ref().filter(|truth| !EVEN.contains(&truth.chart())) {
+    match truth.as_ref().filter(|truth| !UNIFORM_CHARTS.contains(&truth.chart())) {
         None => {
             let at = truth.as_ref().map(|truth| truth.middle(&sequence.frames[0])).transpose()?;
             one(&sequence, at, request, &mut report)?;
@@ -83,7 +83,7 @@ pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
     Ok(report)
 }
 
-fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
+fn read(request: &FlickerRequest) -> Result<(FlickerFrames, Option<Truth>), Error> {
     let input = &request.input;
     let frames = request.frames.iter().map(|file| input.linear(file)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, file)) = frames.first().zip(request.frames.first()) else {
@@ -101,10 +101,10 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
         exposure_s: request.exposure_us.map(seconds),
     };
     let levels = (input.levels.black(first), input.levels.full_scale(first));
-    Ok((Sequence { timing, levels, name: file.display().to_string(), frames }, truth))
+    Ok((FlickerFrames { timing, levels, name: file.display().to_string(), frames }, truth))
 }
 
-impl Sequence {
+impl FlickerFrames {
     fn measured(&self, at: Option<[usize; 4]>) -> Result<Flicker, String> {
         let part = |frame: &Readings| match at {
             None => Ok(frame.image.clone()),
@@ -116,34 +116,34 @@ impl Sequence {
 }
 
 fn one(
-    sequence: &Sequence,
+    sequence: &FlickerFrames,
     at: Option<[usize; 4]>,
     request: &FlickerRequest,
     report: &mut Report,
 ) -> Result<(), Error> {
-    let found = sequence.measured(at).map_err(|error| refused(Path::new(&sequence.name), error))?;
-    report.figure("level", "mean reading above black", "", found.level);
-    if let Some(rows) = &found.rows {
-        match &rows.found {
-            Some(bands) => of_bands(bands, sequence.frames[0].period.1 as f64, report),
+    let result = sequence.measured(at).map_err(|error| refused(Path::new(&sequence.name), error))?;
+    report.figure("level", "mean reading above black", "", result.level);
+    if let Some(rows) = &result.rows {
+        match &rows.bands {
+            Some(bands) => report_bands(bands, sequence.frames[0].period.1 as f64, report),
             None => {
                 let (low, high) = (rows.lowest_hz, rows.highest_hz);
                 let range = format!("from {low:.1} to {high:.0} Hz");
                 report.note(format!("no bands over the rows {range} that are distinguishable from noise"));
             }
         }
-        missing(rows.found.as_ref(), request, report);
+        missing(rows.bands.as_ref(), request, report);
     }
-    if let Some(frames) = &found.frames {
+    if let Some(frames) = &result.frames {
         report.figure("modulation_frames", "modulation over frames, (max − min)/(max + min)", "", frames.modulation);
         if let Some(beat) = frames.beat_hz {
             report.figure("beat_frequency_hz", "beat frequency of the bands", "Hz", beat);
         }
-        if let Some(seen) = &frames.frequency {
-            report.figure("frame_frequency_hz", "apparent frequency over frames", "Hz", seen.seen_hz);
-            report.figure("amplitude_frames", "amplitude over mean, over frames", "", seen.amplitude_ratio);
-            if found.rows.as_ref().is_none_or(|rows| rows.found.is_none()) {
-                report.note(alike(seen.alike(9), seen.frame_rate_hz));
+        if let Some(frame_frequency) = &frames.frequency {
+            report.figure("frame_frequency_hz", "apparent frequency over frames", "Hz", frame_frequency.apparent_hz);
+            report.figure("amplitude_frames", "amplitude over mean, over frames", "", frame_frequency.amplitude_ratio);
+            if result.rows.as_ref().is_none_or(|rows| rows.bands.is_none()) {
+                report.note(alias_list(frame_frequency.aliases(9), frame_frequency.frame_rate_hz));
             }
         }
     }
@@ -151,7 +151,7 @@ fn one(
 }
 
 /// Frequencies that frames at this rate cannot distinguish.
-fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
+fn alias_list(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
     let list: Vec<String> = orders.iter().map(|(k, f)| format!("{f:.2} Hz (order {k})")).collect();
     format!(
         "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; the rows of a rolling shutter determine which (`row_time_us`)",
@@ -159,7 +159,7 @@ fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
     )
 }
 
-fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
+fn report_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
     report.figure("frequency_hz", "frequency of the light", "Hz", bands.frequency_hz);
     report.figure("period_rows", "rows from band to band", "rows", bands.period_rows.scaled(rows_of_file));
     report.figure("modulation_rows", "modulation over rows, (max − min)/(max + min)", "", bands.modulation);
@@ -169,7 +169,7 @@ fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
     }
     if let Some(pulses) = &bands.pulses {
         report.figure("duty_cycle", "duty cycle of the light's pulses", "", pulses.duty);
-        report.figure("pulsed_fraction", "pulsed fraction of the light", "", pulses.share);
+        report.figure("pulsed_fraction", "pulsed fraction of the light", "", pulses.pulsed_fraction);
     }
     report.fact("harmonics", "harmonics fitted", "", bands.harmonics as f64);
     if !bands.shading {
@@ -190,7 +190,7 @@ fn missing(bands: Option<&RowBands>, request: &FlickerRequest, report: &mut Repo
     }
 }
 
-fn plot(sequence: &Sequence, at: Option<[usize; 4]>, report: &mut Report) -> Result<(), Error> {
+fn plot(sequence: &FlickerFrames, at: Option<[usize; 4]>, report: &mut Report) -> Result<(), Error> {
     let Some(row_time_s) = sequence.timing.row_time_s else { return Ok(()) };
     let first = &sequence.frames[0];
     let image = match at {
@@ -210,13 +210,13 @@ fn plot(sequence: &Sequence, at: Option<[usize; 4]>, report: &mut Report) -> Res
 }
 
 /// Each lamp of a chart, with the chart's statement about it.
-fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &mut Report) -> Result<(), Error> {
+fn lamps(sequence: &FlickerFrames, truth: &Truth, request: &FlickerRequest, report: &mut Report) -> Result<(), Error> {
     let (patches, left_out) = truth.patches(&sequence.frames[0])?;
     let mut rows = Vec::new();
     for patch in &patches {
         match sequence.measured(Some(patch.at)) {
-            Ok(found) => rows.push(row(patch, truth, &found)),
-            Err(fault) => report.note(format!("omitted: {}: {fault}", patch.name)),
+            Ok(result) => rows.push(row(patch, truth, &result)),
+            Err(error) => report.note(format!("omitted: {}: {error}", patch.name)),
         }
     }
     left_out.iter().for_each(|name| report.note(format!("omitted: {name}: not entirely in the image, or too small")));
@@ -243,8 +243,8 @@ fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &
     Ok(())
 }
 
-fn row(patch: &Patch, truth: &Truth, found: &Flicker) -> Vec<Cell> {
-    let bands = found.rows.as_ref().and_then(|rows| rows.found.as_ref());
+fn row(patch: &PatchPlace, truth: &Truth, result: &Flicker) -> Vec<Cell> {
+    let bands = result.rows.as_ref().and_then(|rows| rows.bands.as_ref());
     let cell = |value: Option<Estimate>| value.map_or(Cell::Nothing, Cell::Estimate);
     let stated = truth.lamp(&patch.name);
     let number = |value: Option<f64>| value.map_or(Cell::Nothing, |value| Cell::Number(value, 3));
@@ -255,6 +255,6 @@ fn row(patch: &Patch, truth: &Truth, found: &Flicker) -> Vec<Cell> {
         cell(bands.map(|bands| bands.frequency_hz)),
         cell(bands.and_then(|bands| bands.pulses).map(|pulses| pulses.duty)),
         cell(bands.map(|bands| bands.modulation)),
-        cell(found.frames.as_ref().map(|frames| frames.modulation)),
+        cell(result.frames.as_ref().map(|frames| frames.modulation)),
     ]
 }

@@ -4,10 +4,10 @@ use clap::Args;
 use etendue_arguments::positive;
 use etendue_core::{maths::f64::acos, observer::Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_metrology::{Estimate, calibrate::Options};
+use etendue_metrology::{Estimate, calibrate::CalibrationOptions};
 use etendue_projection::Calibration;
 
-use super::views::{Found, ViewsRequest};
+use super::views::{CalibratedViews, ViewsRequest};
 use crate::report::Report;
 
 /// `etendue measure focal`
@@ -37,8 +37,8 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
     let views = &request.views;
     let mut options = views.options();
     let one = views.files.len() == 1;
-    if let (true, None, Some((_, told))) = (one, options.distance, views.chart.told()?) {
-        options.distance = told.distance_mm.map(|mm| Estimate::new(mm, 0.0));
+    if let (true, None, Some((_, point_chart))) = (one, options.distance, views.chart.truth_and_chart()?) {
+        options.distance = point_chart.distance_mm.map(|mm| Estimate::new(mm, 0.0));
     }
     if request.camera_keys && views.pixel_pitch_um.is_none() {
         return Err(Error::argument(
@@ -48,32 +48,32 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
         .with_code(ErrorCode::NotStated));
     }
     if one && options.distance.is_none() {
-        let told = "a single image does not distinguish the focal length from the distance; add `distance_mm`, or more images with the chart turned";
-        return Err(Error::coded(ErrorCode::NotStated, told));
+        let problem = "a single image does not distinguish the focal length from the distance; add `distance_mm`, or more images with the chart turned";
+        return Err(Error::coded(ErrorCode::NotStated, problem));
     }
     let about_middle = one && options.principal_px.is_none();
-    let found = match about_middle {
-        true => views.found_about_middle(Options { square_pixels: true, ..options }, observer)?,
-        false => views.found(options, observer)?,
+    let calibrated = match about_middle {
+        true => views.calibrate_centred(CalibrationOptions { square_pixels: true, ..options }, observer)?,
+        false => views.calibrate(options, observer)?,
     };
     let mut report = Report::new("focal", "focal length from views of a plane chart");
-    found.add_to(&mut report, views);
-    field_of_view(&mut report, &found);
+    calibrated.add_to(&mut report, views);
+    field_of_view(&mut report, &calibrated);
     if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
-        report.camera(found.camera_file("measure focal", pitch_um, None)?);
+        report.camera(calibrated.camera_file("measure focal", pitch_um, None)?);
     }
     Ok(report)
 }
 
 /// Angles between the middles of opposite sides, and between opposite corners.
-fn field_of_view(report: &mut Report, found: &Found) {
-    let [w, h] = found.camera.calibration.size_px().map(|n| n as f64);
+fn field_of_view(report: &mut Report, calibrated: &CalibratedViews) {
+    let [w, h] = calibrated.camera.calibration.size_px().map(|n| n as f64);
     let mut line = |key: &str, label: &str, a: [f64; 2], b: [f64; 2]| {
         let between = |camera: &Calibration| {
             let (a, b) = (camera.unproject(a.into())?, camera.unproject(b.into())?);
             Some(acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees())
         };
-        if let Some(angle) = found.camera.follows(between) {
+        if let Some(angle) = calibrated.camera.follows(between) {
             report.figure(key, label, "°", angle);
         }
     };
@@ -110,12 +110,12 @@ impl CalibrationRequest {
 /// If the views are too few, show no chart or do not determine the model.
 pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
-    let found = views.found(views.options(), observer)?;
+    let calibrated = views.calibrate(views.options(), observer)?;
     let mut report =
         Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
-    found.add_to(&mut report, views);
+    calibrated.add_to(&mut report, views);
     if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
-        report.camera(found.camera_file("calibrate", pitch_um, request.f_number)?);
+        report.camera(calibrated.camera_file("calibrate", pitch_um, request.f_number)?);
     }
     Ok(report)
 }

@@ -45,7 +45,7 @@ pub use focal::{CalibrationRequest, FocalRequest, calibrate, focal};
 pub use lens::{LensMeasurement, LensRequest, lens};
 pub use noise::{NoiseRequest, noise};
 pub use oecf::{OecfRequest, oecf};
-pub use pictures::PictureInput;
+pub use pictures::MeasurementInput;
 pub use point_list::ChartInput;
 pub use ptc::{PtcRequest, ptc};
 pub use readings::{Selection, SignalLevels};

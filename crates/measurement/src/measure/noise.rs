@@ -8,8 +8,8 @@ use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::noise::{Noise, check_frame, measure_noise};
 use etendue_metrology::{Estimate, photon_transfer::Stack};
 
-use super::pictures::{Cut, PictureInput, refused};
-use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use super::pictures::{Clipping, MeasurementInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::PatchPlace};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 
@@ -21,54 +21,54 @@ pub struct NoiseRequest {
     pub frames: Vec<PathBuf>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl NoiseRequest {
     /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
-        Self { frames, input: PictureInput::default() }
+        Self { frames, input: MeasurementInput::default() }
     }
 }
 
 /// Charts of one uniform surface, and of many.
-const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const UNIFORM_CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 4] = [FlatField::NAME, Backlit::NAME, OecfSteps::NAME, ContrastPatches::NAME];
 
 /// A uniform surface over the frames.
-struct Surface {
+struct UniformSurface {
     /// The patch of a chart.
-    patch: Option<Patch>,
+    patch: Option<PatchPlace>,
     /// Position; `None` for the whole frame.
     at: Option<[usize; 4]>,
     stack: Option<Stack>,
     /// Reason for leaving it out.
-    fault: Option<String>,
+    error: Option<String>,
     /// The first clipped frame.
-    cut: Option<(PathBuf, Cut)>,
+    clipping: Option<(PathBuf, Clipping)>,
 }
 
-impl Surface {
-    fn new(patch: Option<Patch>, at: Option<[usize; 4]>) -> Self {
-        Self { patch, at, stack: None, fault: None, cut: None }
+impl UniformSurface {
+    fn new(patch: Option<PatchPlace>, at: Option<[usize; 4]>) -> Self {
+        Self { patch, at, stack: None, error: None, clipping: None }
     }
 
     /// Returns a note of the patch and the first of its frames that is clipped.
     fn cut_note(&self) -> Option<String> {
-        let (file, cut) = self.cut.as_ref()?;
+        let (file, cut) = self.clipping.as_ref()?;
         let patch = self.patch.as_ref().map_or_else(String::new, |patch| format!("{}, ", patch.name));
         let consequence = "the noise and its uncertainty do not account for it";
         Some(format!("{patch}{}: {}; {consequence}", file.display(), cut.words()))
     }
 
-    fn take(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Error> {
-        let whole = || Ok(readings.image.clone());
-        let frame = self.at.map_or_else(whole, |at| readings.part(at, &file.display().to_string()))?;
+    fn add_frame(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Error> {
+        let full_image = || Ok(readings.image.clone());
+        let frame = self.at.map_or_else(full_image, |at| readings.part(at, &file.display().to_string()))?;
         match check_frame(&frame, full_scale) {
-            Err(fault) if self.patch.is_some() => self.fault = Some(fault.to_string()),
+            Err(failure) if self.patch.is_some() => self.error = Some(failure.to_string()),
             checked => checked.map_err(|error| refused(file, error))?,
         }
-        self.cut = self.cut.take().or_else(|| Some((file.to_owned(), Cut::of(&frame, full_scale)?)));
+        self.clipping = self.clipping.take().or_else(|| Some((file.to_owned(), Clipping::from_region(&frame, full_scale)?)));
         let stack = self.stack.get_or_insert_with(|| Stack::new(frame.width(), frame.height()));
         stack.push(&frame).map_err(|error| refused(file, error))
     }
@@ -85,33 +85,33 @@ pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
         let readings = input.linear(file)?;
         let truth = input.truth(&CHARTS, file, &readings)?;
         if i == 0 {
-            surfaces = sought(truth.as_ref(), file, &readings)?;
+            surfaces = find_surfaces(truth.as_ref(), file, &readings)?;
         }
         readings.independent(file, 1)?;
         encodings.push(readings.stated.clone());
         black = input.levels.black(&readings);
         let full_scale = input.levels.full_scale(&readings);
-        surfaces.iter_mut().try_for_each(|surface| surface.take(file, &readings, full_scale))?;
+        surfaces.iter_mut().try_for_each(|surface| surface.add_frame(file, &readings, full_scale))?;
     }
     let mut report = match &surfaces[..] {
-        [Surface { patch: None, stack: Some(stack), .. }] => one(stack, black)?,
+        [UniformSurface { patch: None, stack: Some(stack), .. }] => one(stack, black)?,
         many => patches(many, black).map_err(|reason| refused(&request.frames[0], reason))?,
     };
     encodings.iter().for_each(|stated| report.encoding(stated));
     surfaces
         .iter()
-        .filter(|surface| surface.fault.is_none())
-        .filter_map(Surface::cut_note)
+        .filter(|surface| surface.error.is_none())
+        .filter_map(UniformSurface::cut_note)
         .for_each(|note| report.note(note));
     Ok(report)
 }
 
-fn sought(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec<Surface>, Error> {
+fn find_surfaces(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec<UniformSurface>, Error> {
     match truth {
-        None => Ok(vec![Surface::new(None, None)]),
-        Some(truth) if EVEN.contains(&truth.chart()) => Ok(vec![Surface::new(None, Some(truth.middle(readings)?))]),
+        None => Ok(vec![UniformSurface::new(None, None)]),
+        Some(truth) if UNIFORM_CHARTS.contains(&truth.chart()) => Ok(vec![UniformSurface::new(None, Some(truth.middle(readings)?))]),
         Some(truth) => {
-            let place = |patch: Patch| Surface::new(Some(patch.clone()), Some(patch.at));
+            let place = |patch: PatchPlace| UniformSurface::new(Some(patch.clone()), Some(patch.at));
             let (patches, _) = truth.patches(readings)?;
             truth.shown(file, &patches, readings)?;
             Ok(patches.into_iter().map(place).collect())
@@ -144,21 +144,21 @@ fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
 }
 
 /// Noise against the luminance of a chart's patches; saturated patches are named.
-fn patches(surfaces: &[Surface], black: f64) -> Result<Report, String> {
+fn patches(surfaces: &[UniformSurface], black: f64) -> Result<Report, String> {
     let mut report = Report::new("noise", METHOD);
-    let mut found: Vec<(&Patch, Noise)> = Vec::new();
+    let mut measured: Vec<(&PatchPlace, Noise)> = Vec::new();
     for surface in surfaces {
         let (Some(patch), Some(stack)) = (&surface.patch, &surface.stack) else { continue };
-        match &surface.fault {
-            Some(fault) => report.note(format!("omitted: {}: {fault}", patch.name)),
-            None => found.push((patch, measure_noise(stack, black).map_err(|error| error.to_string())?)),
+        match &surface.error {
+            Some(failure) => report.note(format!("omitted: {}: {failure}", patch.name)),
+            None => measured.push((patch, measure_noise(stack, black).map_err(|error| error.to_string())?)),
         }
     }
-    if found.is_empty() {
+    if measured.is_empty() {
         return Err("every patch is saturated; reduce the exposure".to_owned());
     }
-    found.sort_by(|a, b| a.0.luminance_cd_m2.total_cmp(&b.0.luminance_cd_m2));
-    let row = |(patch, noise): &(&Patch, Noise)| {
+    measured.sort_by(|a, b| a.0.luminance_cd_m2.total_cmp(&b.0.luminance_cd_m2));
+    let row = |(patch, noise): &(&PatchPlace, Noise)| {
         let estimates = [noise.signal, noise.total, noise.temporal, noise.fixed, noise.snr()[0]];
         let names = [Cell::Text(patch.name.clone()), Cell::Number(patch.luminance_cd_m2, 3)];
         names.into_iter().chain(estimates.map(Cell::Estimate)).collect()
@@ -174,15 +174,15 @@ fn patches(surfaces: &[Surface], black: f64) -> Result<Report, String> {
             ("fixed_pattern_noise", "fixed"),
             ("snr", "SNR"),
         ],
-        rows: found.iter().map(row).collect(),
+        rows: measured.iter().map(row).collect(),
     });
-    report.plot(plot(&found));
+    report.plot(plot(&measured));
     Ok(report)
 }
 
-fn plot(found: &[(&Patch, Noise)]) -> Plot {
-    let series = |name: &str, of: fn(&Noise) -> Estimate| {
-        let points = found.iter().map(|(p, n)| (p.luminance_cd_m2, of(n).value, 2.0 * of(n).standard_uncertainty));
+fn plot(measured: &[(&PatchPlace, Noise)]) -> Plot {
+    let series = |name: &str, quantity: fn(&Noise) -> Estimate| {
+        let points = measured.iter().map(|(p, n)| (p.luminance_cd_m2, quantity(n).value, 2.0 * quantity(n).standard_uncertainty));
         Series::with_errors(name, Mark::Points, points)
     };
     Plot {

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, OecfSteps};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::{Encoding, Stated};
+use etendue_io::photograph::{Encoding, SourcedEncoding};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
 use etendue_metrology::{Estimate, Image};
 
-use super::pictures::{Cut, PictureInput, refused};
+use super::pictures::{Clipping, MeasurementInput, refused};
 use super::readings::{Readings, SignalLevels};
 use super::truth::Truth;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -36,25 +36,25 @@ pub struct OecfRequest {
     pub refine: bool,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl OecfRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(pictures: Vec<PathBuf>) -> Self {
+    pub fn new(images: Vec<PathBuf>) -> Self {
         Self {
-            pictures,
+            pictures: images,
             exposures: Vec::new(),
             steps: None,
             response: false,
             refine: false,
-            input: PictureInput::default(),
+            input: MeasurementInput::default(),
         }
     }
 }
 
 /// Maximum degree of a response.
-const DEGREE: usize = 8;
+const MAX_DEGREE: usize = 8;
 
 /// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at relatively known
 /// exposures.
@@ -68,15 +68,15 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     let truth = request.input.truth.read(&CHARTS)?;
     let measured = match (&request.steps, &truth) {
         (Some(table), _) => steps(request, table)?,
-        (None, Some(truth)) if EVEN.contains(&truth.chart()) => shots(request, truth)?,
+        (None, Some(truth)) if UNIFORM_CHARTS.contains(&truth.chart()) => shots(request, truth)?,
         (None, Some(truth)) => patches(request, truth)?,
         (None, None) => exposures(request)?,
     };
     let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&request.pictures[0], error))?;
     let mut report = report(&oecf, &measured);
     // Saturated points end the curve; black ones count as readings.
-    for (point, cut) in measured.points.iter().zip(&measured.cuts) {
-        if let Some(cut @ (Cut::Black { .. } | Cut::Throughout { reading: ..=0.0 })) = cut {
+    for (point, cut) in measured.points.iter().zip(&measured.clippings) {
+        if let Some(cut @ (Clipping::Black { .. } | Clipping::Throughout { reading: ..=0.0 })) = cut {
             let (exposure, unit) = (point.exposure, measured.unit);
             report.note(format!("exposure {exposure} {unit}: {}; its point does not account for it", cut.words()));
         }
@@ -89,11 +89,11 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
 }
 
 /// Charts of one uniform surface, and of steps.
-const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const UNIFORM_CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 3] = [OecfSteps::NAME, FlatField::NAME, Backlit::NAME];
 
 /// Points of the curve, the reading without light, the unit of the exposures, and patches that are not visible.
-struct Measured {
+struct OecfInput {
     points: Vec<ExposurePoint>,
     /// Kind of readings, and those without light and at saturation.
     readings: &'static str,
@@ -101,24 +101,24 @@ struct Measured {
     full_scale: Option<f64>,
     unit: &'static str,
     left_out: Vec<String>,
-    encoding: Stated,
+    encoding: SourcedEncoding,
     /// Clipping of the readings of each point.
-    cuts: Vec<Option<Cut>>,
+    clippings: Vec<Option<Clipping>>,
 }
 
-impl Measured {
-    fn new(measured: Vec<(ExposurePoint, Option<Cut>)>, levels: &SignalLevels, readings: &Readings) -> Self {
+impl OecfInput {
+    fn new(measured: Vec<(ExposurePoint, Option<Clipping>)>, levels: &SignalLevels, readings: &Readings) -> Self {
         let (points, cuts) = measured.into_iter().unzip();
         let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
         let encoding = readings.stated.clone();
-        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding, cuts }
+        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding, clippings: cuts }
     }
 }
 
 /// Returns the point of an exposure of a uniform surface, and the clipping of its readings.
-fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Cut>) {
+fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Clipping>) {
     let full_scale = levels.full_scale(readings);
-    (ExposurePoint::of(exposure, surface, full_scale, readings.shared_px), Cut::of(surface, full_scale))
+    (ExposurePoint::from_surface(exposure, surface, full_scale, readings.shared_px), Clipping::from_region(surface, full_scale))
 }
 
 /// Kind of readings: decoded ones no longer reflect the tone curve of the file.
@@ -133,11 +133,11 @@ fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
         let message = format!("`exposures`: expected one per image ({}), not {}", count.0, count.1);
         return Err(Error::argument("exposures", message));
     }
-    let told = |i: usize, file: &Path| match request.exposures.get(i) {
+    let stated_exposure = |i: usize, file: &Path| match request.exposures.get(i) {
         Some(exposure) => Ok(*exposure),
-        None => exposure_beside(file),
+        None => exposure_of_file(file),
     };
-    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, request.input.selection.stored(file)?));
+    let one = |(i, file): (usize, &PathBuf)| Ok((stated_exposure(i, file)?, request.input.selection.stored(file)?));
     let series = request.pictures.iter().enumerate().map(one).collect::<Result<Vec<_>, Error>>()?;
     let size = |r: &Readings| (r.image.width(), r.image.height());
     if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
@@ -167,23 +167,23 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
     Ok(())
 }
 
-fn exposure_beside(file: &Path) -> Result<f64, Error> {
+fn exposure_of_file(file: &Path) -> Result<f64, Error> {
     let photograph = etendue_io::photograph::read_photograph(file).map_err(Error::input)?;
-    let lacks = || {
+    let missing = || {
         Error::coded(ErrorCode::NotStated, format!("{}: its exposure is not known; give `exposures`", file.display()))
     };
-    photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
+    photograph.raw.map(|facts| facts.exposure_s).ok_or_else(missing)
 }
 
-fn exposures(request: &OecfRequest) -> Result<Measured, Error> {
+fn exposures(request: &OecfRequest) -> Result<OecfInput, Error> {
     let series = series(request)?;
     let levels = &request.input.levels;
     let points = series.iter().map(|(exposure, readings)| point(*exposure, &readings.image, levels, readings));
-    Ok(Measured::new(points.collect(), levels, &series[0].1))
+    Ok(OecfInput::new(points.collect(), levels, &series[0].1))
 }
 
 /// The centre of a uniform chart at its cameras' exposures; each image is in the folder of its camera.
-fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
+fn shots(request: &OecfRequest, truth: &Truth) -> Result<OecfInput, Error> {
     if request.input.truth.camera.is_some() {
         return Err(Error::argument(
             "camera",
@@ -197,26 +197,26 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
         let folder = file.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
         let known = exposures.iter().find(|(name, _)| *name == folder).map(|(_, exposure)| *exposure);
         let names = || exposures.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-        let lacks =
+        let unknown_camera =
             || refused(file, format!("is in the folder '{folder}', which is not one of the cameras {}", names()));
-        let exposure = known.ok_or_else(lacks)?;
+        let exposure = known.ok_or_else(unknown_camera)?;
         let readings = request.input.selection.stored(file)?;
         truth.fits(file, &readings)?;
         series.push((exposure, readings));
     }
     copies(request, &series)?;
     let levels = &request.input.levels;
-    let of_middle = |(exposure, readings): &(f64, Readings)| {
+    let middle_point = |(exposure, readings): &(f64, Readings)| {
         let middle = readings.part_of("truth", truth.middle(readings)?)?;
         Ok(point(*exposure, &middle, levels, readings))
     };
-    let points = series.iter().map(of_middle).collect::<Result<Vec<_>, Error>>()?;
-    Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
+    let points = series.iter().map(middle_point).collect::<Result<Vec<_>, Error>>()?;
+    Ok(OecfInput { unit: "cd s/m²", ..OecfInput::new(points, levels, &series[0].1) })
 }
 
-fn only_picture<'a>(request: &'a OecfRequest, field: &str) -> Result<&'a Path, Error> {
+fn only_image<'a>(request: &'a OecfRequest, field: &str) -> Result<&'a Path, Error> {
     match &request.pictures[..] {
-        [picture] => Ok(picture),
+        [image] => Ok(image),
         more => Err(Error::argument(
             field,
             format!("`{field}`: expected one image that contains all steps, not {}", more.len()),
@@ -225,24 +225,24 @@ fn only_picture<'a>(request: &'a OecfRequest, field: &str) -> Result<&'a Path, E
 }
 
 /// The steps of a chart.
-fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
-    let picture = only_picture(request, "truth")?;
-    let readings = request.input.selection.stored(picture)?;
-    truth.fits(picture, &readings)?;
+fn patches(request: &OecfRequest, truth: &Truth) -> Result<OecfInput, Error> {
+    let image = only_image(request, "truth")?;
+    let readings = request.input.selection.stored(image)?;
+    truth.fits(image, &readings)?;
     let (patches, left_out) = truth.patches(&readings)?;
-    truth.shown(picture, &patches, &readings)?;
+    truth.shown(image, &patches, &readings)?;
     let levels = &request.input.levels;
-    let of_patch = |patch: &super::truth::place::Patch| {
+    let patch_point = |patch: &super::truth::place::PatchPlace| {
         let surface = readings.part(patch.at, &patch.name)?;
         Ok(point(patch.luminance_cd_m2, &surface, levels, &readings))
     };
-    let points = patches.iter().map(of_patch).collect::<Result<Vec<_>, Error>>()?;
-    Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
+    let points = patches.iter().map(patch_point).collect::<Result<Vec<_>, Error>>()?;
+    Ok(OecfInput { unit: "cd/m²", left_out, ..OecfInput::new(points, levels, &readings) })
 }
 
-fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
-    let picture = only_picture(request, "steps")?;
-    let readings = request.input.selection.stored(picture)?;
+fn steps(request: &OecfRequest, table: &Path) -> Result<OecfInput, Error> {
+    let image = only_image(request, "steps")?;
+    let readings = request.input.selection.stored(image)?;
     let text = etendue_io::source::text_of(table)?;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
@@ -255,20 +255,20 @@ fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
         };
         let words: Option<Vec<f64>> = line.split(',').map(|word| word.trim().parse().ok()).collect();
         let [x, y, width, height, luminance] = words.ok_or_else(expected)?[..] else { return Err(expected()) };
-        let whole = [x, y, width, height];
-        if whole.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
+        let region = [x, y, width, height];
+        if region.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
             return Err(Error::coded(
                 ErrorCode::MalformedFile,
                 format!("{place}: expected whole pixels, two or more wide and high, not '{line}'"),
             ));
         }
-        let surface = readings.part(whole.map(|v| v as usize), &place)?;
+        let surface = readings.part(region.map(|v| v as usize), &place)?;
         Ok(point(luminance, &surface, &request.input.levels, &readings))
     };
-    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &request.input.levels, &readings))
+    Ok(OecfInput::new(lines.map(step).collect::<Result<_, _>>()?, &request.input.levels, &readings))
 }
 
-fn report(oecf: &Oecf, measured: &Measured) -> Report {
+fn report(oecf: &Oecf, measured: &OecfInput) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
     report.encoding(&measured.encoding);
@@ -348,40 +348,40 @@ fn response(request: &OecfRequest) -> Result<Report, Error> {
     let settings = ResponseSettings {
         full_scale,
         black: request.input.levels.black(&series[0].1),
-        degree: DEGREE,
+        degree: MAX_DEGREE,
         refine: request.refine,
     };
-    let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
-    let found = camera_response(&pictures, &settings).map_err(|error| refused(&request.pictures[0], error))?;
-    let mut report = response_report(&found);
+    let exposed_images: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
+    let result = camera_response(&exposed_images, &settings).map_err(|error| refused(&request.pictures[0], error))?;
+    let mut report = response_report(&result);
     report.encoding(&series[0].1.stated);
     Ok(report)
 }
 
-fn response_report(found: &Response) -> Report {
+fn response_report(result: &Response) -> Report {
     let method =
         "camera response from relatively known exposures, after Mitsunaga and Nayar (± one standard uncertainty)";
     let mut report = Report::new("response", method);
-    for (n, c) in found.coefficients.iter().enumerate().skip(1) {
+    for (n, c) in result.coefficients.iter().enumerate().skip(1) {
         report.fact(&format!("c{n}"), &format!("coefficient of M^{n}"), "", *c);
     }
-    report.fact("residual_percent", "noise of a reading, relative to full scale", "%", 100.0 * found.residual);
+    report.fact("residual_percent", "noise of a reading, relative to full scale", "%", 100.0 * result.residual);
     let row = |i: i32| {
         let reading = f64::from(i) / 20.0;
-        vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(found.estimate(reading).scaled(100.0))]
+        vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(result.estimate(reading).scaled(100.0))]
     };
     report.table(Table {
         key: "response",
         columns: vec![("reading_percent", "reading %"), ("light_percent", "light %")],
         rows: (0..=20).map(row).collect(),
     });
-    let ratios = found.ratios.iter().enumerate();
+    let ratios = result.ratios.iter().enumerate();
     report.table(Table {
         key: "exposures",
         columns: vec![("picture", "image"), ("ratio", "exposure relative to the first")],
         rows: ratios.map(|(i, r)| vec![Cell::Number(i as f64 + 1.0, 0), Cell::Number(*r, 5)]).collect(),
     });
-    let curve = (0..=100).map(|i| f64::from(i) / 100.0).map(|m| (found.light(m), m));
+    let curve = (0..=100).map(|i| f64::from(i) / 100.0).map(|m| (result.light(m), m));
     report.plot(Plot {
         title: "camera response".to_owned(),
         x: Axis::linear("light, relative to the largest"),

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fmt::Display, path::Path};
 
 use clap::Args;
-use etendue_core::observer::{Observer, Progress, Unit};
-use etendue_io::failure::{Error, ErrorCode, Fault};
+use etendue_core::observer::{Observer, Progress, ProgressUnit};
+use etendue_io::failure::{Error, ErrorCode, InputError};
 use etendue_metrology::Image;
 
 use super::readings::{Readings, Selection, SignalLevels};
@@ -13,21 +13,21 @@ use super::truth::{Truth, TruthInput};
 use crate::report::Report;
 
 /// A number of images, read by several threads.
-pub(crate) struct Pictures<'a> {
+pub(crate) struct ImageProgress<'a> {
     pub(crate) heading: &'a str,
     pub(crate) done: AtomicUsize,
     pub(crate) total: usize,
     pub(crate) observer: &'a dyn Observer,
 }
 
-impl Pictures<'_> {
+impl ImageProgress<'_> {
     /// Counts one more image as read.
     pub(crate) fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.observer.progress(Progress {
             heading: self.heading,
             frame: None,
-            unit: Unit::Pictures,
+            unit: ProgressUnit::Images,
             done,
             total: self.total,
         });
@@ -36,7 +36,7 @@ impl Pictures<'_> {
 
 /// Choice of the readings to measure, their meaning, and the position of the chart in them.
 #[derive(Args, Clone, Debug, Default)]
-pub struct PictureInput {
+pub struct MeasurementInput {
     /// Part and channel.
     #[command(flatten)]
     pub selection: Selection,
@@ -48,10 +48,10 @@ pub struct PictureInput {
     pub truth: TruthInput,
 }
 
-impl PictureInput {
+impl MeasurementInput {
     /// Readings of an image, proportional to light.
-    pub(crate) fn linear(&self, picture: &Path) -> Result<Readings, Error> {
-        self.selection.linear(picture)
+    pub(crate) fn linear(&self, image: &Path) -> Result<Readings, Error> {
+        self.selection.linear(image)
     }
 
     /// Refuses a reading without light where only differences of readings matter.
@@ -67,27 +67,27 @@ impl PictureInput {
     }
 
     /// Ground truth of an image, if given: of one of these charts, and of the image's size.
-    pub(crate) fn truth(&self, charts: &[&str], picture: &Path, readings: &Readings) -> Result<Option<Truth>, Error> {
+    pub(crate) fn truth(&self, charts: &[&str], image: &Path, readings: &Readings) -> Result<Option<Truth>, Error> {
         let truth = self.truth.read(charts)?;
-        truth.iter().try_for_each(|truth| truth.fits(picture, readings))?;
+        truth.iter().try_for_each(|truth| truth.fits(image, readings))?;
         Ok(truth)
     }
 }
 
 /// Error of an image.
-pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
-    let fault = Fault::new(ErrorCode::NotMeasurable, format!("{}: {error}", picture.display()));
-    Error::input(Fault { file: Some(picture.to_path_buf()), ..fault })
+pub(crate) fn refused(image: &Path, error: impl Display) -> Error {
+    let input_error = InputError::new(ErrorCode::NotMeasurable, format!("{}: {error}", image.display()));
+    Error::input(InputError { file: Some(image.to_path_buf()), ..input_error })
 }
 
 /// Minimum fraction of a region's readings at its minimum or maximum from which the region counts as clipped.
-const CUT_FRACTION: f64 = 0.01;
+const MIN_CLIPPED_FRACTION: f64 = 0.01;
 /// Readings from this value on are not integers of a digital format.
-const MAX_WHOLE: f32 = 16_777_216.0;
+const MAX_INTEGER: f32 = 16_777_216.0;
 
 /// Clipping of the readings of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Cut {
+pub(crate) enum Clipping {
     /// All readings are equal.
     Throughout { reading: f32 },
     /// At 0.
@@ -96,9 +96,9 @@ pub(crate) enum Cut {
     Clipped { reading: f32, fraction: f64 },
 }
 
-impl Cut {
+impl Clipping {
     /// Examines the readings of a region; `None` if too few are clipped to affect the result.
-    pub(crate) fn of(region: &Image, full_scale: Option<f64>) -> Option<Self> {
+    pub(crate) fn from_region(region: &Image, full_scale: Option<f64>) -> Option<Self> {
         let samples = region.samples();
         let fraction = |is_cut: &dyn Fn(f32) -> bool| {
             samples.iter().filter(|sample| is_cut(**sample)).count() as f64 / samples.len() as f64
@@ -107,12 +107,12 @@ impl Cut {
             samples.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), s| (low.min(*s), high.max(*s)));
         // The maximum of 8, 10, 12, … bits.
         let is_of_bits = |reading: f32| {
-            (255.0..MAX_WHOLE).contains(&reading) && reading.fract() == 0.0 && (reading as u32 + 1).is_power_of_two()
+            (255.0..MAX_INTEGER).contains(&reading) && reading.fract() == 0.0 && (reading as u32 + 1).is_power_of_two()
         };
         let is_full = full_scale.map_or_else(|| is_of_bits(high), |full| f64::from(high) >= full);
         let black = fraction(&|sample| sample <= 0.0);
         let clipped = fraction(&|sample| full_scale.map_or(sample == high, |full| f64::from(sample) >= full));
-        match (low == high && (low <= 0.0 || is_full), black > CUT_FRACTION, is_full && clipped > CUT_FRACTION) {
+        match (low == high && (low <= 0.0 || is_full), black > MIN_CLIPPED_FRACTION, is_full && clipped > MIN_CLIPPED_FRACTION) {
             (true, ..) => Some(Self::Throughout { reading: low }),
             (_, true, _) => Some(Self::Black { fraction: black }),
             (.., true) => Some(Self::Clipped { reading: high, fraction: clipped }),
@@ -139,7 +139,7 @@ impl Cut {
 impl Report {
     /// Adds a note if the readings of a region are clipped, which the result does not account for.
     pub(crate) fn note_cut(&mut self, name: &str, region: &Image, full_scale: Option<f64>) {
-        if let Some(cut) = Cut::of(region, full_scale) {
+        if let Some(cut) = Clipping::from_region(region, full_scale) {
             self.note(format!("{name}: {}; the result and its uncertainty do not account for it", cut.words()));
         }
     }
@@ -155,19 +155,19 @@ mod tests {
     use super::*;
 
     /// A hundred readings, `count` of them clipped at `reading`.
-    fn cut(count: usize, reading: f32, full_scale: Option<f64>) -> Option<Cut> {
+    fn cut(count: usize, reading: f32, full_scale: Option<f64>) -> Option<Clipping> {
         let sample = |i: usize| if i < count { reading } else { 100.0 + i as f32 };
-        Cut::of(&Image::from_samples(10, 10, (0..100).map(sample).collect()).expect("full rows"), full_scale)
+        Clipping::from_region(&Image::from_samples(10, 10, (0..100).map(sample).collect()).expect("full rows"), full_scale)
     }
 
     #[test]
     fn a_region_counts_as_clipped_above_one_percent() {
         assert_eq!([cut(0, 0.0, None), cut(1, 0.0, None), cut(1, 255.0, None)], [None; 3]);
-        assert_eq!(cut(2, 0.0, None), Some(Cut::Black { fraction: 0.02 }));
-        assert_eq!(cut(30, 255.0, None), Some(Cut::Clipped { reading: 255.0, fraction: 0.3 }));
+        assert_eq!(cut(2, 0.0, None), Some(Clipping::Black { fraction: 0.02 }));
+        assert_eq!(cut(30, 255.0, None), Some(Clipping::Clipped { reading: 255.0, fraction: 0.3 }));
         assert_eq!(cut(30, 250.0, None), None, "not the maximum of any number of bits");
-        assert_eq!(cut(30, 250.0, Some(250.0)), Some(Cut::Clipped { reading: 250.0, fraction: 0.3 }));
-        assert_eq!(cut(100, 0.0, None), Some(Cut::Throughout { reading: 0.0 }));
+        assert_eq!(cut(30, 250.0, Some(250.0)), Some(Clipping::Clipped { reading: 250.0, fraction: 0.3 }));
+        assert_eq!(cut(100, 0.0, None), Some(Clipping::Throughout { reading: 0.0 }));
         assert_eq!(cut(100, 128.0, None), None, "a uniform grey is not clipped");
     }
 

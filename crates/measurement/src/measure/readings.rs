@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use etendue_arguments::{region, tile};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::{FilterTile, Photograph, Stated};
+use etendue_io::photograph::{FilterTile, Photograph, SourcedEncoding};
 use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
 
@@ -48,7 +48,7 @@ pub(crate) struct Readings {
     /// Columns and rows of the image, of all colours.
     pub picture_px: (usize, usize),
     /// Conversion from the numbers of the file to light.
-    pub stated: Stated,
+    pub stated: SourcedEncoding,
     /// Side of the blocks of readings with possibly equal errors (path reuse); 1: none.
     pub shared_px: usize,
 }
@@ -65,7 +65,7 @@ impl Readings {
     }
 
     /// Position in the image of a point among the readings: the inverse of [`place`](Self::place).
-    pub(crate) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn in_image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let along = |at: f64, first: usize, period: usize| (at - 0.5) * period as f64 + first as f64 + 0.5;
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
@@ -83,7 +83,7 @@ impl Readings {
             let message = format!("{name}: outside the {columns} × {rows} pixels that are measured");
             return Err(Error::coded(ErrorCode::OutOfRange, message));
         }
-        let at = self.of_region(region);
+        let at = self.tile_region(region);
         let none = || {
             Error::coded(
                 ErrorCode::NotMeasurable,
@@ -93,14 +93,14 @@ impl Readings {
         at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
     }
 
-    fn of_region(&self, [x, y, width, height]: [usize; 4]) -> Option<[usize; 4]> {
+    fn tile_region(&self, [x, y, width, height]: [usize; 4]) -> Option<[usize; 4]> {
         let low = [x, y].map(|v| v as f64);
         self.between(low, [low[0] + width as f64, low[1] + height as f64])
     }
 
     /// Column and row of a [`part`](Self::part)'s first reading.
     pub(crate) fn first_of(&self, region: [usize; 4]) -> [usize; 2] {
-        self.of_region(region).map_or([0, 0], |[x, y, ..]| [x, y])
+        self.tile_region(region).map_or([0, 0], |[x, y, ..]| [x, y])
     }
 
     /// The readings whose pixels are entirely between two corners of the image: left column, top row, width, height.
@@ -127,7 +127,7 @@ fn shared_px(photograph: &Photograph) -> usize {
 
 impl Readings {
     /// Creates one reading for every measured pixel of an image.
-    fn of_every_pixel(image: Image, photograph: &Photograph, light: &ToLight) -> Self {
+    fn from_image(image: Image, photograph: &Photograph, light: &ToLight) -> Self {
         let facts = photograph.raw.as_ref();
         Self {
             full_scale: facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn))),
@@ -142,8 +142,8 @@ impl Readings {
     }
 
     /// Refuses readings whose errors are shared by more than `most` neighbours along a row.
-    pub(crate) fn independent(&self, file: &Path, most: usize) -> Result<(), Error> {
-        if self.shared_px <= most {
+    pub(crate) fn independent(&self, file: &Path, max_block_px: usize) -> Result<(), Error> {
+        if self.shared_px <= max_block_px {
             return Ok(());
         }
         Err(Error::coded(
@@ -175,7 +175,7 @@ impl Selection {
                 format!("{file}: choose the channel to measure with `channel`: {names}"),
             ));
         }
-        self.of(file, &photograph)
+        self.read(file, &photograph)
     }
 
     /// The readings of an image's channel. For a mosaic, those of every place of the colour in the tile, separately, or for
@@ -203,7 +203,7 @@ impl Selection {
 
     /// One channel's readings, linearised if the file is display-encoded.
     pub(crate) fn linear(&self, file: &Path) -> Result<Readings, Error> {
-        self.of(file, &self.encoding.photograph(file)?)
+        self.read(file, &self.encoding.photograph(file)?)
     }
 
     /// Red, green and blue of a colour image, linearised; `None` if it is not in colour.
@@ -214,22 +214,22 @@ impl Selection {
         }
         let one = |name: &str| {
             let channel = Some(name.to_owned());
-            Self { channel, ..self.clone() }.of(file, &photograph)
+            Self { channel, ..self.clone() }.read(file, &photograph)
         };
         Ok(Some([one("R")?, one("G")?, one("B")?]))
     }
 
-    fn of(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
+    fn read(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
         self.nth(file, photograph, 0)
     }
 
     /// For a mosaic, the readings of the colour's nth place in the tile.
     fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
-        let light = ToLight::of(file, photograph)?;
-        let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
+        let light = ToLight::from_photograph(file, photograph)?;
+        let linear = |name: &str| photograph.channel(name).map(|c| light.channel_light(c));
         let samples = match (&self.channel, self.mosaic(photograph)) {
-            (_, Some(_)) => light.of_channel(&photograph.channels[0]),
+            (_, Some(_)) => light.channel_light(&photograph.channels[0]),
             (Some(name), None) => linear(name).ok_or_else(|| no_channel(file, name, &photograph.names()))?,
             (None, None) => luminance(file, photograph, &light)?,
         };
@@ -270,7 +270,7 @@ impl Selection {
         nth: usize,
     ) -> Result<Readings, Error> {
         let area = self.area(photograph);
-        let every = Readings::of_every_pixel(cropped(file, whole(photograph, samples), area)?, photograph, light);
+        let every = Readings::from_image(cropped(file, full_image(photograph, samples), area)?, photograph, light);
         let Some(tile) = self.mosaic(photograph) else { return Ok(every) };
         let period = (tile.columns, tile.channels.len() / tile.columns);
         let (image, first) = self.sites(file, &every.image, &tile, area, nth)?;
@@ -280,10 +280,10 @@ impl Selection {
     /// The readings of all pixels of a mosaic, with its colours balanced.
     fn balanced(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
-        let light = ToLight::of(file, photograph)?;
-        let samples = light.of_channel(&photograph.channels[0]);
-        let mosaic = cropped(file, whole(photograph, samples), self.area(photograph))?;
-        let readings = Readings::of_every_pixel(mosaic, photograph, &light);
+        let light = ToLight::from_photograph(file, photograph)?;
+        let samples = light.channel_light(&photograph.channels[0]);
+        let mosaic = cropped(file, full_image(photograph, samples), self.area(photograph))?;
+        let readings = Readings::from_image(mosaic, photograph, &light);
         Ok(Readings { image: balanced_mosaic(&readings.image, readings.full_scale), ..readings })
     }
 
@@ -304,9 +304,9 @@ impl Selection {
 
     /// The colour filters: as stated by the user, or by the side-car; `None` if there is only one colour.
     fn mosaic(&self, photograph: &Photograph) -> Option<FilterTile> {
-        let told =
+        let stated =
             self.cfa.as_ref().map(|text| FilterTile { columns: 2, channels: text.chars().map(String::from).collect() });
-        let tile = told.or_else(|| photograph.raw.as_ref().map(|facts| facts.filters.clone()))?;
+        let tile = stated.or_else(|| photograph.raw.as_ref().map(|facts| facts.filters.clone()))?;
         (photograph.channels.len() == 1 && tile.channels.len() > 1).then_some(tile)
     }
 
@@ -349,36 +349,36 @@ impl Selection {
 }
 
 /// One channel's numbers as an image.
-fn whole(photograph: &Photograph, samples: Vec<f32>) -> Image {
+fn full_image(photograph: &Photograph, samples: Vec<f32>) -> Image {
     Image::from_samples(photograph.width, photograph.height, samples).expect("a photograph's channels fill it")
 }
 
 /// True if a filter has this name, or the other usual one of its colour.
 fn is_colour(filter: &str, name: &str) -> bool {
-    let usual = [("R", "red"), ("G", "green"), ("B", "blue")];
-    filter == name || usual.iter().any(|(a, b)| (filter, name) == (a, b) || (filter, name) == (b, a))
+    let common_names = [("R", "red"), ("G", "green"), ("B", "blue")];
+    filter == name || common_names.iter().any(|(a, b)| (filter, name) == (a, b) || (filter, name) == (b, a))
 }
 
 fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image, Error> {
     let Some([x, y, width, height]) = area else { return Ok(image) };
     let (columns, rows) = (image.width(), image.height());
     if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
-        let (file, told) = (file.display(), format!("{x},{y},{width},{height}"));
+        let (file, region_text) = (file.display(), format!("{x},{y},{width},{height}"));
         return Err(Error::coded(
             ErrorCode::OutOfRange,
-            format!("{file}: the region {told} is outside the image's {columns} × {rows} pixels"),
+            format!("{file}: the region {region_text} is outside the image's {columns} × {rows} pixels"),
         ));
     }
     Ok(image.part(x, y, width, height))
 }
 
 fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Vec<f32>, Error> {
-    let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
+    let linear = |name: &str| photograph.channel(name).map(|c| light.channel_light(c));
     if let Some(grey) = linear("Y") {
         return Ok(grey);
     }
     if let [only] = &photograph.channels[..] {
-        return Ok(light.of_channel(only));
+        return Ok(light.channel_light(only));
     }
     let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
         return Err(Error::coded(
@@ -440,7 +440,7 @@ pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], columns: usize, rows: usize)
 
 /// Distance of a part's centre from the image centre, relative to the half diagonal.
 pub(crate) fn field_position(at: &[usize; 4], width: usize, height: usize) -> f64 {
-    let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
+    let from = |start: usize, length: usize, full: usize| start as f64 + 0.5 * length as f64 - 0.5 * full as f64;
     let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
     let (w, h) = (0.5 * width as f64, 0.5 * height as f64);
     ((x * x + y * y) / (w * w + h * h)).sqrt()

@@ -5,14 +5,14 @@ use std::{ops::RangeInclusive, path::PathBuf};
 use clap::Args;
 use etendue_arguments::{in_range, point};
 use etendue_charts::design::{Backlit, FlatField};
-use etendue_io::failure::{Error, ErrorCode, check_whole};
+use etendue_io::failure::{Error, ErrorCode, check_integer};
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
 };
 use glam::DVec2;
 
-use super::pictures::{PictureInput, refused};
+use super::pictures::{MeasurementInput, refused};
 use super::readings::Readings;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
@@ -31,13 +31,13 @@ pub struct FlatFieldRequest {
     pub rings: u32,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl FlatFieldRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
-        Self { picture: picture.into(), centre_px: None, rings: 20, input: PictureInput::default() }
+    pub fn new(image: impl Into<PathBuf>) -> Self {
+        Self { picture: image.into(), centre_px: None, rings: 20, input: MeasurementInput::default() }
     }
 }
 
@@ -111,8 +111,8 @@ impl FlatFieldRequest {
     }
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
-        check_whole("rings", self.rings, RINGS)?;
-        check_whole("blocks", blocks, BLOCKS)?;
+        check_integer("rings", self.rings, RINGS)?;
+        check_integer("blocks", blocks, BLOCKS)?;
         let readings = self.input.linear(&self.picture)?;
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
@@ -220,38 +220,38 @@ pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
                 let name = format!("{}, {name}", flat.picture.display());
                 report.note_cut(&name, &channel.image, flat.input.levels.full_scale(channel));
             }
-            let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
-            in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
+            let result = colour_shading([&red.image, &green.image, &blue.image], &settings);
+            in_colour(&mut report, &result.map_err(|e| flat.refused(&e))?);
         }
         None => {
-            let (found, _) = flat.measured(blocks, &mut report)?;
-            extreme(&mut report, "illumination", "minimum illumination", &found.map);
-            report.table(map("illumination_percent", &found.map));
-            report.plot(profile_plot(&[("", &found)]));
+            let (result, _) = flat.measured(blocks, &mut report)?;
+            extreme(&mut report, "illumination", "minimum illumination", &result.map);
+            report.table(map("illumination_percent", &result.map));
+            report.plot(profile_plot(&[("", &result)]));
         }
     }
     Ok(report)
 }
 
-fn in_colour(report: &mut Report, found: &ColourShading) {
-    let [red, blue] = found.extremes();
+fn in_colour(report: &mut Report, result: &ColourShading) {
+    let [red, blue] = result.extremes();
     report.figure("red_percent", "red over green, largest deviation from the centre", "%", red.scaled(100.0));
     report.figure("blue_percent", "blue over green, largest deviation from the centre", "%", blue.scaled(100.0));
     for (key, label, channel) in [("red", "minimum red", 0), ("green", "minimum green", 1), ("blue", "minimum blue", 2)]
     {
-        extreme(report, key, label, &found.channels[channel].map);
+        extreme(report, key, label, &result.channels[channel].map);
     }
-    report.table(map("green_percent", &found.channels[1].map));
-    report.table(map("red_over_green_percent", &found.red));
-    report.table(map("blue_over_green_percent", &found.blue));
-    let [red, green, blue] = &found.channels;
+    report.table(map("green_percent", &result.channels[1].map));
+    report.table(map("red_over_green_percent", &result.red));
+    report.table(map("blue_over_green_percent", &result.blue));
+    let [red, green, blue] = &result.channels;
     report.plot(profile_plot(&[("blue", blue), ("red", red), ("green", green)]));
 }
 
 fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
     let lower = |a: Estimate, b: Estimate| if b.value < a.value { b } else { a };
-    let least = map.iter().flatten().copied().reduce(lower).unwrap_or(Estimate::new(1.0, 0.0));
-    report.figure(&format!("{key}_least_percent"), label, "%", least.scaled(100.0));
+    let min = map.iter().flatten().copied().reduce(lower).unwrap_or(Estimate::new(1.0, 0.0));
+    report.figure(&format!("{key}_least_percent"), label, "%", min.scaled(100.0));
 }
 
 /// A map as a table: one table row per row of blocks.

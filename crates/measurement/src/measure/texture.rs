@@ -6,13 +6,13 @@ use clap::Args;
 use etendue_arguments::point;
 use etendue_charts::design::{DeadLeaves, SiemensStar};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::Stated;
+use etendue_io::photograph::SourcedEncoding;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::{Star, StarPoint, measure_star};
 use etendue_metrology::{Estimate, Image};
 
 use super::encoding::EncodingChoice;
-use super::pictures::{PictureInput, refused};
+use super::pictures::{MeasurementInput, refused};
 use super::readings::{Readings, Selection};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
@@ -37,19 +37,19 @@ pub struct StarRequest {
     pub outer_px: Option<f64>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl StarRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
+    pub fn new(image: impl Into<PathBuf>) -> Self {
         Self {
-            picture: picture.into(),
+            picture: image.into(),
             centre_px: None,
             cycles: None,
             inner_px: None,
             outer_px: None,
-            input: PictureInput::default(),
+            input: MeasurementInput::default(),
         }
     }
 }
@@ -69,22 +69,22 @@ pub struct TextureRequest {
     pub even: Option<PathBuf>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl TextureRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>, reference: impl Into<PathBuf>) -> Self {
-        Self { picture: picture.into(), reference: reference.into(), even: None, input: PictureInput::default() }
+    pub fn new(image: impl Into<PathBuf>, reference: impl Into<PathBuf>) -> Self {
+        Self { picture: image.into(), reference: reference.into(), even: None, input: MeasurementInput::default() }
     }
 }
 
 /// Margin left out at a star's edge: a fraction of its radius, and at least this many pixels of blur.
-const RIM_SHARE: f64 = 0.03;
-const RIM_PX: f64 = 2.0;
+const MARGIN_FRACTION: f64 = 0.03;
+const MARGIN_PX: f64 = 2.0;
 
 /// The star from the arguments or the chart's ground truth; its circles begin where half a cycle fills a pixel.
-fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
+fn star_from_truth(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
     let needed =
@@ -101,12 +101,12 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
         let (centre_px, cycles) = request.centre_px.zip(request.cycles).ok_or_else(needed)?;
         return Ok(star(centre_px, cycles, inner_px, outer_px));
     };
-    let seen = truth.star()?;
-    let nyquist_px = step * f64::from(seen.cycles) / core::f64::consts::PI;
-    let outer_px = request.outer_px.unwrap_or(seen.outer_px - RIM_PX.max(RIM_SHARE * seen.outer_px));
-    let inner_px = request.inner_px.unwrap_or((seen.inner_px + RIM_PX).max(nyquist_px));
+    let visible = truth.star()?;
+    let nyquist_px = step * f64::from(visible.cycles) / core::f64::consts::PI;
+    let outer_px = request.outer_px.unwrap_or(visible.outer_px - MARGIN_PX.max(MARGIN_FRACTION * visible.outer_px));
+    let inner_px = request.inner_px.unwrap_or((visible.inner_px + MARGIN_PX).max(nyquist_px));
     if inner_px + 2.0 > outer_px {
-        let coarse = f64::from(seen.cycles) / (core::f64::consts::TAU * outer_px);
+        let coarse = f64::from(visible.cycles) / (core::f64::consts::TAU * outer_px);
         return Err(refused(
             &request.picture,
             format!(
@@ -115,7 +115,7 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
             ),
         ));
     }
-    Ok(star(seen.centre_px.into(), seen.cycles, inner_px, outer_px))
+    Ok(star(visible.centre_px.into(), visible.cycles, inner_px, outer_px))
 }
 
 /// A Siemens star: response over frequency (ISO 12233).
@@ -125,12 +125,12 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
 pub fn star(request: &StarRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     readings.independent(&request.picture, 1)?;
-    let star = star_told(request, &readings)?;
+    let star = star_from_truth(request, &readings)?;
     let named = |error| refused(&request.picture, error);
     let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
     let step = readings.period.0 as f64;
-    let picture = |at: f64, first: usize| (at - 0.5) * step + first as f64 + 0.5;
-    let (x, y) = (picture(x, readings.first.0), picture(y, readings.first.1));
+    let to_picture = |at: f64, first: usize| (at - 0.5) * step + first as f64 + 0.5;
+    let (x, y) = (to_picture(x, readings.first.0), to_picture(y, readings.first.1));
     let mut report =
         Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
     report.encoding(&readings.stated);
@@ -161,14 +161,14 @@ fn response_plot(title: &str, series: Vec<Series>) -> Plot {
 }
 
 /// An image of the leaves, its saturation level, and the conversion from its numbers to light.
-struct Leaves {
+struct LeavesImage {
     image: Image,
     full_scale: Option<f64>,
-    stated: Stated,
+    stated: SourcedEncoding,
 }
 
 /// An image of the leaves, cropped to them if the chart's ground truth gives their position.
-fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leaves, Error> {
+fn leaves(input: &MeasurementInput, readings: Readings, file: &Path) -> Result<LeavesImage, Error> {
     readings.independent(file, 1)?;
     let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
     let image = match input.truth(&[DeadLeaves::NAME], file, &readings)? {
@@ -177,7 +177,7 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
             .map_err(|error| error.with_field("truth"))?,
         None => readings.image,
     };
-    Ok(Leaves { image, full_scale, stated })
+    Ok(LeavesImage { image, full_scale, stated })
 }
 
 /// Compares a texture such as dead leaves with its reference: response, invented structure, coherence.
@@ -187,22 +187,22 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
 pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let input = &request.input;
     input.check_without_black()?;
-    let seen = |file: &Path| leaves(input, input.linear(file)?, file);
-    let picture = seen(&request.picture)?;
+    let read = |file: &Path| leaves(input, input.linear(file)?, file);
+    let image = read(&request.picture)?;
     // The reference is another kind of image with its own encoding.
     let own = Selection { encoding: EncodingChoice::default(), ..input.selection.clone() };
     let reference = leaves(input, own.linear(&request.reference)?, &request.reference)?;
-    let even = request.even.as_ref().map(|file| seen(file)).transpose()?;
-    let points = measure_texture(&picture.image, &reference.image, even.as_ref().map(|e| &e.image), picture.full_scale);
-    let found = points.map_err(|error| refused(&request.picture, error))?;
-    let points = found.points;
+    let uniform = request.even.as_ref().map(|file| read(file)).transpose()?;
+    let points = measure_texture(&image.image, &reference.image, uniform.as_ref().map(|e| &e.image), image.full_scale);
+    let result = points.map_err(|error| refused(&request.picture, error))?;
+    let points = result.points;
     let mut report =
         Report::new("texture", "response to a texture relative to its reference (± one standard uncertainty)");
-    [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
-    report.note_cut(&request.picture.display().to_string(), &picture.image, picture.full_scale);
-    report.fact("shift_x_px", "shift of the image to the right of the reference, removed", "px", found.shift_px[0]);
-    report.fact("shift_y_px", "shift of the image below the reference, removed", "px", found.shift_px[1]);
-    if even.is_none() {
+    [&image.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
+    report.note_cut(&request.picture.display().to_string(), &image.image, image.full_scale);
+    report.fact("shift_x_px", "shift of the image to the right of the reference, removed", "px", result.shift_px[0]);
+    report.fact("shift_y_px", "shift of the image below the reference, removed", "px", result.shift_px[1]);
+    if uniform.is_none() {
         report.note("without `even`, noise counts as structure in 'direct'");
     }
     let row = |p: &TexturePoint| {
@@ -223,11 +223,11 @@ pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
         ],
         rows: points.iter().map(row).collect(),
     });
-    let kept = points.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
+    let plotted = points.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
     report.plot(response_plot(
         "response to texture (bars: 95 %)",
         vec![
-            Series::with_errors("kept", Mark::Line, kept),
+            Series::with_errors("kept", Mark::Line, plotted),
             Series::new("structure of any kind", Mark::Broken, points.iter().map(|p| (p.frequency, p.direct))),
         ],
     ));

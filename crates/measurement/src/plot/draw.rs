@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use etendue_io::escape::escaped;
 use glam::DVec2;
 
-use super::{BOTTOM, Colour, Fitted, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
+use super::{BOTTOM, Colour, AxisRange, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
 
 /// Colours that people with colour-blindness can distinguish (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
@@ -31,8 +31,8 @@ pub fn svg(plots: &[Plot]) -> String {
 
 struct Drawing<'a> {
     plot: &'a Plot,
-    x: Fitted,
-    y: Fitted,
+    x: AxisRange,
+    y: AxisRange,
     legend: Legend,
 }
 
@@ -41,8 +41,8 @@ impl<'a> Drawing<'a> {
         let points = || plot.series.iter().flat_map(|s| &s.points);
         let mut drawing = Self {
             plot,
-            x: Fitted::new(&plot.x, points().map(|p| p[0])),
-            y: Fitted::new(&plot.y, points().flat_map(|p| [p[1] - p[2], p[1] + p[2]])),
+            x: AxisRange::new(&plot.x, points().map(|p| p[0])),
+            y: AxisRange::new(&plot.y, points().flat_map(|p| [p[1] - p[2], p[1] + p[2]])),
             legend: Legend::below(plot),
         };
         if let Some(legend) = drawing.legend.in_a_corner(&drawing.drawn()) {
@@ -194,7 +194,7 @@ mod tests {
         let in_corner = Drawing::new(&rising);
         assert!(!in_corner.legend.is_below && in_corner.legend.left < 200.0 && in_corner.height() == HEIGHT);
         let crossed = Drawing::new(&all_over);
-        let free = |drawing: &Drawing<'_>| !drawing.drawn().iter().any(|(x, y)| drawing.legend.holds(*x, *y));
+        let free = |drawing: &Drawing<'_>| !drawing.drawn().iter().any(|(x, y)| drawing.legend.covers_point(*x, *y));
         assert!(free(&in_corner) && free(&crossed));
         let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), f64::from(i % 2))).collect();
         let below = plot(&zigzag);

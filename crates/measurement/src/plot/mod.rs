@@ -16,7 +16,7 @@ const TOP: f64 = 44.0;
 const BOTTOM: f64 = 60.0;
 
 /// An axis with its range.
-struct Fitted {
+struct AxisRange {
     scale: Scale,
     /// In the axis's own measure: numbers, or their logarithms.
     low: f64,
@@ -24,7 +24,7 @@ struct Fitted {
     step: f64,
 }
 
-impl Fitted {
+impl AxisRange {
     /// A range that covers the values, rounded to full tick steps.
     fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let measure = |v: f64| if axis.scale == Scale::Log { log10(v) } else { v };
@@ -38,8 +38,8 @@ impl Fitted {
         let margin = if low == high { low.abs().max(1.0) * 0.1 } else { 0.0 };
         let (low, high) = (low - margin, high + margin);
         let step = step(axis.scale, high - low);
-        let wide = |v: f64, round: fn(f64) -> f64| round(v / step) * step;
-        let (low, high) = (wide(low + 1e-9 * step, f64::floor), wide(high - 1e-9 * step, f64::ceil));
+        let rounded = |v: f64, round: fn(f64) -> f64| round(v / step) * step;
+        let (low, high) = (rounded(low + 1e-9 * step, f64::floor), rounded(high - 1e-9 * step, f64::ceil));
         Self { scale: axis.scale, low, high, step }
     }
 
@@ -133,10 +133,10 @@ impl Legend {
         let corners = corners.map(|(left, top)| Self { left, top, is_below: false, ..self });
         corners
             .into_iter()
-            .find(|corner| right >= left && bottom >= top && !drawn.iter().any(|(x, y)| corner.holds(*x, *y)))
+            .find(|corner| right >= left && bottom >= top && !drawn.iter().any(|(x, y)| corner.covers_point(*x, *y)))
     }
 
-    fn holds(&self, x: f64, y: f64) -> bool {
+    fn covers_point(&self, x: f64, y: f64) -> bool {
         let within = |at: f64, from: f64, size: f64| at > from - MARGIN && at < from + size + MARGIN;
         within(x, self.left, self.width) && within(y, self.top, self.height)
     }
@@ -250,19 +250,19 @@ mod tests {
     use super::*;
 
     fn texts(axis: &Axis, values: [f64; 2]) -> Vec<String> {
-        Fitted::new(axis, values.into_iter()).ticks().into_iter().map(|(_, text)| text).collect()
+        AxisRange::new(axis, values.into_iter()).ticks().into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
     fn ticks_are_round_and_enclose_the_data() {
         assert_eq!(texts(&Axis::linear(""), [0.03, 0.97]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"].map(zero));
-        let wanted = ["-150", "-100", "-50", "0", "50", "100", "150", "200", "250", "300"];
-        assert_eq!(texts(&Axis::linear(""), [-130.0, 260.0]), wanted);
+        let expected = ["-150", "-100", "-50", "0", "50", "100", "150", "200", "250", "300"];
+        assert_eq!(texts(&Axis::linear(""), [-130.0, 260.0]), expected);
         assert_eq!(texts(&Axis::log(""), [0.5, 900.0]), ["0.1", "1", "10", "100", "1000"]);
         // A single value: a range around it.
-        let fitted = Fitted::new(&Axis::linear(""), [5.0].into_iter());
+        let fitted = AxisRange::new(&Axis::linear(""), [5.0].into_iter());
         assert!(fitted.place(5.0).is_some_and(|p| p > 0.0 && p < 1.0));
-        assert_eq!(Fitted::new(&Axis::log(""), [1.0, 10.0].into_iter()).place(0.0), None);
+        assert_eq!(AxisRange::new(&Axis::log(""), [1.0, 10.0].into_iter()).place(0.0), None);
     }
 
     fn zero(text: &str) -> &str {

@@ -31,14 +31,14 @@ mod sightings;
 
 use crate::Estimate;
 use crate::fit::{Fit, fit};
-use problem::Bundle;
+use problem::CalibrationProblem;
 
-pub use etendue_projection::model::{CameraModel, Family, Radial};
+pub use etendue_projection::model::{CameraModel, Family, RadialTerms};
 
 pub use outlier_rejection::{MIN_VIEWS, OutlierRejection, calibrate_rejecting_outliers};
 pub use pose::Pose;
-pub use result::{Calibrated, Parameter};
-pub use sightings::{CalibrateError, Options, Sighting, Sightings};
+pub use result::{CalibrationResult, Parameter};
+pub use sightings::{CalibrateError, CalibrationOptions, Sighting, Sightings};
 
 /// Minimum number of points of a view.
 const MIN_POINTS: usize = 6;
@@ -51,16 +51,16 @@ pub fn calibrate(
     views: &[Sightings],
     size_px: [usize; 2],
     family: Family,
-    options: Options,
-) -> Result<Calibrated, CalibrateError> {
-    let found = calibrate_as_stated(views, size_px, family, options)?;
+    options: CalibrationOptions,
+) -> Result<CalibrationResult, CalibrateError> {
+    let result = calibrate_as_stated(views, size_px, family, options)?;
     if let Some(stated) = options.distance {
         // If the fit needs the distance, the views cannot contradict it.
-        if let Ok(free) = solved(views, size_px, family, Options { distance: None, ..options }) {
+        if let Ok(free) = solve(views, size_px, family, CalibrationOptions { distance: None, ..options }) {
             contradiction(stated, &free).map_or(Ok(()), Err)?;
         }
     }
-    Ok(found)
+    Ok(result)
 }
 
 /// Same as [`calibrate`], but accepts a stated distance that contradicts the views.
@@ -71,64 +71,64 @@ pub fn calibrate_as_stated(
     views: &[Sightings],
     size_px: [usize; 2],
     family: Family,
-    options: Options,
-) -> Result<Calibrated, CalibrateError> {
+    options: CalibrationOptions,
+) -> Result<CalibrationResult, CalibrateError> {
     if let Some(view) = views.iter().position(|v| v.points.len() < MIN_POINTS) {
         return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: MIN_POINTS });
     }
     if views.is_empty() {
         return Err(CalibrateError::NoViews);
     }
-    solved(views, size_px, family, options)
+    solve(views, size_px, family, options)
 }
 
-fn solved(
+fn solve(
     views: &[Sightings],
     size_px: [usize; 2],
     family: Family,
-    options: Options,
-) -> Result<Calibrated, CalibrateError> {
-    let mut bundle = Bundle::new(views, size_px, family, options);
-    let start = problem::guess(&bundle).ok_or(CalibrateError::Start)?;
-    let mut found = fit(&bundle, &start)?;
+    options: CalibrationOptions,
+) -> Result<CalibrationResult, CalibrateError> {
+    let mut problem = CalibrationProblem::new(views, size_px, family, options);
+    let start = problem::guess(&problem).ok_or(CalibrateError::Start)?;
+    let mut fitted = fit(&problem, &start)?;
     // The weight of the distance follows from the residuals of the points.
     for _ in 0..options.distance.map_or(0, |_| 2) {
-        bundle.weigh_distance(&found);
-        found = fit(&bundle, &found.parameters)?;
+        problem.weigh_distance(&fitted);
+        fitted = fit(&problem, &fitted.parameters)?;
     }
     if options.robust {
         for _ in 0..5 {
-            bundle.reweigh(&found);
-            found = fit(&bundle, &found.parameters)?;
+            problem.reweigh(&fitted);
+            fitted = fit(&problem, &fitted.parameters)?;
         }
     }
-    found = without_shifts(&mut bundle, found)?;
-    result::result(&bundle, found)
+    fitted = correct_disc_shifts(&mut problem, fitted)?;
+    result::result(&problem, fitted)
 }
 
 /// Returns an error if the distance from the views alone differs from the stated one by more than three standard uncertainties of
 /// the difference.
-fn contradiction(stated: Estimate, free: &Calibrated) -> Option<CalibrateError> {
+fn contradiction(stated: Estimate, free: &CalibrationResult) -> Option<CalibrateError> {
     const LIMIT: f64 = 3.0;
     // The relative uncertainty of the distance equals that of the focal length.
     let focal = free.estimate("fx_px")?;
     let distance = free.poses[0].distance();
     let shown = Estimate::new(distance, distance * focal.standard_uncertainty / focal.value);
     let variance = |e: Estimate| e.standard_uncertainty * e.standard_uncertainty;
-    let joint = (variance(stated) + variance(shown)).sqrt();
-    ((shown.value - stated.value).abs() > LIMIT * joint).then_some(CalibrateError::Distance { stated, shown })
+    let joint_uncertainty = (variance(stated) + variance(shown)).sqrt();
+    ((shown.value - stated.value).abs() > LIMIT * joint_uncertainty).then_some(CalibrateError::Distance { stated, shown })
 }
 
 /// Repeats the fit with the observed positions of the discs' centres.
-fn without_shifts(bundle: &mut Bundle<'_>, mut found: Fit) -> Result<Fit, CalibrateError> {
+fn correct_disc_shifts(problem: &mut CalibrationProblem<'_>, mut fitted: Fit) -> Result<Fit, CalibrateError> {
     const ROUNDS: usize = 6;
-    const STILL_PX: f64 = 1e-4;
+    const MIN_CHANGE_PX: f64 = 1e-4;
     for _ in 0..ROUNDS {
-        let moved = bundle.shift(&found.parameters);
-        if moved < STILL_PX {
+        let moved = problem.shift(&fitted.parameters);
+        if moved < MIN_CHANGE_PX {
             break;
         }
-        found = fit(bundle, &found.parameters)?;
+        fitted = fit(problem, &fitted.parameters)?;
     }
-    Ok(found)
+    Ok(fitted)
 }

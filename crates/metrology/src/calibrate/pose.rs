@@ -9,34 +9,34 @@ use crate::{fit::null_vector, linear::Matrix};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// The rotation.
-    pub turn: DMat3,
+    pub rotation: DMat3,
     /// The chart's origin in the camera's frame, in the caller's unit of length.
-    pub place: DVec3,
+    pub translation: DVec3,
 }
 
 impl Pose {
     /// The pose of a rotation vector (angle in rad times axis; Rodrigues) and a position.
-    pub(super) fn of(numbers: &[f64]) -> Self {
+    pub(super) fn from_numbers(numbers: &[f64]) -> Self {
         let vector = DVec3::new(numbers[0], numbers[1], numbers[2]);
-        Self { turn: turned(vector), place: DVec3::new(numbers[3], numbers[4], numbers[5]) }
+        Self { rotation: rotation_from_vector(vector), translation: DVec3::new(numbers[3], numbers[4], numbers[5]) }
     }
 
     /// Its six parameters.
     pub(super) fn numbers(&self) -> [f64; 6] {
-        let [v, p] = [vector(self.turn), self.place];
+        let [v, p] = [vector(self.rotation), self.translation];
         [v.x, v.y, v.z, p.x, p.y, p.z]
     }
 
     /// A point of the chart in the camera's frame.
     #[must_use]
     pub fn camera(&self, chart: DVec2) -> DVec3 {
-        self.turn.x_axis * chart.x + self.turn.y_axis * chart.y + self.place
+        self.rotation.x_axis * chart.x + self.rotation.y_axis * chart.y + self.translation
     }
 
     /// The distance of the camera from the chart's plane, positive if the chart is in front of it.
     #[must_use]
     pub fn distance(&self) -> f64 {
-        self.turn.z_axis.dot(self.place)
+        self.rotation.z_axis.dot(self.translation)
     }
 
     /// The pose that maps points of the chart to directions, by the homography of least |d × (H x)|; `None` if they do not
@@ -72,14 +72,14 @@ impl Pose {
         let (sum, difference) = (sum.try_normalize()?, difference.try_normalize()?);
         let half = core::f64::consts::FRAC_1_SQRT_2;
         let (x, y) = ((sum + difference) * half, (sum - difference) * half);
-        let turn = DMat3::from_cols(x, y, x.cross(y));
-        let place = place / scale - turn.x_axis * centre.x - turn.y_axis * centre.y;
-        place.is_finite().then_some(Self { turn, place })
+        let rotation = DMat3::from_cols(x, y, x.cross(y));
+        let place = place / scale - rotation.x_axis * centre.x - rotation.y_axis * centre.y;
+        place.is_finite().then_some(Self { rotation, translation: place })
     }
 }
 
 /// The rotation by |v| about v.
-fn turned(v: DVec3) -> DMat3 {
+fn rotation_from_vector(v: DVec3) -> DMat3 {
     let angle = v.length();
     let cross = DMat3::from_cols(v.cross(DVec3::X), v.cross(DVec3::Y), v.cross(DVec3::Z));
     if angle < 1e-8 {
@@ -90,8 +90,8 @@ fn turned(v: DVec3) -> DMat3 {
 }
 
 /// The rotation vector of a rotation of less than half a turn.
-fn vector(turn: DMat3) -> DVec3 {
-    let [x, y, z] = [turn.x_axis, turn.y_axis, turn.z_axis];
+fn vector(rotation: DMat3) -> DVec3 {
+    let [x, y, z] = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
     let twice_sine = DVec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
     let cosine = 0.5 * (x.x + y.y + z.z - 1.0);
     let sine = 0.5 * twice_sine.length();
@@ -103,7 +103,7 @@ fn vector(turn: DMat3) -> DVec3 {
         return 0.5 * twice_sine;
     }
     // Half a turn: 1 + R = 2 a aᵀ, whose longest column is along the axis.
-    let sum = turn + DMat3::IDENTITY;
+    let sum = rotation + DMat3::IDENTITY;
     let axis = [sum.x_axis, sum.y_axis, sum.z_axis]
         .into_iter()
         .fold(DVec3::ZERO, |a, c| if c.length() > a.length() { c } else { a });
@@ -117,20 +117,20 @@ mod tests {
     #[test]
     fn turns_and_vectors_are_each_other_s_inverse() {
         for v in [[0.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.3, -0.2, 0.9], [2.0, 1.0, -1.5], [0.0, 3.12, 0.0]] {
-            let turn = turned(v.into());
-            assert!((turn * turn.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-14));
-            let back = turned(vector(turn));
-            assert!((turn - back).to_cols_array().iter().all(|x| x.abs() < 1e-7), "{v:?}");
+            let rotation = rotation_from_vector(v.into());
+            assert!((rotation * rotation.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-14));
+            let back = rotation_from_vector(vector(rotation));
+            assert!((rotation - back).to_cols_array().iter().all(|x| x.abs() < 1e-7), "{v:?}");
         }
     }
 
     #[test]
     fn exact_directions_give_the_pose_back() {
-        let pose = Pose { turn: turned(DVec3::new(0.3, -0.4, 1.0)), place: DVec3::new(0.1, -0.3, 2.0) };
+        let pose = Pose { rotation: rotation_from_vector(DVec3::new(0.3, -0.4, 1.0)), translation: DVec3::new(0.1, -0.3, 2.0) };
         let points: Vec<_> = (0..30).map(|i| DVec2::new(f64::from(i % 6), f64::from(i / 6)) * 0.1).collect();
-        let seen: Vec<_> = points.iter().map(|p| (*p, pose.camera(*p).normalize())).collect();
-        let found = Pose::direct(&seen).expect("determined");
-        assert!((found.place - pose.place).length() < 1e-9, "{found:?}");
-        assert!((found.turn - pose.turn).to_cols_array().iter().all(|x| x.abs() < 1e-9), "{found:?}");
+        let directions: Vec<_> = points.iter().map(|p| (*p, pose.camera(*p).normalize())).collect();
+        let result = Pose::direct(&directions).expect("determined");
+        assert!((result.translation - pose.translation).length() < 1e-9, "{result:?}");
+        assert!((result.rotation - pose.rotation).to_cols_array().iter().all(|x| x.abs() < 1e-9), "{result:?}");
     }
 }

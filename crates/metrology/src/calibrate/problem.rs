@@ -4,17 +4,17 @@ use etendue_core::maths::f64::exp2;
 use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
 
-use super::{Family, Options, Pose, Sightings};
+use super::{Family, CalibrationOptions, Pose, Sightings};
 use crate::fit::{Fit, Problem};
 use crate::patch_statistics::centroid_shift;
 
 /// Views and the fitted parameters: fx, fy (unless equal), cx, cy (if free), coefficients, then six per view.
 #[derive(Clone, Debug)]
-pub(super) struct Bundle<'a> {
+pub(super) struct CalibrationProblem<'a> {
     pub(super) views: &'a [Sightings],
     pub(super) size_px: [usize; 2],
     pub(super) family: Family,
-    pub(super) options: Options,
+    pub(super) options: CalibrationOptions,
     /// Correction subtracted from each sighting, px.
     shifts: Vec<Vec<DVec2>>,
     /// Square roots of weights.
@@ -24,24 +24,24 @@ pub(super) struct Bundle<'a> {
 }
 
 /// A camera and the poses of its charts.
-pub(super) struct Placed {
+pub(super) struct PosedCamera {
     pub(super) calibration: Calibration,
     pub(super) poses: Vec<Pose>,
 }
 
 /// Weight of an exact distance: a relative error of 10⁻⁴ counts as one pixel, so that the distance holds to about 10⁻⁵ when
 /// points scatter by a tenth of a pixel. A larger weight makes a valley in which the fit hardly moves.
-const EXACT: f64 = 1e4;
+const DISTANCE_WEIGHT: f64 = 1e4;
 /// Assumed standard deviation of a coordinate before the fit, px.
 const FIRST_SIGMA_PX: f64 = 0.1;
 
-impl<'a> Bundle<'a> {
-    pub(super) fn new(views: &'a [Sightings], size_px: [usize; 2], family: Family, options: Options) -> Self {
+impl<'a> CalibrationProblem<'a> {
+    pub(super) fn new(views: &'a [Sightings], size_px: [usize; 2], family: Family, options: CalibrationOptions) -> Self {
         let shifts = views.iter().map(|v| vec![DVec2::ZERO; v.points.len()]).collect();
         let weights = views.iter().map(|v| vec![1.0; v.points.len()]).collect();
-        let mut bundle = Self { views, size_px, family, options, shifts, weights, distance_weight: EXACT };
-        bundle.weigh_by(FIRST_SIGMA_PX);
-        bundle
+        let mut problem = Self { views, size_px, family, options, shifts, weights, distance_weight: DISTANCE_WEIGHT };
+        problem.set_weights(FIRST_SIGMA_PX);
+        problem
     }
 
     /// Names of the parameters before those of the views.
@@ -62,7 +62,7 @@ impl<'a> Bundle<'a> {
 
     /// The parameters of a camera.
     pub(super) fn numbers(&self, matrix: CameraMatrix, coefficients: &[f64]) -> Vec<f64> {
-        let of_name = |name: &str| match name {
+        let initial_value = |name: &str| match name {
             "fx_px" if self.options.square_pixels => Some(0.5 * (matrix.fx + matrix.fy)),
             "fx_px" => Some(matrix.fx),
             "fy_px" => Some(matrix.fy),
@@ -70,7 +70,7 @@ impl<'a> Bundle<'a> {
             "cy_px" => Some(matrix.cy),
             _ => None,
         };
-        self.names().iter().filter_map(|name| of_name(name)).chain(coefficients.iter().copied()).collect()
+        self.names().iter().filter_map(|name| initial_value(name)).chain(coefficients.iter().copied()).collect()
     }
 
     /// The principal point before the fit: as stated, or the image centre.
@@ -93,7 +93,7 @@ impl<'a> Bundle<'a> {
     }
 
     /// A sighting, corrected for the shift of disc centroids.
-    pub(super) fn seen(&self, view: usize, point: usize) -> DVec2 {
+    pub(super) fn corrected_position(&self, view: usize, point: usize) -> DVec2 {
         self.views[view].points[point].at - self.shifts[view][point]
     }
 
@@ -118,13 +118,13 @@ impl<'a> Bundle<'a> {
     pub(super) fn weigh_distance(&mut self, fit: &Fit) {
         let points = |v: usize| &fit.residuals[v][..2 * self.views[v].points.len()];
         let squares: f64 = (0..self.views.len()).flat_map(points).map(|r| r * r).sum();
-        self.weigh_by((squares / fit.degrees_of_freedom as f64).sqrt());
+        self.set_weights((squares / fit.degrees_of_freedom as f64).sqrt());
     }
 
-    fn weigh_by(&mut self, sigma: f64) {
+    fn set_weights(&mut self, sigma: f64) {
         if let Some(distance) = self.options.distance.filter(|d| d.standard_uncertainty > 0.0) {
             let each = distance.standard_uncertainty * (self.views.len() as f64).sqrt();
-            self.distance_weight = (sigma * distance.value / each).min(EXACT);
+            self.distance_weight = (sigma * distance.value / each).min(DISTANCE_WEIGHT);
         }
     }
 
@@ -166,37 +166,37 @@ impl<'a> Bundle<'a> {
     }
 }
 
-impl Problem for Bundle<'_> {
-    type State = Placed;
+impl Problem for CalibrationProblem<'_> {
+    type State = PosedCamera;
 
-    fn state(&self, parameters: &[f64]) -> Option<Placed> {
+    fn state(&self, parameters: &[f64]) -> Option<PosedCamera> {
         let first = self.names().len();
-        let poses = parameters[first..].chunks_exact(6).map(Pose::of).collect();
-        Some(Placed { calibration: self.calibration(parameters)?, poses })
+        let poses = parameters[first..].chunks_exact(6).map(Pose::from_numbers).collect();
+        Some(PosedCamera { calibration: self.calibration(parameters)?, poses })
     }
 
-    fn changed(&self, placed: &Placed, parameters: &[f64], changed: usize) -> Option<Placed> {
+    fn changed(&self, placed: &PosedCamera, parameters: &[f64], changed: usize) -> Option<PosedCamera> {
         let first = self.names().len();
         if changed < first {
             let calibration = self.calibration(parameters)?;
-            return Some(Placed { calibration, poses: placed.poses.clone() });
+            return Some(PosedCamera { calibration, poses: placed.poses.clone() });
         }
         let view = (changed - first) / 6;
         let mut poses = placed.poses.clone();
-        poses[view] = Pose::of(&parameters[first + 6 * view..][..6]);
-        Some(Placed { calibration: placed.calibration.clone(), poses })
+        poses[view] = Pose::from_numbers(&parameters[first + 6 * view..][..6]);
+        Some(PosedCamera { calibration: placed.calibration.clone(), poses })
     }
 
     fn blocks(&self) -> usize {
         self.views.len()
     }
 
-    fn residuals(&self, placed: &Placed, view: usize) -> Option<Vec<f64>> {
+    fn residuals(&self, placed: &PosedCamera, view: usize) -> Option<Vec<f64>> {
         let pose = &placed.poses[view];
         let mut residuals = Vec::with_capacity(2 * self.views[view].points.len() + 1);
         for (p, point) in self.views[view].points.iter().enumerate() {
             let off =
-                (placed.calibration.project(pose.camera(point.chart))? - self.seen(view, p)) * self.weights[view][p];
+                (placed.calibration.project(pose.camera(point.chart))? - self.corrected_position(view, p)) * self.weights[view][p];
             residuals.extend(off.to_array());
         }
         residuals.extend(self.options.distance.map(|d| self.distance_weight * (pose.distance() / d.value - 1.0)));
@@ -225,39 +225,39 @@ impl Problem for Bundle<'_> {
 }
 
 /// Initial guess of all parameters; `None` if no focal length is consistent with the charts.
-pub(super) fn guess(bundle: &Bundle<'_>) -> Option<Vec<f64>> {
+pub(super) fn guess(problem: &CalibrationProblem<'_>) -> Option<Vec<f64>> {
     // From a sixteenth of the image's longer side to sixteen times it, in steps of an eighth of an octave.
     const OCTAVES: i32 = 4;
     const STEPS: i32 = 8;
-    let longer = bundle.size_px[0].max(bundle.size_px[1]) as f64;
+    let longer = problem.size_px[0].max(problem.size_px[1]) as f64;
     let scanned = (-OCTAVES * STEPS..=OCTAVES * STEPS).map(|i| longer * exp2(f64::from(i) / f64::from(STEPS)));
-    let focals: Vec<f64> = bundle.options.focal_px.map_or_else(|| scanned.collect(), |f| vec![f]);
-    let tried = focals.into_iter().filter_map(|f| guess_at(bundle, f));
-    let best = tried.fold(None, |best: Option<(f64, Vec<f64>)>, tried| match best {
-        Some(best) if best.0 <= tried.0 => Some(best),
-        _ => Some(tried),
+    let focals: Vec<f64> = problem.options.focal_px.map_or_else(|| scanned.collect(), |f| vec![f]);
+    let candidates = focals.into_iter().filter_map(|f| guess_at(problem, f));
+    let best = candidates.fold(None, |best: Option<(f64, Vec<f64>)>, candidate| match best {
+        Some(best) if best.0 <= candidate.0 => Some(best),
+        _ => Some(candidate),
     });
     best.map(|(_, numbers)| numbers)
 }
 
 /// The sum of squared distances and the parameters at a focal length.
-fn guess_at(bundle: &Bundle<'_>, focal_px: f64) -> Option<(f64, Vec<f64>)> {
-    let principal = bundle.principal();
+fn guess_at(problem: &CalibrationProblem<'_>, focal_px: f64) -> Option<(f64, Vec<f64>)> {
+    let principal = problem.principal();
     let matrix = CameraMatrix { fx: focal_px, fy: focal_px, skew: 0.0, cx: principal.x, cy: principal.y };
-    let mut numbers = bundle.numbers(matrix, &bundle.family.first());
-    let camera = bundle.calibration(&numbers)?;
-    for view in bundle.views {
-        let seen = view.points.iter().map(|p| Some((p.chart, camera.unproject(p.at)?)));
+    let mut numbers = problem.numbers(matrix, &problem.family.first());
+    let camera = problem.calibration(&numbers)?;
+    for view in problem.views {
+        let directions = view.points.iter().map(|p| Some((p.chart, camera.unproject(p.at)?)));
         // Points beyond the field of the initial guess are skipped.
-        let known: Vec<_> = seen.flatten().collect();
+        let known: Vec<_> = directions.flatten().collect();
         if 2 * known.len() < view.points.len() {
             return None;
         }
         let pose = Pose::direct(&known)?;
         numbers.extend(pose.numbers());
     }
-    let placed = bundle.state(&numbers)?;
-    let all = (0..bundle.blocks()).map(|v| bundle.residuals(&placed, v));
+    let placed = problem.state(&numbers)?;
+    let all = (0..problem.blocks()).map(|v| problem.residuals(&placed, v));
     let squares: f64 = all.collect::<Option<Vec<_>>>()?.iter().flatten().map(|r| r * r).sum();
     squares.is_finite().then_some((squares, numbers))
 }

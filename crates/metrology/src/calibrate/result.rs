@@ -3,7 +3,7 @@
 use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
 
-use super::{CalibrateError, Family, Pose, problem::Bundle, shared};
+use super::{CalibrateError, Family, Pose, problem::CalibrationProblem, shared};
 use crate::fit::{Fit, Problem};
 use crate::{Estimate, linear::Matrix};
 
@@ -18,7 +18,7 @@ pub struct Parameter {
 
 /// A calibrated camera.
 #[derive(Clone, Debug)]
-pub struct Calibrated {
+pub struct CalibrationResult {
     /// The camera.
     pub calibration: Calibration,
     /// Fitted parameters of the camera.
@@ -39,7 +39,7 @@ pub struct Calibrated {
     pub(super) family: Family,
 }
 
-impl Calibrated {
+impl CalibrationResult {
     /// The fitted parameter of a name.
     #[must_use]
     pub fn estimate(&self, name: &str) -> Option<Estimate> {
@@ -94,10 +94,10 @@ impl Calibrated {
 /// Relative standard uncertainty above which a focal length counts as undetermined.
 const FOCAL_LIMIT: f64 = 0.05;
 
-pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, CalibrateError> {
-    let names = bundle.names();
-    let widening = if bundle.options.robust { bundle.widening(&fit) } else { 1.0 };
-    let all = shared::covariance(bundle, &fit);
+pub(super) fn result(problem: &CalibrationProblem<'_>, fit: Fit) -> Result<CalibrationResult, CalibrateError> {
+    let names = problem.names();
+    let widening = if problem.options.robust { problem.widening(&fit) } else { 1.0 };
+    let all = shared::covariance(problem, &fit);
     let mut covariance = Matrix::zeros(names.len(), names.len());
     for i in 0..names.len() {
         for j in 0..names.len() {
@@ -113,15 +113,15 @@ pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, Calibr
     if !unknown.is_empty() {
         return Err(CalibrateError::Undetermined { names: unknown });
     }
-    let placed = bundle.state(&fit.parameters).ok_or(CalibrateError::Start)?;
+    let placed = problem.state(&fit.parameters).ok_or(CalibrateError::Start)?;
     let off = |v: usize, p: usize| {
-        let image = placed.calibration.project(placed.poses[v].camera(bundle.views[v].points[p].chart));
-        image.map(|image| image - bundle.seen(v, p))
+        let image = placed.calibration.project(placed.poses[v].camera(problem.views[v].points[p].chart));
+        image.map(|image| image - problem.corrected_position(v, p))
     };
     let independent = |i: usize| (widening * fit.covariance.at(i, i)).sqrt();
     let residuals_px: Option<Vec<Vec<DVec2>>> =
-        (0..bundle.views.len()).map(|v| (0..bundle.views[v].points.len()).map(|p| off(v, p)).collect()).collect();
-    Ok(Calibrated {
+        (0..problem.views.len()).map(|v| (0..problem.views[v].points.len()).map(|p| off(v, p)).collect()).collect();
+    Ok(CalibrationResult {
         calibration: placed.calibration,
         parameters,
         covariance,
@@ -130,7 +130,7 @@ pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, Calibr
         residuals_px: residuals_px.ok_or(CalibrateError::Start)?,
         sigma_px: fit.sigma,
         degrees_of_freedom: fit.degrees_of_freedom,
-        family: bundle.family,
+        family: problem.family,
     })
 }
 

@@ -19,7 +19,7 @@
 
 use std::collections::BTreeMap;
 
-use super::problem::Bundle;
+use super::problem::CalibrationProblem;
 use crate::fit::{Fit, slopes};
 use crate::linear::{Matrix, Orthogonal, dot};
 
@@ -30,18 +30,18 @@ const KINDS: usize = 4;
 const MAX_STUDENT: f64 = 3.0;
 
 /// A coordinate of the points of a row or column of one view.
-struct Line {
+struct CoordinateLine {
     kind: usize,
     view: usize,
     points: Vec<usize>,
     /// z · r.
     sum: f64,
     /// Jᵀz, and (JᵀJ)⁻¹ of it.
-    pull: Vec<f64>,
+    gradient: Vec<f64>,
     moved: Vec<f64>,
 }
 
-impl Line {
+impl CoordinateLine {
     fn count(&self) -> f64 {
         self.points.len() as f64
     }
@@ -51,16 +51,16 @@ impl Line {
         let same_axis = self.kind / 2 == other.kind / 2;
         let common = || self.points.iter().filter(|p| other.points.binary_search(p).is_ok()).count() as f64;
         let common = if same_axis { common() } else { 0.0 };
-        common - dot(&self.pull, &other.moved)
+        common - dot(&self.gradient, &other.moved)
     }
 }
 
 /// The covariance of a fit's parameters under errors that lines share.
-pub(super) fn covariance(bundle: &Bundle<'_>, fit: &Fit) -> Matrix {
+pub(super) fn covariance(problem: &CalibrationProblem<'_>, fit: &Fit) -> Matrix {
     let unit = unit_covariance(fit);
     let widened = unit.as_ref().and_then(|unit| {
-        let lines = lines(bundle, fit, unit)?;
-        Some(of(unit, &lines, fit))
+        let lines = lines(problem, fit, unit)?;
+        Some(parameter_covariance(unit, &lines, fit))
     });
     let mut covariance = widened.unwrap_or_else(|| fit.covariance.clone());
     let open = (0..fit.parameters.len()).filter(|i| fit.covariance.at(*i, *i).is_infinite());
@@ -78,18 +78,18 @@ fn unit_covariance(fit: &Fit) -> Option<Matrix> {
 }
 
 /// Lines of two points or more.
-fn lines(bundle: &Bundle<'_>, fit: &Fit, unit: &Matrix) -> Option<Vec<Line>> {
-    let slopes = slopes(bundle, &fit.parameters)?;
+fn lines(problem: &CalibrationProblem<'_>, fit: &Fit, unit: &Matrix) -> Option<Vec<CoordinateLine>> {
+    let slopes = slopes(problem, &fit.parameters)?;
     let mut lines = Vec::new();
     for (view, columns) in slopes.iter().enumerate() {
         for direction in AXES {
-            for points in alike(bundle, view, direction) {
+            for points in points_on_lines(problem, view, direction) {
                 lines.extend(AXES.map(|axis| {
                     let at = |list: &[f64]| points.iter().map(|p| list[2 * p + axis]).sum::<f64>();
-                    let mut pull = vec![0.0; fit.parameters.len()];
-                    columns.iter().for_each(|(i, slope)| pull[*i] = at(slope));
-                    let (sum, moved) = (at(&fit.residuals[view]), unit.times(&pull));
-                    Line { kind: 2 * axis + direction, view, points: points.clone(), sum, pull, moved }
+                    let mut gradient = vec![0.0; fit.parameters.len()];
+                    columns.iter().for_each(|(i, slope)| gradient[*i] = at(slope));
+                    let (sum, moved) = (at(&fit.residuals[view]), unit.times(&gradient));
+                    CoordinateLine { kind: 2 * axis + direction, view, points: points.clone(), sum, gradient: pull: gradient, moved }
                 }));
             }
         }
@@ -98,15 +98,15 @@ fn lines(bundle: &Bundle<'_>, fit: &Fit, unit: &Matrix) -> Option<Vec<Line>> {
 }
 
 /// Points of a view that share one of their chart's coordinates.
-fn alike(bundle: &Bundle<'_>, view: usize, direction: usize) -> impl Iterator<Item = Vec<usize>> {
+fn points_on_lines(problem: &CalibrationProblem<'_>, view: usize, direction: usize) -> impl Iterator<Item = Vec<usize>> {
     let mut lines: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
-    for (p, point) in bundle.views[view].points.iter().enumerate() {
+    for (p, point) in problem.views[view].points.iter().enumerate() {
         lines.entry(point.chart[direction].to_bits()).or_default().push(p);
     }
     lines.into_values().filter(|points| points.len() > 1)
 }
 
-fn of(unit: &Matrix, lines: &[Line], fit: &Fit) -> Matrix {
+fn parameter_covariance(unit: &Matrix, lines: &[CoordinateLine], fit: &Fit) -> Matrix {
     let free: [f64; KINDS] = std::array::from_fn(|k| {
         lines.iter().filter(|line| line.kind == k).map(|line| line.product(line) / line.count()).sum()
     });
@@ -117,8 +117,8 @@ fn of(unit: &Matrix, lines: &[Line], fit: &Fit) -> Matrix {
     let mut covariance = Matrix::zeros(n, n);
     for i in 0..n {
         for j in 0..n {
-            let of_lines = |l: &Line| shared[l.kind] * student(free[l.kind]) * l.moved[i] * l.moved[j];
-            *covariance.at_mut(i, j) = variance * unit.at(i, j) + lines.iter().map(of_lines).sum::<f64>();
+            let line_covariance = |l: &CoordinateLine| shared[l.kind] * student(free[l.kind]) * l.moved[i] * l.moved[j];
+            *covariance.at_mut(i, j) = variance * unit.at(i, j) + lines.iter().map(line_covariance).sum::<f64>();
         }
     }
     covariance
@@ -129,14 +129,14 @@ fn student(freedom: f64) -> f64 {
 }
 
 /// σ² and the four τ² of the model.
-fn components(lines: &[Line], fit: &Fit) -> [f64; 1 + KINDS] {
+fn components(lines: &[CoordinateLine], fit: &Fit) -> [f64; 1 + KINDS] {
     let mut moments = Matrix::zeros(1 + KINDS, 1 + KINDS);
-    let mut seen = [0.0; 1 + KINDS];
-    seen[0] = fit.sigma * fit.sigma * fit.degrees_of_freedom as f64;
+    let mut observed = [0.0; 1 + KINDS];
+    observed[0] = fit.sigma * fit.sigma * fit.degrees_of_freedom as f64;
     *moments.at_mut(0, 0) = fit.degrees_of_freedom as f64;
     for line in lines {
         let (row, own) = (1 + line.kind, line.product(line));
-        seen[row] += line.sum * line.sum / line.count();
+        observed[row] += line.sum * line.sum / line.count();
         *moments.at_mut(0, row) += own;
         *moments.at_mut(row, 0) += own / line.count();
         for other in lines.iter().filter(|other| other.view == line.view) {
@@ -144,23 +144,23 @@ fn components(lines: &[Line], fit: &Fit) -> [f64; 1 + KINDS] {
             *moments.at_mut(row, 1 + other.kind) += product * product / line.count();
         }
     }
-    not_negative(&moments, seen)
+    not_negative(&moments, observed)
         .unwrap_or_else(|| std::array::from_fn(|k| if k == 0 { fit.sigma * fit.sigma } else { 0.0 }))
 }
 
 /// The solution with negative components set to 0.
-fn not_negative(moments: &Matrix, seen: [f64; 1 + KINDS]) -> Option<[f64; 1 + KINDS]> {
-    let mut kept: Vec<usize> = (0..=KINDS).filter(|k| moments.at(*k, *k) > 0.0).collect();
+fn not_negative(moments: &Matrix, observed: [f64; 1 + KINDS]) -> Option<[f64; 1 + KINDS]> {
+    let mut active: Vec<usize> = (0..=KINDS).filter(|k| moments.at(*k, *k) > 0.0).collect();
     loop {
-        let rows = kept.iter().map(|i| kept.iter().map(|j| moments.at(*i, *j)).collect::<Vec<f64>>());
-        let values: Vec<f64> = kept.iter().map(|k| seen[*k]).collect();
-        let solved = Orthogonal::of(&Matrix::from_rows(kept.len(), rows), 1e-12)?.solve(&values).parameters;
-        let least = (1..kept.len()).min_by(|a, b| solved[*a].total_cmp(&solved[*b])).filter(|i| solved[*i] < 0.0);
-        let Some(least) = least else {
+        let rows = active.iter().map(|i| active.iter().map(|j| moments.at(*i, *j)).collect::<Vec<f64>>());
+        let values: Vec<f64> = active.iter().map(|k| observed[*k]).collect();
+        let solved = Orthogonal::factor(&Matrix::from_rows(active.len(), rows), 1e-12)?.solve(&values).parameters;
+        let most_negative = (1..active.len()).min_by(|a, b| solved[*a].total_cmp(&solved[*b])).filter(|i| solved[*i] < 0.0);
+        let Some(most_negative) = most_negative else {
             let mut all = [0.0; 1 + KINDS];
-            kept.iter().zip(&solved).for_each(|(k, value)| all[*k] = *value);
+            active.iter().zip(&solved).for_each(|(k, value)| all[*k] = *value);
             return (all[0] > 0.0).then_some(all);
         };
-        kept.remove(least);
+        active.remove(most_negative);
     }
 }

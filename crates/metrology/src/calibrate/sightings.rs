@@ -26,7 +26,7 @@ pub struct Sightings {
 impl Sightings {
     /// The points of a grid with a step of this length on the chart.
     #[must_use]
-    pub fn of_grid(grid: &crate::target::Grid, step: f64) -> Self {
+    pub fn from_grid(grid: &crate::target::Grid, step: f64) -> Self {
         let chart = |[i, j]: [usize; 2]| DVec2::new(i as f64, j as f64) * step;
         let points = grid.nodes.iter().map(|n| Sighting { chart: chart(n.index), at: n.at });
         Self { points: points.collect(), disc_radius: grid.disc_radius_steps.map(|r| r * step) }
@@ -35,7 +35,7 @@ impl Sightings {
 
 /// Known properties.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Options {
+pub struct CalibrationOptions {
     /// True if fx = fy.
     pub square_pixels: bool,
     /// Known principal point, raster coordinates; fitted if `None`.

@@ -14,7 +14,7 @@ mod processing;
 
 use etendue_spectra::colour::{Lab, ciede2000, lab};
 
-use crate::estimate::{Curved, propagate_curved};
+use crate::estimate::{SecondOrderEstimate, propagate_curved};
 use crate::patch_statistics::{patch_statistics, saturated_percent};
 use crate::{Estimate, Image, linear::Normal};
 
@@ -48,7 +48,7 @@ pub struct ColourError {
 
 /// Reason why colours cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ColourFault {
+pub enum ColourMeasurementError {
     /// Too few patches for a matrix.
     #[error("a colour matrix needs at least six patches, not {0}")]
     TooFew(usize),
@@ -89,9 +89,9 @@ pub fn measure_colour(
     full_scale: Option<f64>,
     white: [f64; 3],
     shared_px: usize,
-) -> Result<ColourError, ColourFault> {
+) -> Result<ColourError, ColourMeasurementError> {
     if patches.len() < 6 {
-        return Err(ColourFault::TooFew(patches.len()));
+        return Err(ColourMeasurementError::TooFew(patches.len()));
     }
     patches.iter().try_for_each(|patch| check(patch, full_scale))?;
     let less_black = |e: Estimate| Estimate::new(e.value - black, e.standard_uncertainty);
@@ -100,20 +100,20 @@ pub fn measure_colour(
         .map(|p| p.pixels.iter().map(|c| less_black(patch_statistics(c, shared_px).mean)).collect())
         .collect();
     let values: Vec<f64> = means.iter().flatten().map(|e| e.value).collect();
-    let matrix = fitted(patches, &values).ok_or(ColourFault::Ambiguous)?;
-    let colours = seen(&values, matrix, white);
+    let matrix = fitted(patches, &values).ok_or(ColourMeasurementError::Ambiguous)?;
+    let colours = lab_colours(&values, matrix, white);
     let references: Vec<Lab> = patches.iter().map(|p| lab(p.reference, white)).collect();
     // ΔE00 of each patch, then their mean, from a matrix of the same readings.
     let figures = propagate_curved(&means.concat(), |x| {
-        let colours = seen(x, fitted(patches, x).unwrap_or(matrix), white);
+        let colours = lab_colours(x, fitted(patches, x).unwrap_or(matrix), white);
         let each: Vec<f64> = colours.iter().zip(&references).map(|(c, r)| ciede2000(*c, *r)).collect();
         let mean = each.iter().sum::<f64>() / each.len() as f64;
         each.into_iter().chain([mean]).collect()
     });
-    let mut differences: Vec<Estimate> = figures.into_iter().map(Curved::above_zero).collect();
+    let mut differences: Vec<Estimate> = figures.into_iter().map(SecondOrderEstimate::above_zero).collect();
     let mean = differences.pop().expect("the mean is last");
     if mean.value > MAX_DELTA {
-        return Err(ColourFault::Unlike(mean.value));
+        return Err(ColourMeasurementError::Unlike(mean.value));
     }
     let triple = |c: &Lab| [c.l, c.a, c.b];
     Ok(ColourError {
@@ -126,17 +126,17 @@ pub fn measure_colour(
 }
 
 /// The colours of the readings of all patches.
-fn seen(readings: &[f64], matrix: [[f64; 3]; 3], white: [f64; 3]) -> Vec<Lab> {
+fn lab_colours(readings: &[f64], matrix: [[f64; 3]; 3], white: [f64; 3]) -> Vec<Lab> {
     let xyz = |reading: &[f64]| matrix.map(|row| row.iter().zip(reading).map(|(m, r)| m * r).sum::<f64>());
     readings.chunks_exact(3).map(|reading| lab(xyz(reading), white)).collect()
 }
 
-fn check(patch: &ColourPatch, full_scale: Option<f64>) -> Result<(), ColourFault> {
+fn check(patch: &ColourPatch, full_scale: Option<f64>) -> Result<(), ColourMeasurementError> {
     if patch.pixels.iter().any(|p| p.samples().len() < 4) {
-        return Err(ColourFault::TooSmall(patch.name.clone()));
+        return Err(ColourMeasurementError::TooSmall(patch.name.clone()));
     }
     match saturated_percent(&patch.pixels, full_scale) {
-        Some(percent) => Err(ColourFault::Saturated { name: patch.name.clone(), percent }),
+        Some(percent) => Err(ColourMeasurementError::Saturated { name: patch.name.clone(), percent }),
         None => Ok(()),
     }
 }
@@ -172,25 +172,25 @@ mod tests {
     fn a_camera_that_is_a_matrix_of_xyz_has_no_error() {
         let camera =
             |[x, y, z]: [f64; 3]| [500.0 * x + 90.0 * y, 40.0 * x + 600.0 * y + 20.0 * z, 70.0 * y + 450.0 * z];
-        let found = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE, 1).expect("a chart");
+        let result = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE, 1).expect("a chart");
         // Readings are stored in f32.
-        assert!(found.largest < 1e-3, "{:?}", found.largest);
+        assert!(result.largest < 1e-3, "{:?}", result.largest);
         let white = camera(D65_WHITE);
-        let back = found.matrix.map(|row| row.iter().zip(white).map(|(m, w)| m * w).sum::<f64>());
+        let back = result.matrix.map(|row| row.iter().zip(white).map(|(m, w)| m * w).sum::<f64>());
         assert!(back.iter().zip(D65_WHITE).all(|(a, b)| (a - b).abs() < 1e-5));
     }
 
     #[test]
     fn what_is_no_colour_chart_is_refused() {
         let grey = measure_colour(&patches(|[_, y, _]| [500.0 * y; 3]), 16.0, None, D65_WHITE, 1);
-        assert_eq!(grey, Err(ColourFault::Ambiguous));
+        assert_eq!(grey, Err(ColourMeasurementError::Ambiguous));
         let mut turned = patches(|xyz| xyz.map(|v| 500.0 * v));
         let pixels: Vec<_> = turned.iter().rev().map(|p| p.pixels.clone()).collect();
         turned.iter_mut().zip(pixels).for_each(|(patch, pixels)| patch.pixels = pixels);
         let turned = measure_colour(&turned, 16.0, None, D65_WHITE, 1);
-        assert!(matches!(turned, Err(ColourFault::Unlike(_))), "{turned:?}");
+        assert!(matches!(turned, Err(ColourMeasurementError::Unlike(_))), "{turned:?}");
         let clipped = measure_colour(&patches(|xyz| xyz.map(|v| 1200.0 * v)), 16.0, Some(1000.0), D65_WHITE, 1);
-        assert!(matches!(clipped, Err(ColourFault::Saturated { .. })));
-        assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE, 1), Err(ColourFault::TooFew(0)));
+        assert!(matches!(clipped, Err(ColourMeasurementError::Saturated { .. })));
+        assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE, 1), Err(ColourMeasurementError::TooFew(0)));
     }
 }

@@ -13,11 +13,11 @@
 use etendue_core::maths::f64::hypot;
 use etendue_spectra::colour::{D65_WHITE, lab, linear_srgb_from_xyz};
 
-use super::{ColourFault, ColourPatch, check};
+use super::{ColourMeasurementError, ColourPatch, check};
 use crate::{Estimate, Image, estimate::propagate_curved, linear::Normal, patch_statistics::patch_statistics};
 
 /// Maximum chroma C*ab of a grey patch.
-const GREY: f64 = 5.0;
+const MAX_GREY_CHROMA: f64 = 5.0;
 
 /// Parameters of colour processing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,21 +46,21 @@ pub fn colour_processing(
     black: f64,
     full_scale: Option<f64>,
     shared_px: usize,
-) -> Result<ColourProcessing, ColourFault> {
+) -> Result<ColourProcessing, ColourMeasurementError> {
     if patches.len() < 6 {
-        return Err(ColourFault::TooFew(patches.len()));
+        return Err(ColourMeasurementError::TooFew(patches.len()));
     }
     patches.iter().try_for_each(|patch| check(patch, full_scale))?;
     let mean = |image: &Image| less(patch_statistics(image, shared_px).mean, black);
     let inputs: Vec<Estimate> = patches.iter().flat_map(|p| &p.pixels).map(mean).chain(*white).collect();
     let values: Vec<f64> = inputs.iter().map(|e| e.value).collect();
-    let start = fitted(patches, &values).ok_or(ColourFault::Ambiguous)?;
-    let found = propagate_curved(&inputs, |x| {
+    let start = fitted(patches, &values).ok_or(ColourMeasurementError::Ambiguous)?;
+    let processing = propagate_curved(&inputs, |x| {
         let matrix = fitted(patches, x).unwrap_or(start);
         let factors = balancing(&x[x.len() - 3..]);
         factors.into_iter().chain(matrix.into_iter().flatten()).collect()
     });
-    let at = |k: usize| found[k].first_order;
+    let at = |k: usize| processing[k].first_order;
     Ok(ColourProcessing {
         white_balance: [0, 1, 2].map(at),
         matrix: [0, 1, 2].map(|row| [0, 1, 2].map(|column| at(3 + 3 * row + column))),
@@ -72,19 +72,19 @@ fn less(e: Estimate, black: f64) -> Estimate {
 }
 
 fn balancing(white: &[f64]) -> [f64; 3] {
-    let most = white.iter().copied().fold(0.0, f64::max);
-    [0, 1, 2].map(|k| most / white[k])
+    let max_value = white.iter().copied().fold(0.0, f64::max);
+    [0, 1, 2].map(|k| max_value / white[k])
 }
 
 fn is_grey(patch: &ColourPatch) -> bool {
     let colour = lab(patch.reference, D65_WHITE);
-    hypot(colour.a, colour.b) < GREY
+    hypot(colour.a, colour.b) < MAX_GREY_CHROMA
 }
 
 /// The matrix from the readings of all patches, then of the white.
 fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
-    let (of_patches, white) = readings.split_at(readings.len() - 3);
-    let balanced: Vec<[f64; 3]> = of_patches.chunks_exact(3).map(|y| [0, 1, 2].map(|k| y[k] / white[k])).collect();
+    let (patch_readings, white) = readings.split_at(readings.len() - 3);
+    let balanced: Vec<[f64; 3]> = patch_readings.chunks_exact(3).map(|y| [0, 1, 2].map(|k| y[k] / white[k])).collect();
     let greys = patches.iter().zip(&balanced).filter(|(patch, _)| is_grey(patch));
     let (yc, cc) = greys.fold((0.0, 0.0), |(yc, cc), (p, c)| (yc + p.reference[1] * c[1], cc + c[1] * c[1]));
     let scale = yc / cc;
@@ -124,16 +124,16 @@ mod tests {
             })
             .collect();
         let white = strength.map(|w| Estimate::new(w, 0.0));
-        let found = colour_processing(&patches, &white, 16.0, None, 1).expect("a chart");
+        let result = colour_processing(&patches, &white, 16.0, None, 1).expect("a chart");
         // Readings are stored in f32.
         let near = |a: f64, b: f64, tolerance: f64| assert!((a - b).abs() < tolerance, "{a} {b}");
-        found.white_balance.iter().zip([2.0, 1.0, 1.6]).for_each(|(e, f)| near(e.value, f, 1e-6));
+        result.white_balance.iter().zip([2.0, 1.0, 1.6]).for_each(|(e, f)| near(e.value, f, 1e-6));
         // The chart's greys are not exactly neutral: they determine the scale to 0.3 %.
         for t in [[0.8, 0.1, 0.2], [0.1, 0.6, 0.3], [0.3, 0.2, 0.9]] {
-            let back = found.matrix.map(|row| row.iter().zip(sees(t)).map(|(m, c)| m.value * c).sum::<f64>());
+            let back = result.matrix.map(|row| row.iter().zip(sees(t)).map(|(m, c)| m.value * c).sum::<f64>());
             back.iter().zip(t).for_each(|(a, b)| near(*a, b, 5e-3));
         }
         let balance = white_balance(&white);
-        assert_eq!(balance.map(|e| e.value), found.white_balance.map(|e| e.value));
+        assert_eq!(balance.map(|e| e.value), result.white_balance.map(|e| e.value));
     }
 }

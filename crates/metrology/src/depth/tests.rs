@@ -11,7 +11,7 @@ fn truth() -> Image {
 }
 
 #[test]
-fn errors_are_told_by_range_and_without_edges() {
+fn errors_are_reported_by_range_and_without_edges() {
     let truth = truth();
     // 10 cm too near on the left, 3 m too far on the right, the border blurred, one pixel missing.
     let samples = truth.samples().iter().enumerate().map(|(i, d)| match i % 64 {
@@ -21,7 +21,7 @@ fn errors_are_told_by_range_and_without_edges() {
         _ => d + 3.0,
     });
     let estimate = Image::from_samples(64, 64, samples.collect()).expect("a square");
-    let settings = DepthSettings { focal_base_px_m: Some(300.0), ..DepthSettings::default() };
+    let settings = DepthSettings { focal_baseline_px_m: Some(300.0), ..DepthSettings::default() };
     let report = measure_depth(&estimate, &truth, &settings).expect("depths");
     let near = report.ranges[0].2;
     // Rows 11 to 63 avoid the sky, columns 0 to 28 the jump, less the missing pixel.
@@ -43,7 +43,7 @@ fn errors_are_told_by_range_and_without_edges() {
 }
 
 #[test]
-fn a_factor_is_taken_away_where_asked_for() {
+fn a_factor_is_removed_on_request() {
     let truth = truth();
     let estimate = truth.map(|d| 0.25 * d);
     let settings = DepthSettings { alignment: Alignment::Median, ..DepthSettings::default() };
@@ -83,16 +83,16 @@ fn what_cannot_be_compared_is_refused() {
     assert_eq!(measure(&near, &[9.0, 1.0]), Err(DepthError::Ranges));
     assert_eq!(measure(&truth, &[0.0, 9.0]), Err(DepthError::Same));
     for bad in [f64::NAN, -0.1, f64::INFINITY] {
-        let usual = DepthSettings::default;
+        let default_settings = DepthSettings::default;
         let all = [
-            DepthSettings { outlier_ratio: bad, ..usual() },
-            DepthSettings { outlier_least_m: bad, ..usual() },
-            DepthSettings { edge_ratio: bad, ..usual() },
-            DepthSettings { focal_base_px_m: Some(bad), ..usual() },
+            DepthSettings { outlier_ratio: bad, ..default_settings() },
+            DepthSettings { min_outlier_m: bad, ..default_settings() },
+            DepthSettings { edge_ratio: bad, ..default_settings() },
+            DepthSettings { focal_baseline_px_m: Some(bad), ..default_settings() },
         ];
         for settings in all {
-            let told = measure_depth(&near, &truth, &settings);
-            assert!(matches!(told, Err(DepthError::Setting { .. })), "{settings:?}");
+            let result = measure_depth(&near, &truth, &settings);
+            assert!(matches!(result, Err(DepthError::Setting { .. })), "{settings:?}");
         }
     }
 }

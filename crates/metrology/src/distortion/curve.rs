@@ -7,7 +7,7 @@ use etendue_core::maths::f64::{exp, ln, sin_cos};
 use etendue_stats::normal;
 use glam::DVec2;
 
-use super::Ideal;
+use super::IdealMap;
 use crate::{Estimate, linear::dot, target::Node};
 
 /// A point of the curve.
@@ -29,15 +29,15 @@ const DIRECTIONS: i32 = 72;
 
 /// Maximum distance to the nearest point of the chart, in steps at the centre: half a diagonal, with allowance for tilt and
 /// distortion.
-const NEAR: f64 = 1.5;
+const MAX_POINT_DISTANCE: f64 = 1.5;
 
 /// The curve at steps of 2.5 % of the half diagonal.
-pub(super) fn curve(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<CurvePoint> {
-    let seen: BTreeMap<[i64; 2], DVec2> = nodes.iter().map(|n| (n.index.map(|i| i as i64), n.at)).collect();
-    (1..=STEPS).filter_map(|i| point(ideal, &seen, f64::from(i) / f64::from(STEPS), half_diagonal_px)).collect()
+pub(super) fn curve(ideal: &IdealMap, nodes: &[Node], half_diagonal_px: f64) -> Vec<CurvePoint> {
+    let visible: BTreeMap<[i64; 2], DVec2> = nodes.iter().map(|n| (n.index.map(|i| i as i64), n.at)).collect();
+    (1..=STEPS).filter_map(|i| point(ideal, &visible, f64::from(i) / f64::from(STEPS), half_diagonal_px)).collect()
 }
 
-fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
+fn point(ideal: &IdealMap, visible: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
     let radius = field * half_diagonal_px;
     let place = |i: i32| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));
@@ -47,8 +47,8 @@ fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diago
     // point must also be visible there.
     let within = |at: &DVec2| {
         let chart = ideal.chart(*at).map(|c| c.to_array().map(|c| c.round() as i64));
-        let point = chart.and_then(|chart| seen.get(&chart));
-        point.is_some_and(|p| (*p - *at).length() < NEAR * ideal.step_px())
+        let point = chart.and_then(|chart| visible.get(&chart));
+        point.is_some_and(|p| (*p - *at).length() < MAX_POINT_DISTANCE * ideal.step_px())
     };
     let places: Vec<DVec2> = (0..DIRECTIONS).map(place).filter(within).collect();
     // One direction to each corner of the image.
@@ -99,26 +99,26 @@ pub(super) fn bows(nodes: &[Node], size: [usize; 2], centre: DVec2, height_px: f
 
 /// Distance between the first and the last row that reach from side to side: at the sides (mean) relative to the middle, less 1;
 /// positive for pincushion distortion. The mean of both sides is independent of the chart's tilt to first order.
-pub(super) fn picture_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Option<Estimate> {
+pub(super) fn image_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Option<Estimate> {
     let row = |index: usize| {
         let points: Vec<&Node> = nodes.iter().filter(|n| n.index[1] == index).collect();
         let column = |i: usize| points.iter().find(|n| n.index[0] == i).copied();
         Some([column(0)?, column(columns / 2)?, column(columns.checked_sub(1)?)?])
     };
-    let whole: Vec<[&Node; 3]> = (0..rows).filter_map(row).collect();
-    let (first, last) = (whole.first()?, whole.last()?);
+    let complete_rows: Vec<[&Node; 3]> = (0..rows).filter_map(row).collect();
+    let (first, last) = (complete_rows.first()?, complete_rows.last()?);
     let [left, middle, right] = [0, 1, 2].map(|i| (last[i].at - first[i].at).length());
     let variance = |i: usize| [first, last].iter().map(|r| r[i].uncertainty_px * r[i].uncertainty_px).sum::<f64>();
     let ratio = 0.5 * (left + right) / middle;
     let relative = (0.25 * (variance(0) + variance(2)) + ratio * ratio * variance(1)).sqrt() / middle;
-    (whole.len() > 1 && middle > 0.0).then(|| Estimate::new(ratio - 1.0, relative))
+    (complete_rows.len() > 1 && middle > 0.0).then(|| Estimate::new(ratio - 1.0, relative))
 }
 
 /// px; `None` for fewer than five points.
 fn bow(points: &[DVec2], centre: DVec2) -> Option<f64> {
-    const LEAST: usize = 5;
+    const MIN_LINE_POINTS: usize = 5;
     let (first, last) = (points.first()?, points.last()?);
-    let along = (*last - *first).try_normalize().filter(|_| points.len() >= LEAST)?;
+    let along = (*last - *first).try_normalize().filter(|_| points.len() >= MIN_LINE_POINTS)?;
     let offset = |p: &DVec2| along.perp_dot(*p - *first);
     let largest = points.iter().map(offset).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     let side = offset(&centre);
@@ -144,18 +144,18 @@ pub struct LocalDistortion {
 }
 
 /// Local distortion at every point except those at the centre itself, where the ratio is undefined.
-pub(super) fn all(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<LocalDistortion> {
+pub(super) fn all(ideal: &IdealMap, nodes: &[Node], half_diagonal_px: f64) -> Vec<LocalDistortion> {
     nodes.iter().filter_map(|n| local(ideal, n, half_diagonal_px)).collect()
 }
 
-fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDistortion> {
-    let seen = node.at - ideal.centre();
-    let field = seen.length() / half_diagonal_px;
+fn local(ideal: &IdealMap, node: &Node, half_diagonal_px: f64) -> Option<LocalDistortion> {
+    let offset = node.at - ideal.centre();
+    let field = offset.length() / half_diagonal_px;
     if field <= 0.02 {
         return None;
     }
     let place = ideal.place(node.at)?;
-    let ratio = seen.length() / (place - ideal.centre()).length();
+    let ratio = offset.length() / (place - ideal.centre()).length();
     let relative = ideal.variance(&ideal.log_distance_row(node.at)?).sqrt();
     let distortion = Estimate::new(ratio - 1.0, ratio * relative);
     let (index, uncertainty_px) = (node.index, node.uncertainty_px);
@@ -163,33 +163,33 @@ fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDisto
 }
 
 /// Maximum number of compared points: a regular subset of those that may be the largest.
-const COMPARED: usize = 64;
+const MAX_COMPARED: usize = 64;
 /// Coverage probability of an interval.
-const COVERED: f64 = 0.95;
+const COVERAGE: f64 = 0.95;
 
 /// The largest distortion by magnitude. The selection of the point depends on the same errors as its value. Of the points that
 /// may be the largest within their uncertainties, n in number and with errors equivalent to n′ independent ones (n′ = n²/Σ ρ²ᵢⱼ,
 /// ρ their correlations), the uncertainty is that for which 95 % intervals cover all of them simultaneously (Šidák 1967).
-pub(super) fn largest(ideal: &Ideal, local: &[LocalDistortion]) -> Option<LocalDistortion> {
+pub(super) fn largest(ideal: &IdealMap, local: &[LocalDistortion]) -> Option<LocalDistortion> {
     let size = |l: &LocalDistortion| l.distortion.value.abs();
-    let found = local.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let max_local = local.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
     let may = |l: &&LocalDistortion| {
-        let [u, v] = [l, found].map(|l| l.distortion.standard_uncertainty);
-        size(l) + 2.0 * u >= size(found) - 2.0 * v
+        let [u, v] = [l, max_local].map(|l| l.distortion.standard_uncertainty);
+        size(l) + 2.0 * u >= size(max_local) - 2.0 * v
     };
     let rivals: Vec<&LocalDistortion> = local.iter().filter(may).collect();
-    let every = rivals.len().div_ceil(COMPARED);
+    let every = rivals.len().div_ceil(MAX_COMPARED);
     let rows: Option<Vec<Vec<f64>>> = rivals.iter().step_by(every).map(|l| ideal.log_distance_row(l.at)).collect();
-    let single = exp(ln(COVERED) / independent(ideal, &rows?));
-    let wider = normal::quantile(0.5 * (1.0 + single)) / normal::quantile(0.5 * (1.0 + COVERED));
+    let single = exp(ln(COVERAGE) / independent(ideal, &rows?));
+    let wider = normal::quantile(0.5 * (1.0 + single)) / normal::quantile(0.5 * (1.0 + COVERAGE));
     let u = rivals.iter().map(|l| l.distortion.standard_uncertainty).fold(0.0, f64::max);
-    Some(LocalDistortion { distortion: Estimate::new(found.distortion.value, wider * u), ..*found })
+    Some(LocalDistortion { distortion: Estimate::new(max_local.distortion.value, wider * u), ..*max_local })
 }
 
 /// Effective number of independent errors of several ratios.
-fn independent(ideal: &Ideal, rows: &[Vec<f64>]) -> f64 {
-    let levers: Vec<Vec<f64>> = rows.iter().map(|row| ideal.lever(row)).collect();
-    let covariance = |i: usize, j: usize| dot(&levers[i], &rows[j]);
+fn independent(ideal: &IdealMap, rows: &[Vec<f64>]) -> f64 {
+    let influences: Vec<Vec<f64>> = rows.iter().map(|row| ideal.influence(row)).collect();
+    let covariance = |i: usize, j: usize| dot(&influences[i], &rows[j]);
     let variances: Vec<f64> = (0..rows.len()).map(|i| covariance(i, i)).collect();
     let square = |i: usize, j: usize| covariance(i, j) * covariance(i, j) / (variances[i] * variances[j]);
     let squares: f64 =

@@ -81,11 +81,11 @@ mod tests {
         let h = 1e-3;
         let (zero, count) = (at(0.0, 0.0), 4 + (3..=DEGREE).map(|n| 2 * (n + 1)).sum::<usize>());
         assert_eq!(zero.len(), count);
-        for (k, there) in zero.iter().enumerate() {
+        for (k, at_zero) in zero.iter().enumerate() {
             let second = |a: [f64; 2], b: [f64; 2]| (at(a[0], a[1])[k] + at(b[0], b[1])[k]) / (h * h);
             let (xx, yy) = (second([h, 0.0], [-h, 0.0]), second([0.0, h], [0.0, -h]));
             let xy = 0.25 * (second([h, h], [-h, -h]) - second([h, -h], [-h, h]));
-            assert!(*there == DVec2::ZERO && (at(h, 0.0)[k].length() / h) < 2.0 * h, "{k}");
+            assert!(*at_zero == DVec2::ZERO && (at(h, 0.0)[k].length() / h) < 2.0 * h, "{k}");
             // Fourth powers leave h²; the tilt nearest to a curvature is −(xx.x + xy.y, yy.y + xy.x)/3.
             assert!((xx.x + xy.y).abs() < 1e-5 && (yy.y + xy.x).abs() < 1e-5, "{k}: {xx} {xy} {yy}");
         }

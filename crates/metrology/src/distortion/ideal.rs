@@ -9,12 +9,12 @@
 use glam::{DMat2, DMat3, DVec2};
 
 use super::fields::{self, PLANE};
-use super::{DistortionError, RadialFit, base::Base};
+use super::{DistortionError, RadialFit, base::RadialBase};
 use crate::fit::{Homography, MixedModelFit, fit_mixed_model};
 use crate::{linear::Matrix, patch_statistics::centroid_shift, target::Node};
 
 /// Minimum number of points.
-pub(super) const LEAST: usize = 16;
+pub(super) const MIN_NODES: usize = 16;
 
 /// Minimum error of a coordinate, px: 1 000 px have 1e-13 px of rounding, times thousands of operations.
 const ROUNDING_PX: f64 = 1e-9;
@@ -25,8 +25,8 @@ pub(super) fn chart(node: &Node) -> DVec2 {
 
 /// The map from the image to the ideal image, and the homography between that and the chart.
 #[derive(Clone, Debug)]
-pub struct Ideal {
-    base: Base,
+pub struct IdealMap {
+    base: RadialBase,
     centre: DVec2,
     /// Maximum distance of a point of the chart from the centre, px: the fields' unit.
     reach: f64,
@@ -39,22 +39,22 @@ pub struct Ideal {
     tau: f64,
 }
 
-impl Ideal {
+impl IdealMap {
     /// From points about a centre, starting with two radial fits.
-    pub(super) fn of(nodes: &[Node], centre: DVec2, fits: [&RadialFit; 2], unit: f64) -> Result<Self, DistortionError> {
+    pub(super) fn from_nodes(nodes: &[Node], centre: DVec2, fits: [&RadialFit; 2], unit: f64) -> Result<Self, DistortionError> {
         let reach = nodes.iter().map(|n| (n.at - centre).length()).fold(0.0, f64::max);
-        let whole = |base: &Base| nodes.iter().all(|n| base.slope(n.at).is_some());
+        let is_invertible = |base: &RadialBase| nodes.iter().all(|n| base.slope(n.at).is_some());
         let [a, b] = fits;
         let ordered = if a.rms_px <= b.rms_px { [a, b] } else { [b, a] };
         let choices = [&ordered[..], &ordered[..1], &ordered[1..]];
-        let mut tried = choices.into_iter().filter_map(|fits| Base::of(fits, centre, unit));
-        let start = tried.find(|(base, _)| whole(base)).or_else(|| {
+        let mut candidates = choices.into_iter().filter_map(|fits| RadialBase::from_fits(fits, centre, unit));
+        let start = candidates.find(|(base, _)| is_invertible(base)).or_else(|| {
             let pairs: Vec<[DVec2; 2]> = nodes.iter().map(|n| [chart(n), n.at]).collect();
-            Some((Base::none(centre, unit)?, Homography::direct(&pairs)?))
+            Some((RadialBase::none(centre, unit)?, Homography::direct(&pairs)?))
         });
         // Prior scale of a coordinate's error; lists of exact points have no residuals, and their rounding counts.
         let rough = (ordered[0].rms_px * core::f64::consts::FRAC_1_SQRT_2).max(ROUNDING_PX);
-        let (base, plane) = start.ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
+        let (base, plane) = start.ok_or(DistortionError::Few { points: nodes.len(), least: MIN_NODES })?;
         // The homography's own change affects it again by less than its square.
         const ROUNDS: usize = 2;
         let mut ideal = Self::unfitted(base, centre, reach, plane);
@@ -66,7 +66,7 @@ impl Ideal {
         if covered { Ok(ideal) } else { Err(DistortionError::Centre { centre_px: centre.to_array() }) }
     }
 
-    fn unfitted(base: Base, centre: DVec2, reach: f64, plane: Homography) -> Self {
+    fn unfitted(base: RadialBase, centre: DVec2, reach: f64, plane: Homography) -> Self {
         let covariance = Matrix::zeros(0, 0);
         Self {
             base,
@@ -84,7 +84,7 @@ impl Ideal {
     /// Fits the sizes of the fields, and updates the homography by the residual.
     fn fitted(self, nodes: &[Node], rough: f64) -> Result<Self, DistortionError> {
         let (design, values) =
-            self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
+            self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: MIN_NODES })?;
         let MixedModelFit { parameters, covariance, sigma, tau } =
             fit_mixed_model(&design, &values, PLANE + self.base.count().0)?;
         let plane = self.moved(&parameters[..PLANE]);
@@ -185,8 +185,8 @@ impl Ideal {
     /// Derivatives of the logarithm of the ideal distance at a position by the fields' sizes.
     pub(super) fn log_distance_row(&self, at: DVec2) -> Option<Vec<f64>> {
         let v = self.place(at)? - self.centre;
-        let lever = v / v.length_squared();
-        Some(self.fields(at)?.iter().map(|f| lever.dot(*f)).collect())
+        let influence = v / v.length_squared();
+        Some(self.fields(at)?.iter().map(|f| influence.dot(*f)).collect())
     }
 
     pub(super) fn variance(&self, row: &[f64]) -> f64 {
@@ -194,7 +194,7 @@ impl Ideal {
     }
 
     /// Covariance of the fields' sizes with a quantity that depends on them by a row.
-    pub(super) fn lever(&self, row: &[f64]) -> Vec<f64> {
+    pub(super) fn influence(&self, row: &[f64]) -> Vec<f64> {
         self.covariance.times(row)
     }
 
@@ -206,8 +206,8 @@ impl Ideal {
         let along = |d: DVec2| Some((self.place(node.at + h * d)? - self.place(node.at - h * d)?) * (0.5 / h));
         let back = DMat2::from_cols(along(DVec2::X)?, along(DVec2::Y)?).inverse();
         let image = |point: DVec2| {
-            let wanted = self.plane.image(point)?;
-            (0..STEPS).try_fold(node.at, |at, _| Some(at + back * (wanted - self.place(at)?)))
+            let target = self.plane.image(point)?;
+            (0..STEPS).try_fold(node.at, |at, _| Some(at + back * (target - self.place(at)?)))
         };
         centroid_shift(image, chart(node), radius)
     }

@@ -28,7 +28,7 @@ mod fields;
 mod ideal;
 mod radial;
 
-use etendue_projection::Sense;
+use etendue_projection::DistortionDirection;
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ use crate::{Estimate, calibrate::Sightings};
 
 pub use curve::{CurvePoint, LineBow, LocalDistortion};
 pub use fields::DistortionError;
-pub use ideal::Ideal;
+pub use ideal::IdealMap;
 pub use radial::RadialFit;
 
 /// Distortion of an image.
@@ -48,7 +48,7 @@ pub struct Distortion {
     /// Half the image diagonal, px.
     pub half_diagonal_px: f64,
     /// Map from the image to the ideal image.
-    pub ideal: Ideal,
+    pub ideal: IdealMap,
     /// The curve, at equal steps of field as far as the chart reaches.
     pub curve: Vec<CurvePoint>,
     /// Local distortion at every point of the chart except those at the centre itself.
@@ -71,11 +71,11 @@ impl Distortion {
     /// the curve's point, the ratio from the coefficients, and the normalised error (k = 2).
     #[must_use]
     pub fn largest_difference(&self) -> Option<(CurvePoint, Estimate, f64)> {
-        let beside = |p: &CurvePoint| {
+        let deviation = |p: &CurvePoint| {
             let by_fit = self.backward.ratio(p.field);
             (*p, by_fit, p.ratio.normalised_error(by_fit).abs())
         };
-        self.curve.iter().map(beside).max_by(|a, b| a.2.total_cmp(&b.2))
+        self.curve.iter().map(deviation).max_by(|a, b| a.2.total_cmp(&b.2))
     }
 }
 
@@ -87,11 +87,11 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
     let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
     let centre = centre_px.unwrap_or(0.5 * size);
     let half_diagonal_px = 0.5 * size.length();
-    if grid.nodes.len() < ideal::LEAST {
-        return Err(DistortionError::Few { points: grid.nodes.len(), least: ideal::LEAST });
+    if grid.nodes.len() < ideal::MIN_NODES {
+        return Err(DistortionError::Few { points: grid.nodes.len(), least: ideal::MIN_NODES });
     }
-    let found = without_shifts(grid, centre, half_diagonal_px)?;
-    let Found { nodes, ideal, forward, backward } = found;
+    let fitted_maps = correct_disc_shifts(grid, centre, half_diagonal_px)?;
+    let FittedMaps { nodes, ideal, forward, backward } = fitted_maps;
     let local = curve::all(&ideal, &nodes, half_diagonal_px);
     Ok(Distortion {
         centre_px: centre,
@@ -100,7 +100,7 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
         largest: curve::largest(&ideal, &local),
         local,
         lines: curve::bows(&nodes, grid.size, centre, size.y),
-        height: curve::picture_height(&nodes, grid.size),
+        height: curve::image_height(&nodes, grid.size),
         forward,
         backward,
         ideal,
@@ -108,33 +108,33 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
 }
 
 /// The maps, and the points used to fit them.
-struct Found {
+struct FittedMaps {
     nodes: Vec<Node>,
-    ideal: Ideal,
+    ideal: IdealMap,
     forward: RadialFit,
     backward: RadialFit,
 }
 
 /// The maps of a grid; for discs, centroids are replaced by the discs' centres.
-fn without_shifts(grid: &Grid, centre: DVec2, half_diagonal_px: f64) -> Result<Found, DistortionError> {
+fn correct_disc_shifts(grid: &Grid, centre: DVec2, half_diagonal_px: f64) -> Result<FittedMaps, DistortionError> {
     const ROUNDS: usize = 2;
-    let mut found = maps(grid.nodes.clone(), grid.size, centre, half_diagonal_px)?;
-    let Some(radius) = grid.disc_radius_steps else { return Ok(found) };
+    let mut result = maps(grid.nodes.clone(), grid.size, centre, half_diagonal_px)?;
+    let Some(radius) = grid.disc_radius_steps else { return Ok(result) };
     for _ in 0..ROUNDS {
-        let moved = grid.nodes.par_iter().map(|seen| {
-            let shift = found.ideal.disc_shift(seen, radius).unwrap_or(DVec2::ZERO);
-            Node { at: seen.at - shift, ..*seen }
+        let moved = grid.nodes.par_iter().map(|node| {
+            let shift = result.ideal.disc_shift(node, radius).unwrap_or(DVec2::ZERO);
+            Node { at: node.at - shift, ..*node }
         });
-        found = maps(moved.collect(), grid.size, centre, half_diagonal_px)?;
+        result = maps(moved.collect(), grid.size, centre, half_diagonal_px)?;
     }
-    Ok(found)
+    Ok(result)
 }
 
-fn maps(nodes: Vec<Node>, size: [usize; 2], centre: DVec2, half_diagonal_px: f64) -> Result<Found, DistortionError> {
+fn maps(nodes: Vec<Node>, size: [usize; 2], centre: DVec2, half_diagonal_px: f64) -> Result<FittedMaps, DistortionError> {
     let grid = Grid { nodes, disc_radius_steps: None, size };
-    let points = Sightings::of_grid(&grid, 1.0).points;
+    let points = Sightings::from_grid(&grid, 1.0).points;
     let radial = |sense| RadialFit::of(&points, sense, centre, half_diagonal_px);
-    let (forward, backward) = (radial(Sense::IdealToObserved)?, radial(Sense::ObservedToIdeal)?);
-    let ideal = Ideal::of(&grid.nodes, centre, [&forward, &backward], half_diagonal_px)?;
-    Ok(Found { nodes: grid.nodes, ideal, forward, backward })
+    let (forward, backward) = (radial(DistortionDirection::IdealToObserved)?, radial(DistortionDirection::ObservedToIdeal)?);
+    let ideal = IdealMap::from_nodes(&grid.nodes, centre, [&forward, &backward], half_diagonal_px)?;
+    Ok(FittedMaps { nodes: grid.nodes, ideal, forward, backward })
 }

@@ -1,6 +1,6 @@
 //! k₁ and k₂ of one image of a chart.
 
-use etendue_projection::{RadialDistortion, Sense};
+use etendue_projection::{RadialDistortion, DistortionDirection};
 use glam::{DMat3, DVec2};
 
 use crate::fit::{Fit, FitError, Homography, Problem, fit};
@@ -11,7 +11,7 @@ use crate::{Estimate, calibrate::Sighting};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialFit {
     /// From ideal to observed, or back.
-    pub sense: Sense,
+    pub sense: DistortionDirection,
     /// k₁, per half diagonal squared.
     pub k1: Estimate,
     /// k₂, per half diagonal to the fourth.
@@ -30,7 +30,7 @@ pub struct RadialFit {
 impl RadialFit {
     pub(super) fn of(
         points: &[Sighting],
-        sense: Sense,
+        sense: DistortionDirection,
         centre: DVec2,
         half_diagonal_px: f64,
     ) -> Result<Self, FitError> {
@@ -42,24 +42,24 @@ impl RadialFit {
         let mut numbers = problem.first(&start);
         numbers.extend([0.0; 2]);
         // Without distortion the centre is arbitrary: it is freed after k₁ and k₂ are fitted.
-        let held = fit(&problem, &numbers)?;
-        let numbers = [&held.parameters[..], &centre.to_array()].concat();
+        let fixed_centre = fit(&problem, &numbers)?;
+        let numbers = [&fixed_centre.parameters[..], &centre.to_array()].concat();
         let free = fit(&Radial { free: true, ..problem.clone() }, &numbers).ok();
         // A centre with an uncertainty above a twentieth of the half diagonal counts as undetermined.
         let known = |f: &Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
-        let (found, centre_px) = match free.filter(known) {
-            Some(found) => (found.clone(), [found.estimate(10), found.estimate(11)]),
-            None => (held, [centre.x, centre.y].map(|c| Estimate::new(c, f64::INFINITY))),
+        let (result, centre_px) = match free.filter(known) {
+            Some(result) => (result.clone(), [result.estimate(10), result.estimate(11)]),
+            None => (fixed_centre, [centre.x, centre.y].map(|c| Estimate::new(c, f64::INFINITY))),
         };
-        let squares: f64 = found.residuals.iter().flatten().map(|r| r * r).sum();
+        let squares: f64 = result.residuals.iter().flatten().map(|r| r * r).sum();
         let rms_px = (squares / points.len() as f64).sqrt();
-        let plane = problem.plane(&found.parameters);
+        let plane = problem.plane(&result.parameters);
         let unknown = |i: usize, j: usize| if i == j { f64::INFINITY } else { 0.0 };
-        let fitted = found.parameters.len() - 8;
+        let fitted = result.parameters.len() - 8;
         let covariance =
-            |i: usize, j: usize| if i.max(j) < fitted { found.covariance.at(8 + i, 8 + j) } else { unknown(i, j) };
+            |i: usize, j: usize| if i.max(j) < fitted { result.covariance.at(8 + i, 8 + j) } else { unknown(i, j) };
         let covariance = std::array::from_fn(|i| std::array::from_fn(|j| covariance(i, j)));
-        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, covariance, rms_px, plane })
+        Ok(Self { sense, k1: result.estimate(8), k2: result.estimate(9), centre_px, covariance, rms_px, plane })
     }
 }
 
@@ -85,7 +85,7 @@ fn middle(pairs: &[[DVec2; 2]]) -> (DVec2, f64) {
 #[derive(Clone)]
 struct Radial<'a> {
     points: &'a [Sighting],
-    sense: Sense,
+    sense: DistortionDirection,
     half_diagonal_px: f64,
     centre: DVec2,
     free: bool,

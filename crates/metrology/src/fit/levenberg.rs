@@ -93,8 +93,8 @@ pub enum FitError {
 }
 
 /// Minimum relative decrease of Σ r² that counts as progress.
-const GAIN: f64 = 1e-9;
-const STEPS: usize = 200;
+const MIN_DECREASE: f64 = 1e-9;
+const MAX_STEPS: usize = 200;
 
 /// Fits from an initial guess.
 ///
@@ -108,12 +108,12 @@ pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
         return Err(FitError::Underdetermined { residuals: count, parameters: at.len() });
     }
     let mut lambda = 1e-3;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let (normal, gradient) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
-        let Some(better) = improved(problem, &at, &residuals, &normal, &gradient, &mut lambda) else {
+        let Some(better) = improved_step(problem, &at, &residuals, &normal, &gradient, &mut lambda) else {
             return Ok(finished(at, residuals, &normal, count));
         };
-        let settled = squares(&residuals) - squares(&better.1) <= GAIN * squares(&residuals);
+        let settled = squares(&residuals) - squares(&better.1) <= MIN_DECREASE * squares(&residuals);
         (at, residuals) = better;
         if settled {
             let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
@@ -124,7 +124,7 @@ pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
     let fit = finished(at, residuals, &normal, count);
     // An unbounded valley: the covariance marks undetermined parameters.
     let open = (0..fit.parameters.len()).any(|i| fit.covariance.at(i, i).is_infinite());
-    if open { Ok(fit) } else { Err(FitError::NotConverged { steps: STEPS }) }
+    if open { Ok(fit) } else { Err(FitError::NotConverged { steps: MAX_STEPS }) }
 }
 
 fn evaluate<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Vec<f64>>> {
@@ -137,25 +137,25 @@ fn squares(residuals: &[Vec<f64>]) -> f64 {
     residuals.iter().flatten().map(|r| r * r).sum()
 }
 
-type Point = (Vec<f64>, Vec<Vec<f64>>);
+type Iterate = (Vec<f64>, Vec<Vec<f64>>);
 
 /// The first step, with increasing λ, that lowers the sum of squares; `None` if none does.
-fn improved<P: Problem>(
+fn improved_step<P: Problem>(
     problem: &P,
     at: &[f64],
     residuals: &[Vec<f64>],
     normal: &Matrix,
     gradient: &[f64],
     lambda: &mut f64,
-) -> Option<Point> {
-    const LARGEST: f64 = 1e12;
-    while *lambda < LARGEST {
-        let tried = step(normal, gradient, *lambda).and_then(|step| {
+) -> Option<Iterate> {
+    const MAX_LAMBDA: f64 = 1e12;
+    while *lambda < MAX_LAMBDA {
+        let candidate = step(normal, gradient, *lambda).and_then(|step| {
             let next: Vec<f64> = at.iter().zip(&step).map(|(p, d)| p + d).collect();
-            let found = evaluate(problem, &next)?;
-            (squares(&found) < squares(residuals)).then_some((next, found))
+            let next_residuals = evaluate(problem, &next)?;
+            (squares(&next_residuals) < squares(residuals)).then_some((next, next_residuals))
         });
-        match tried {
+        match candidate {
             Some(better) => {
                 *lambda = (*lambda * 0.1).max(1e-12);
                 return Some(better);
@@ -193,14 +193,14 @@ pub type Columns = Vec<(usize, Vec<f64>)>;
 /// Columns of J, block by block, for the parameters on which a block depends; `None` if they cannot be evaluated.
 pub fn slopes<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Columns>> {
     let blocks = problem.blocks();
-    let here = problem.state(at)?;
+    let base_state = problem.state(at)?;
     let mut columns: Vec<Columns> = vec![Vec::new(); blocks];
     for parameter in 0..at.len() {
         let step = 1e-3 * problem.reach(parameter);
         let moved = |sign: f64| {
             let mut moved = at.to_vec();
             moved[parameter] += sign * step;
-            problem.changed(&here, &moved, parameter)
+            problem.changed(&base_state, &moved, parameter)
         };
         let (up, down) = (moved(1.0)?, moved(-1.0)?);
         for block in (0..blocks).filter(|b| problem.depends(*b, parameter)) {
@@ -240,16 +240,16 @@ fn finished(parameters: Vec<f64>, residuals: Vec<Vec<f64>>, normal: &Matrix, cou
 }
 
 /// Minimum eigenvalue of the scaled normal matrix of a determined direction.
-const LEAST: f64 = 1e-9;
+const MIN_EIGENVALUE: f64 = 1e-9;
 
 fn covariance(normal: &Matrix, variance: f64) -> Matrix {
     let n = normal.rows();
     let scale = scales(normal);
-    let found = eigen(&scaled(normal, &scale));
+    let eigenvalues = eigen(&scaled(normal, &scale));
     let mut covariance = Matrix::zeros(n, n);
     let mut open = vec![false; n];
-    for (value, vector) in found.values.iter().zip(&found.vectors) {
-        if *value < LEAST {
+    for (value, vector) in eigenvalues.values.iter().zip(&eigenvalues.vectors) {
+        if *value < MIN_EIGENVALUE {
             // A component above 1e-3 of a unit vector: smaller ones do not affect a parameter beyond its other uncertainties.
             open.iter_mut().zip(vector).for_each(|(open, v)| *open |= v.abs() > 1e-3);
             continue;
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn the_uncertainty_is_that_of_many_repetitions() {
         use etendue_stats::normal;
-        let (mut squares, mut told, runs) = (0.0, 0.0, 400);
+        let (mut squares, mut estimated, runs) = (0.0, 0.0, 400);
         let mut word = 12_345_u64;
         for _ in 0..runs {
             let noise: Vec<f64> = (0..20)
@@ -331,15 +331,15 @@ mod tests {
                 .collect();
             let rate = fit(&decay(&noise), &[2.0, 0.5]).expect("settles").estimate(1);
             squares += (rate.value - 0.7) * (rate.value - 0.7);
-            told += rate.standard_uncertainty * rate.standard_uncertainty;
+            estimated += rate.standard_uncertainty * rate.standard_uncertainty;
         }
         // Mean squares of 400 runs have a relative standard deviation of √(2/400) = 7 %; the limit is three of them, plus curvature.
-        let ratio = squares / told;
+        let ratio = squares / estimated;
         assert!((ratio - 1.0).abs() < 0.23, "{ratio}");
     }
 
     #[test]
-    fn what_cannot_be_told_apart_is_infinitely_uncertain() {
+    fn indistinguishable_parameters_are_infinitely_uncertain() {
         let problem = Decay { doubled: true, ..decay(&[0.01, -0.01, 0.02, 0.0, -0.02, 0.01, 0.0, -0.01]) };
         let fit = fit(&problem, &[1.0, 0.5, 0.5]).expect("settles");
         assert!(

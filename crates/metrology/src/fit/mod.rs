@@ -84,10 +84,10 @@ fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> DMat3 {
 /// The unit vector v of least |A v|; `None` if it is not unique, to 1e-12 of the largest.
 #[must_use]
 pub fn null_vector(a: &Matrix) -> Option<Vec<f64>> {
-    let found = eigen(&a.gram());
-    let n = found.values.len();
-    let single = found.values[1] > 1e-12 * found.values[n - 1];
-    single.then(|| found.vectors[0].clone())
+    let eigenvalues = eigen(&a.gram());
+    let n = eigenvalues.values.len();
+    let single = eigenvalues.values[1] > 1e-12 * eigenvalues.values[n - 1];
+    single.then(|| eigenvalues.vectors[0].clone())
 }
 
 /// The coefficients, with their covariance.
@@ -104,21 +104,21 @@ pub struct MixedModelFit {
 }
 
 /// Number of steps of the λ series and its first exponent of 4: τ from a sixteenth of σ to two thousand times.
-const RUNGS: i32 = 16;
-const FIRST: i32 = -4;
+const LAMBDA_STEPS: i32 = 16;
+const FIRST_EXPONENT: i32 = -4;
 /// Relative weight below which a step of the series is skipped.
 const MIN_WEIGHT: f64 = 1e-2;
 /// Rounding error of an observation of size 1.
 const ROUNDING: f64 = 1e-12;
 
 /// A λ with its solution.
-struct Rung {
+struct LambdaSolution {
     lambda: f64,
     factor: Cholesky,
     parameters: Vec<f64>,
     variance: f64,
     /// −2 ln L.
-    unlikely: f64,
+    minus_two_log_likelihood: f64,
 }
 
 /// Fits `values` by the columns of `design`, the first `free` of which are free.
@@ -135,17 +135,17 @@ pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<M
     let normal = design.gram();
     let right = transposed_times(design, values);
     let size = dot(values, values);
-    let rungs = (0..RUNGS).filter_map(|i| rung(&normal, &right, size, free, freedom, exp2(2.0 * f64::from(FIRST + i))));
-    let rungs: Vec<Rung> = rungs.collect();
-    let best = rungs.iter().map(|r| r.unlikely).reduce(f64::min).ok_or_else(few)?;
-    let weight = |r: &Rung| exp(0.5 * (best - r.unlikely));
-    let kept: Vec<(f64, &Rung)> = rungs.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > MIN_WEIGHT).collect();
-    let whole: f64 = kept.iter().map(|(w, _)| w).sum();
-    let kept: Vec<(f64, &Rung)> = kept.into_iter().map(|(w, r)| (w / whole, r)).collect();
-    Ok(mean(&kept, freedom))
+    let solutions = (0..LAMBDA_STEPS).filter_map(|i| lambda_solution(&normal, &right, size, free, freedom, exp2(2.0 * f64::from(FIRST_EXPONENT + i))));
+    let solutions: Vec<LambdaSolution> = solutions.collect();
+    let best = solutions.iter().map(|r| r.minus_two_log_likelihood).reduce(f64::min).ok_or_else(few)?;
+    let weight = |r: &LambdaSolution| exp(0.5 * (best - r.minus_two_log_likelihood));
+    let weighted: Vec<(f64, &LambdaSolution)> = solutions.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > MIN_WEIGHT).collect();
+    let total_weight: f64 = weighted.iter().map(|(w, _)| w).sum();
+    let weighted: Vec<(f64, &LambdaSolution)> = weighted.into_iter().map(|(w, r)| (w / total_weight, r)).collect();
+    Ok(mean(&weighted, freedom))
 }
 
-fn rung(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, lambda: f64) -> Option<Rung> {
+fn lambda_solution(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, lambda: f64) -> Option<LambdaSolution> {
     let count = right.len();
     let mut matrix = normal.clone();
     (free..count).for_each(|i| *matrix.at_mut(i, i) += 1.0 / lambda);
@@ -153,19 +153,19 @@ fn rung(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, la
     let parameters = factor.solve(right);
     let left = (size - dot(&parameters, right)).max(ROUNDING * ROUNDING * freedom);
     let unlikely = freedom * ln(left) + factor.ln_determinant() + (count - free) as f64 * ln(lambda);
-    Some(Rung { lambda, factor, parameters, variance: left / freedom, unlikely })
+    Some(LambdaSolution { lambda, factor, parameters, variance: left / freedom, minus_two_log_likelihood: unlikely })
 }
 
 /// The weighted mean over the λ series.
-fn mean(rungs: &[(f64, &Rung)], freedom: f64) -> MixedModelFit {
-    let count = rungs[0].1.parameters.len();
-    let over = |value: &dyn Fn(&Rung) -> f64| rungs.iter().map(|(w, r)| w * value(r)).sum::<f64>();
+fn mean(solutions: &[(f64, &LambdaSolution)], freedom: f64) -> MixedModelFit {
+    let count = solutions[0].1.parameters.len();
+    let over = |value: &dyn Fn(&LambdaSolution) -> f64| solutions.iter().map(|(w, r)| w * value(r)).sum::<f64>();
     let parameters: Vec<f64> = (0..count).map(|i| over(&|r| r.parameters[i])).collect();
     let mut covariance = Matrix::zeros(count, count);
-    for (weight, rung) in rungs {
-        let unit = rung.factor.inverse();
-        let student = weight * rung.variance * freedom / (freedom - 2.0);
-        let off: Vec<f64> = rung.parameters.iter().zip(&parameters).map(|(a, b)| a - b).collect();
+    for (weight, solution) in solutions {
+        let unit = solution.factor.inverse();
+        let student = weight * solution.variance * freedom / (freedom - 2.0);
+        let off: Vec<f64> = solution.parameters.iter().zip(&parameters).map(|(a, b)| a - b).collect();
         for i in 0..count {
             for j in 0..count {
                 *covariance.at_mut(i, j) += student * unit.at(i, j) + weight * off[i] * off[j];
@@ -199,10 +199,10 @@ mod tests {
         let rows = [[2.0, 0.3, 100.0], [-0.2, 1.8, 700.0], [4e-4, -2e-4, 1.0]];
         let truth = Homography { matrix: DMat3::from_cols_array_2d(&rows).transpose() };
         let pairs: Vec<_> = grid().map(|p| [p, truth.image(p).expect("before the plane")]).collect();
-        let found = Homography::direct(&pairs).expect("determined");
+        let homography = Homography::direct(&pairs).expect("determined");
         for [from, to] in &pairs {
             // A thousand pixels, conditioned by normalisation: about a hundred roundings.
-            assert!((found.image(*from).expect("finite") - *to).length() < 1e-9, "{found:?}");
+            assert!((homography.image(*from).expect("finite") - *to).length() < 1e-9, "{homography:?}");
         }
     }
 
@@ -215,30 +215,30 @@ mod tests {
     /// A line plus nine waves of one amplitude, at 40 positions, with noise of 0.1.
     fn line(size: f64, seed: u64) -> (Matrix, Vec<f64>) {
         let mut word = seed.wrapping_mul(977) + 1;
-        let mut draw = || {
+        let mut next_random = || {
             word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             normal::quantile(etendue_core::random::unit_f64(word ^ (word >> 29)).clamp(1e-12, 1.0 - 1e-12))
         };
         let wave = |t: f64, k: usize| etendue_core::maths::f64::cos(std::f64::consts::PI * k as f64 * t);
-        let sizes: Vec<f64> = (0..9).map(|_| size * draw()).collect();
+        let sizes: Vec<f64> = (0..9).map(|_| size * next_random()).collect();
         let row = |i: usize| {
             let t = i as f64 / 40.0;
             [1.0, t].into_iter().chain((1..10).map(|k| wave(t, k))).collect::<Vec<f64>>()
         };
         let rows: Vec<Vec<f64>> = (0..40).map(row).collect();
-        let values = rows.iter().map(|r| 2.0 + 3.0 * r[1] + dot(&r[2..], &sizes) + 0.1 * draw()).collect();
+        let values = rows.iter().map(|r| 2.0 + 3.0 * r[1] + dot(&r[2..], &sizes) + 0.1 * next_random()).collect();
         (Matrix::from_rows(11, rows), values)
     }
 
     /// Mean square error of the slope in standard uncertainties, and the mean uncertainty.
     fn slopes(size: f64) -> (f64, f64) {
-        let found = (0..200).map(|seed| {
+        let results = (0..200).map(|seed| {
             let (design, values) = line(size, seed);
             let fit = fit_mixed_model(&design, &values, 2).expect("40 observations");
             let u = fit.covariance.at(1, 1).sqrt();
             ((fit.parameters[1] - 3.0) / u, u)
         });
-        let (squares, us) = found.fold((0.0, 0.0), |(a, b), (e, u)| (a + e * e, b + u));
+        let (squares, us) = results.fold((0.0, 0.0), |(a, b), (e, u)| (a + e * e, b + u));
         (squares / 200.0, us / 200.0)
     }
 

@@ -35,7 +35,7 @@ mod series;
 mod tests;
 mod time_series;
 
-use crate::patch_statistics::{SATURATED_SHARE, saturated_fraction};
+use crate::patch_statistics::{MAX_SATURATED_FRACTION, saturated_fraction};
 use crate::{Estimate, Image};
 
 pub use pulses::PulseLight;
@@ -122,10 +122,10 @@ pub fn measure_flicker(
     if level.value <= 0.0 {
         return Err(FlickerError::Dark { mean: level.value + black, black });
     }
-    let found = timing.row_time_s.map(|row_time_s| rows::measure(&rows, row_time_s, timing));
-    let seen_hz = found.as_ref().and_then(|rows| rows.found.as_ref()).map(|found| found.frequency_hz);
-    let frames = (frames.len() > 1).then(|| series::measure(&means, timing, seen_hz));
-    Ok(Flicker { level, rows: found, frames })
+    let row_flicker = timing.row_time_s.map(|row_time_s| rows::measure(&rows, row_time_s, timing));
+    let apparent_hz = row_flicker.as_ref().and_then(|rows| rows.bands.as_ref()).map(|band| band.frequency_hz);
+    let frames = (frames.len() > 1).then(|| series::measure(&means, timing, apparent_hz));
+    Ok(Flicker { level, rows: row_flicker, frames })
 }
 
 fn check_timing(timing: &FlickerTiming, frames: usize) -> Result<(), FlickerError> {
@@ -134,9 +134,9 @@ fn check_timing(timing: &FlickerTiming, frames: usize) -> Result<(), FlickerErro
         ("the frame rate (Hz)", timing.frame_rate_hz),
         ("the exposure (s)", timing.exposure_s),
     ];
-    for (what, value) in times {
+    for (name, value) in times {
         if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
-            return Err(FlickerError::Timing { what, value });
+            return Err(FlickerError::Timing { what: name, value });
         }
     }
     if timing.row_time_s.is_none() && frames < 2 { Err(FlickerError::NoTime) } else { Ok(()) }
@@ -156,7 +156,7 @@ fn check_frames(frames: &[Image], timing: &FlickerTiming, full_scale: Option<f64
     }
     // Bands have plateaus of their own: clipping can be detected only with a known full scale.
     let Some(full_scale) = full_scale else { return Ok(()) };
-    let shares = frames.iter().map(|frame| saturated_fraction(frame.samples(), Some(full_scale)));
-    let share = shares.fold(0.0, f64::max);
-    if share > SATURATED_SHARE { Err(FlickerError::Saturated { percent: 100.0 * share }) } else { Ok(()) }
+    let fractions = frames.iter().map(|frame| saturated_fraction(frame.samples(), Some(full_scale)));
+    let fraction = fractions.fold(0.0, f64::max);
+    if fraction > MAX_SATURATED_FRACTION { Err(FlickerError::Saturated { percent: 100.0 * fraction }) } else { Ok(()) }
 }

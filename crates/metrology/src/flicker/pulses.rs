@@ -15,7 +15,7 @@ pub struct PulseLight {
     /// Duty cycle: fraction of the period that a pulse lasts.
     pub duty: Estimate,
     /// Mean light of the pulses relative to the total, including constant light.
-    pub share: Estimate,
+    pub pulsed_fraction: Estimate,
     /// (max − min)/(max + min) as integrated by the exposures.
     pub modulation: Estimate,
 }
@@ -33,7 +33,7 @@ pub(super) struct FittedPulses {
 const DUTIES: u32 = 39;
 
 /// Indices of the parameters: level, pulses over level, frequency, phase of a pulse's middle (periods), duty cycle, then shading.
-const SHARE: usize = 1;
+const PULSED: usize = 1;
 const FREQUENCY: usize = 2;
 const PHASE: usize = 3;
 const DUTY: usize = 4;
@@ -49,7 +49,7 @@ struct PulseProblem<'a> {
 }
 
 /// Allowed excess of the pulse fraction above 1 before the duty cycle is fitted.
-const SHARE_SLACK: f64 = 0.1;
+const PULSED_SLACK: f64 = 0.1;
 
 /// Fits pulses, starting with the frequency and phase of a Fourier series; `None` if none fit, or if two different solutions fit
 /// equally well.
@@ -63,18 +63,18 @@ pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64)
     let values: Vec<f64> = series.values().collect();
     let mut problem =
         PulseProblem { series, values, times: series.times().collect(), shading, exposure_s, start: Vec::new() };
-    let of = |i: u32| problem.begun(frequency_hz, middle, f64::from(i + 1) / f64::from(DUTIES + 1));
-    let (start, _) = (0..DUTIES).filter_map(of).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let start_with_duty = |i: u32| problem.start_values(frequency_hz, middle, f64::from(i + 1) / f64::from(DUTIES + 1));
+    let (start, _) = (0..DUTIES).filter_map(start_with_duty).min_by(|a, b| a.1.total_cmp(&b.1))?;
     // Exposures of half a period cannot distinguish pulses of duty cycle d from those of duty cycle 1 − d with the same middle,
     // less a constant light.
     let [middle, duty] = [PHASE, DUTY].map(|i| start[i]);
-    let dual = problem.begun(frequency_hz, middle, 1.0 - duty).map(|(dual, _)| dual);
-    let found: Vec<FittedPulses> =
+    let dual = problem.start_values(frequency_hz, middle, 1.0 - duty).map(|(dual, _)| dual);
+    let fits: Vec<FittedPulses> =
         [Some(start), dual].into_iter().flatten().filter_map(|start| problem.fit_from(start)).collect();
-    match &found[..] {
+    match &fits[..] {
         [] => None,
         [only] => Some(*only),
-        [a, b, ..] if a.is_another(b) && a.fits_alike(b, problem.values.len()) => None,
+        [a, b, ..] if a.is_another(b) && a.fits_equally(b, problem.values.len()) => None,
         [a, b, ..] => Some(if a.squares <= b.squares { *a } else { *b }),
     }
 }
@@ -86,7 +86,7 @@ impl FittedPulses {
     }
 
     /// True if the readings, `count` of them, do not prefer one fit by two standard deviations.
-    fn fits_alike(&self, other: &Self, count: usize) -> bool {
+    fn fits_equally(&self, other: &Self, count: usize) -> bool {
         (self.squares - other.squares).abs() < 4.0 * self.squares.min(other.squares) / count as f64
     }
 }
@@ -95,28 +95,28 @@ impl FittedPulses {
 /// d T).
 fn extremes(frequency_hz: f64, duty: f64, exposure_s: f64) -> [f64; 2] {
     let periods = exposure_s * frequency_hz;
-    let (whole, rest) = (periods.floor(), periods - periods.floor());
-    [(rest - (1.0 - duty)).max(0.0), rest.min(duty)].map(|part| (whole * duty + part) / (periods * duty))
+    let (whole_periods, rest) = (periods.floor(), periods - periods.floor());
+    [(rest - (1.0 - duty)).max(0.0), rest.min(duty)].map(|part| (whole_periods * duty + part) / (periods * duty))
 }
 
 /// Modulation, with the covariance of pulse fraction, frequency and duty cycle.
-fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
-    let of = |p: [f64; 3]| {
-        let [low, high] = extremes(p[1], p[2], exposure_s).map(|seen| 1.0 - p[0] + p[0] * seen);
+fn modulation_of(fitted: &Fit, exposure_s: f64) -> Estimate {
+    let modulation = |p: [f64; 3]| {
+        let [low, high] = extremes(p[1], p[2], exposure_s).map(|exposed| 1.0 - p[0] + p[0] * exposed);
         (high - low) / (high + low)
     };
-    let places = [SHARE, FREQUENCY, DUTY];
-    let at = places.map(|i| found.parameters[i]);
+    let places = [PULSED, FREQUENCY, DUTY];
+    let at = places.map(|i| fitted.parameters[i]);
     let slope = |i: usize| {
         let step = 1e-6 * at[i];
         let [mut below, mut above] = [at; 2];
         (below[i], above[i]) = (at[i] - step, at[i] + step);
-        (of(above) - of(below)) / (2.0 * step)
+        (modulation(above) - modulation(below)) / (2.0 * step)
     };
     let slopes = [0, 1, 2].map(slope);
     let terms = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
-    let variance: f64 = terms.map(|(i, j)| slopes[i] * found.covariance.at(places[i], places[j]) * slopes[j]).sum();
-    Estimate::new(of(at), variance.max(0.0).sqrt())
+    let variance: f64 = terms.map(|(i, j)| slopes[i] * fitted.covariance.at(places[i], places[j]) * slopes[j]).sum();
+    Estimate::new(modulation(at), variance.max(0.0).sqrt())
 }
 
 impl PulseProblem<'_> {
@@ -124,13 +124,13 @@ impl PulseProblem<'_> {
     /// than three standard uncertainties).
     fn fit_from(&mut self, start: Vec<f64>) -> Option<FittedPulses> {
         self.start = start;
-        let found = fit(&*self, &self.start).ok()?;
-        let [share, duty] = [SHARE, DUTY].map(|i| found.estimate(i));
-        let known = [share, duty].iter().all(|e| e.standard_uncertainty.is_finite());
-        let legal = share.value > 0.0 && share.value <= 1.0 + 3.0 * share.standard_uncertainty;
-        let squares = found.residuals.iter().flatten().map(|r| r * r).sum();
-        let light = PulseLight { duty, share, modulation: modulation_of(&found, self.exposure_s) };
-        (known && legal).then(|| FittedPulses { light, frequency_hz: found.estimate(FREQUENCY), squares })
+        let result = fit(&*self, &self.start).ok()?;
+        let [pulsed, duty] = [PULSED, DUTY].map(|i| result.estimate(i));
+        let known = [pulsed, duty].iter().all(|e| e.standard_uncertainty.is_finite());
+        let is_valid = pulsed.value > 0.0 && pulsed.value <= 1.0 + 3.0 * pulsed.standard_uncertainty;
+        let squares = result.residuals.iter().flatten().map(|r| r * r).sum();
+        let light = PulseLight { duty, pulsed_fraction: pulsed, modulation: modulation_of(&result, self.exposure_s) };
+        (known && is_valid).then(|| FittedPulses { light, frequency_hz: result.estimate(FREQUENCY), squares })
     }
 
     fn waveform(frequency_hz: f64, middle: f64, duty: f64) -> Option<Waveform> {
@@ -139,7 +139,7 @@ impl PulseProblem<'_> {
     }
 
     /// Light that the exposures receive from pulses of mean 1.
-    fn seen(&self, waveform: &Waveform) -> Option<Vec<f64>> {
+    fn exposed_light(&self, waveform: &Waveform) -> Option<Vec<f64>> {
         let over =
             |(time_s, _): &(f64, f64)| Some(waveform.mean(TimeInterval::new(*time_s, time_s + self.exposure_s)?));
         self.times.iter().map(over).collect()
@@ -147,16 +147,16 @@ impl PulseProblem<'_> {
 
     /// Parameters for a duty cycle, and the sum of squares of their residuals; `None` if the pulses or the remaining light would be
     /// negative.
-    fn begun(&self, frequency_hz: f64, middle: f64, duty: f64) -> Option<(Vec<f64>, f64)> {
-        let seen = self.seen(&Self::waveform(frequency_hz, middle, duty)?)?;
-        let columns = [&[vec![1.0; seen.len()], seen], &self.shading[..]].concat();
+    fn start_values(&self, frequency_hz: f64, middle: f64, duty: f64) -> Option<(Vec<f64>, f64)> {
+        let exposed = self.exposed_light(&Self::waveform(frequency_hz, middle, duty)?)?;
+        let columns = [&[vec![1.0; exposed.len()], exposed], &self.shading[..]].concat();
         let (coefficients, squares) = explained(self.series, &columns)?;
         let level = coefficients[0] + coefficients[1];
-        let share = coefficients[1] / level;
-        let legal = level > 0.0 && share > 0.0 && share <= 1.0 + SHARE_SLACK;
-        let head = [level, share, frequency_hz, middle, duty];
+        let pulsed = coefficients[1] / level;
+        let is_valid = level > 0.0 && pulsed > 0.0 && pulsed <= 1.0 + PULSED_SLACK;
+        let head = [level, pulsed, frequency_hz, middle, duty];
         let all = [&head[..], &coefficients[2..]].concat();
-        legal.then_some((all, squares))
+        is_valid.then_some((all, squares))
     }
 }
 
@@ -164,14 +164,14 @@ impl Problem for PulseProblem<'_> {
     type State = Vec<f64>;
 
     fn state(&self, parameters: &[f64]) -> Option<Vec<f64>> {
-        let [level, share, frequency_hz, middle, duty] = *parameters.first_chunk::<5>()?;
-        let legal = duty > 1e-4 && duty < 1.0 - 1e-4 && frequency_hz > 0.0;
-        let seen = self.seen(&legal.then(|| Self::waveform(frequency_hz, middle, duty)).flatten()?)?;
+        let [level, pulsed, frequency_hz, middle, duty] = *parameters.first_chunk::<5>()?;
+        let is_valid = duty > 1e-4 && duty < 1.0 - 1e-4 && frequency_hz > 0.0;
+        let exposed = self.exposed_light(&is_valid.then(|| Self::waveform(frequency_hz, middle, duty)).flatten()?)?;
         let shading = |i: usize| -> f64 {
             self.shading.iter().zip(&parameters[SHADING..]).map(|(column, c)| c * column[i]).sum()
         };
-        let of = |(i, seen): (usize, f64)| level * (1.0 - share + share * seen) + shading(i);
-        Some(seen.into_iter().enumerate().map(of).collect())
+        let row_value = |(i, value): (usize, f64)| level * (1.0 - pulsed + pulsed * value) + shading(i);
+        Some(exposed.into_iter().enumerate().map(row_value).collect())
     }
 
     fn blocks(&self) -> usize {
@@ -188,7 +188,7 @@ impl Problem for PulseProblem<'_> {
 
     fn reach(&self, parameter: usize) -> f64 {
         match parameter {
-            SHARE => 0.1,
+            PULSED => 0.1,
             FREQUENCY => 0.1 / self.series.length_s(),
             PHASE | DUTY => 0.1,
             _ => 0.1 * self.start[0],

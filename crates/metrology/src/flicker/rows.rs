@@ -10,13 +10,13 @@ use super::time_series::{FourierFit, TimeSeries, criterion};
 use crate::Estimate;
 
 /// Minimum attenuation factor of the fundamental by an exposure that is still corrected.
-const LEAST_LEFT: f64 = 0.05;
+const MIN_ATTENUATION: f64 = 0.05;
 
 /// Bands over the rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowFlicker {
     /// Detected bands; `None` if none are significant.
-    pub found: Option<RowBands>,
+    pub bands: Option<RowBands>,
     /// Lowest detectable frequency, Hz: one and a half periods in all.
     pub lowest_hz: f64,
     /// Highest detectable frequency, Hz: two rows per period.
@@ -48,19 +48,19 @@ pub(super) fn measure(rows: &[Vec<f64>], row_time_s: f64, timing: &FlickerTiming
     let highest_hz = 0.5 / row_time_s;
     let block =
         |(n, values): (usize, &Vec<f64>)| (timing.frame_rate_hz.map_or(0.0, |rate| n as f64 / rate), values.clone());
-    let together = timing.frame_rate_hz.is_some() || rows.len() == 1;
-    let of = |blocks: Vec<(f64, Vec<f64>)>| TimeSeries { blocks, step_s: row_time_s };
-    let all: Vec<TimeSeries> = match together {
-        true => vec![of(rows.iter().enumerate().map(block).collect())],
-        false => rows.iter().map(|values| of(vec![(0.0, values.clone())])).collect(),
+    let same_clock = timing.frame_rate_hz.is_some() || rows.len() == 1;
+    let row_series = |blocks: Vec<(f64, Vec<f64>)>| TimeSeries { blocks, step_s: row_time_s };
+    let all: Vec<TimeSeries> = match same_clock {
+        true => vec![row_series(rows.iter().enumerate().map(block).collect())],
+        false => rows.iter().map(|values| row_series(vec![(0.0, values.clone())])).collect(),
     };
-    let found = joined(&all.iter().filter_map(|series| bands(series, timing)).collect::<Vec<_>>());
+    let row_bands = joined(&all.iter().filter_map(|series| bands(series, timing)).collect::<Vec<_>>());
     let lowest_hz = all.iter().map(TimeSeries::lowest_hz).fold(f64::INFINITY, f64::min);
-    RowFlicker { found, lowest_hz, highest_hz }
+    RowFlicker { bands: row_bands, lowest_hz, highest_hz }
 }
 
 fn bands(series: &TimeSeries, timing: &FlickerTiming) -> Option<RowBands> {
-    let fit = series.found(0.5 / series.step_s).filter(|fit| fit.mean() > 0.0)?;
+    let fit = series.find_frequency(0.5 / series.step_s).filter(|fit| fit.mean() > 0.0)?;
     let frequency_hz = fit.frequency_hz;
     let pulses = timing.exposure_s.and_then(|exposure_s| pulses(series, &fit, exposure_s));
     let frequency_hz = pulses.as_ref().map_or(frequency_hz, |(_, frequency_hz)| *frequency_hz);
@@ -81,15 +81,15 @@ fn bands(series: &TimeSeries, timing: &FlickerTiming) -> Option<RowBands> {
 fn undone(fit: &FourierFit, exposure_s: f64) -> Option<Estimate> {
     let x = PI * fit.frequency_hz.value * exposure_s;
     let left = (sin(x) / x).abs();
-    (left >= LEAST_LEFT).then(|| fit.amplitude_ratio().scaled(1.0 / left))
+    (left >= MIN_ATTENUATION).then(|| fit.amplitude_ratio().scaled(1.0 / left))
 }
 
 /// Pulses, if the criterion prefers them to the series.
 fn pulses(series: &TimeSeries, fit: &FourierFit, exposure_s: f64) -> Option<(PulseLight, Estimate)> {
-    let found = pulses::fitted(series, fit, exposure_s)?;
-    let of_series = criterion(fit.squares, fit.count, fit.parameters);
-    let of_pulses = criterion(found.squares, fit.count, fit.level_parameters() + 4);
-    (of_pulses < of_series).then_some((found.light, found.frequency_hz))
+    let fitted_pulses = pulses::fitted(series, fit, exposure_s)?;
+    let fourier_criterion = criterion(fit.squares, fit.count, fit.parameters);
+    let pulse_criterion = criterion(fitted_pulses.squares, fit.count, fit.level_parameters() + 4);
+    (pulse_criterion < fourier_criterion).then_some((fitted_pulses.light, fitted_pulses.frequency_hz))
 }
 
 /// For frames at unknown times: the mean of each quantity over the frames that have it.
@@ -98,9 +98,9 @@ fn joined(each: &[RowBands]) -> Option<RowBands> {
     if each.len() == 1 {
         return Some(first.clone());
     }
-    let mean = |of: fn(&RowBands) -> Option<Estimate>| weighted_mean(&each.iter().filter_map(of).collect::<Vec<_>>());
+    let mean = |quantity: fn(&RowBands) -> Option<Estimate>| weighted_mean(&each.iter().filter_map(quantity).collect::<Vec<_>>());
     let duty = mean(|bands| bands.pulses.map(|pulses| pulses.duty));
-    let share = mean(|bands| bands.pulses.map(|pulses| pulses.share));
+    let pulsed = mean(|bands| bands.pulses.map(|pulses| pulses.pulsed_fraction));
     let modulation = mean(|bands| bands.pulses.map(|pulses| pulses.modulation));
     Some(RowBands {
         frequency_hz: mean(|bands| Some(bands.frequency_hz))?,
@@ -108,9 +108,9 @@ fn joined(each: &[RowBands]) -> Option<RowBands> {
         modulation: mean(|bands| Some(bands.modulation))?,
         amplitude_ratio: mean(|bands| Some(bands.amplitude_ratio))?,
         light_amplitude_ratio: mean(|bands| bands.light_amplitude_ratio),
-        pulses: duty.zip(share).zip(modulation).map(|((duty, share), modulation)| PulseLight {
+        pulses: duty.zip(pulsed).zip(modulation).map(|((duty, pulsed), modulation)| PulseLight {
             duty,
-            share,
+            pulsed_fraction: pulsed,
             modulation,
         }),
         ..first.clone()

@@ -53,7 +53,7 @@ pub struct FrameFlicker {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFrequency {
     /// Apparent frequency, up to half the frame rate, Hz.
-    pub seen_hz: Estimate,
+    pub apparent_hz: Estimate,
     /// Amplitude of the fundamental over the mean.
     pub amplitude_ratio: Estimate,
     /// Frame rate, Hz: the light's frequency is a multiple of it plus or minus the apparent one.
@@ -63,11 +63,11 @@ pub struct FrameFrequency {
 impl FrameFrequency {
     /// Indistinguishable frequencies (aliases), with their multiple of the frame rate: the lowest `count`.
     #[must_use]
-    pub fn alike(&self, count: usize) -> Vec<(u32, f64)> {
+    pub fn aliases(&self, count: usize) -> Vec<(u32, f64)> {
         let orders = (0_u32..).flat_map(|k| {
             let base = f64::from(k) * self.frame_rate_hz;
-            let below = (k > 0).then_some((k, base - self.seen_hz.value));
-            below.into_iter().chain([(k, base + self.seen_hz.value)])
+            let below = (k > 0).then_some((k, base - self.apparent_hz.value));
+            below.into_iter().chain([(k, base + self.apparent_hz.value)])
         });
         orders.take(count).collect()
     }
@@ -77,8 +77,8 @@ pub(super) fn measure(means: &[Estimate], timing: &FlickerTiming, rows_hz: Optio
     let values: Vec<f64> = means.iter().map(|mean| mean.value).collect();
     let frequency = timing.frame_rate_hz.filter(|_| means.len() >= MIN_FRAMES).and_then(|frame_rate_hz| {
         let series = TimeSeries { blocks: vec![(0.0, values)], step_s: 1.0 / frame_rate_hz };
-        let fit = series.found(0.5 * frame_rate_hz).filter(|fit| fit.mean() > 0.0)?;
-        Some(FrameFrequency { seen_hz: fit.frequency_hz, amplitude_ratio: fit.amplitude_ratio(), frame_rate_hz })
+        let fit = series.find_frequency(0.5 * frame_rate_hz).filter(|fit| fit.mean() > 0.0)?;
+        Some(FrameFrequency { apparent_hz: fit.frequency_hz, amplitude_ratio: fit.amplitude_ratio(), frame_rate_hz })
     });
     let beat = |(rate, f): (f64, Estimate)| {
         Estimate::new((f.value - (f.value / rate).round() * rate).abs(), f.standard_uncertainty)
@@ -92,8 +92,8 @@ fn extremes(means: &[Estimate]) -> Estimate {
         return Estimate::new(0.0, f64::INFINITY);
     };
     let total = high.value + low.value;
-    let [of_high, of_low] = [low.value * high.standard_uncertainty, high.value * low.standard_uncertainty];
-    let u = 2.0 * (of_high * of_high + of_low * of_low).sqrt() / (total * total);
+    let [high_part, low_part] = [low.value * high.standard_uncertainty, high.value * low.standard_uncertainty];
+    let u = 2.0 * (high_part * high_part + low_part * low_part).sqrt() / (total * total);
     Estimate::new((high.value - low.value) / total, u)
 }
 

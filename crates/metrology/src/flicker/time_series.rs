@@ -12,12 +12,12 @@ const MAX_HARMONICS: usize = 7;
 /// Minimum number of periods that distinguishes shading from bands.
 const PERIODS_FOR_SHADING: f64 = 3.0;
 /// Maximum error of a frequency, in multiples of the frame rate to either side, that is considered.
-const MAX_ALIKE: f64 = 64.0;
+const MAX_ALIAS: f64 = 64.0;
 /// Minimum number of periods of a detectable frequency.
 const MIN_PERIODS: f64 = 1.5;
 /// Minimum improvement of the criterion by the fundamental, in addition to that for the number of frequencies tried, and by a
 /// frequency relative to its aliases over frames: exceeded by chance in one of 150.
-const LEAST_GAIN: f64 = 10.0;
+const MIN_GAIN: f64 = 10.0;
 
 /// Blocks of numbers at equal steps: rows of frames, or frames.
 #[derive(Clone, Debug)]
@@ -121,39 +121,39 @@ impl TimeSeries {
 
     /// The frequency that explains most, with its harmonics; `None` if none is significant, or if it cannot be distinguished from
     /// others.
-    pub(super) fn found(&self, highest_hz: f64) -> Option<FourierFit> {
-        let told = |fit: &FourierFit| {
+    pub(super) fn find_frequency(&self, highest_hz: f64) -> Option<FourierFit> {
+        let is_valid = |fit: &FourierFit| {
             fit.frequency_hz.value >= self.lowest_hz() && fit.frequency_hz.standard_uncertainty.is_finite()
         };
-        self.strongest_fit(highest_hz).filter(told)
+        self.strongest_fit(highest_hz).filter(is_valid)
     }
 
     fn strongest_fit(&self, highest_hz: f64) -> Option<FourierFit> {
         let with_shading = self.blocks[0].1.len() >= 8;
-        let fitted = |shading: bool| self.found_with(highest_hz, shading);
-        let told = |fit: &FourierFit| fit.frequency_hz.value * self.block_length_s() >= PERIODS_FOR_SHADING;
-        fitted(with_shading).filter(|fit| !fit.shading || told(fit)).or_else(|| fitted(false))
+        let fitted = |shading: bool| self.fit_below(highest_hz, shading);
+        let is_valid = |fit: &FourierFit| fit.frequency_hz.value * self.block_length_s() >= PERIODS_FOR_SHADING;
+        fitted(with_shading).filter(|fit| !fit.shading || is_valid(fit)).or_else(|| fitted(false))
     }
 
-    fn found_with(&self, highest_hz: f64, shading: bool) -> Option<FourierFit> {
+    fn fit_below(&self, highest_hz: f64, shading: bool) -> Option<FourierFit> {
         let start_hz = self.strongest(highest_hz, shading)?;
         let reach_hz = 0.25 / self.length_s();
         let frequency_hz = self.refined(start_hz, reach_hz, 1, shading);
         self.is_significant(frequency_hz, shading, highest_hz).then_some(())?;
-        let frequency_hz = self.told_apart(frequency_hz, highest_hz, shading)?;
+        let frequency_hz = self.best_alias(frequency_hz, highest_hz, shading)?;
         let (frequency_hz, harmonics) = self.with_harmonics(frequency_hz, reach_hz, highest_hz, shading)?;
         self.finished(frequency_hz, harmonics, shading)
     }
 
     /// The one of the frequencies indistinguishable between blocks that explains most; `None` if another explains as much within
     /// chance.
-    fn told_apart(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> Option<f64> {
-        let alike = self.alike(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
-        let all: Vec<(f64, f64)> = alike.map(|f| (f, self.best_harmonics(f, highest_hz, shading).1)).collect();
+    fn best_alias(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> Option<f64> {
+        let aliases = self.aliases_of(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
+        let all: Vec<(f64, f64)> = aliases.map(|f| (f, self.best_harmonics(f, highest_hz, shading).1)).collect();
         let best = *all.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let another = |(f, _): &&(f64, f64)| (f - best.0).abs() > 0.5 / self.length_s();
         let next = all.iter().filter(another).map(|(_, criterion)| *criterion).fold(f64::INFINITY, f64::min);
-        (next - best.1 > LEAST_GAIN).then_some(best.0)
+        (next - best.1 > MIN_GAIN).then_some(best.0)
     }
 
     /// The frequency with as many harmonics as the criterion supports, each of which may shift it.
@@ -174,31 +174,31 @@ impl TimeSeries {
     /// Number of harmonics that the criterion supports, and the value of the criterion.
     fn best_harmonics(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> (usize, f64) {
         let level = if shading { 3 } else { 1 };
-        let of = |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
+        let criterion_with = |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
         (1..=self.most_harmonics(frequency_hz, highest_hz))
-            .map(|h| (h, of(h)))
+            .map(|h| (h, criterion_with(h)))
             .fold((1, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
     }
 
     /// Frequencies with the same phases, or the opposite ones, at the starts of blocks at equal steps: they differ only within the
     /// blocks. For a light with harmonics the fundamental alone may prefer a wrong one.
-    fn alike(&self, frequency_hz: f64) -> Vec<f64> {
+    fn aliases_of(&self, frequency_hz: f64) -> Vec<f64> {
         let [first, second, ..] = &self.blocks[..] else { return vec![frequency_hz] };
         let rate_hz = 1.0 / (second.0 - first.0);
-        let reach = (1.5 / (self.block_length_s() * rate_hz)).ceil().min(MAX_ALIKE) as i32;
+        let reach = (1.5 / (self.block_length_s() * rate_hz)).ceil().min(MAX_ALIAS) as i32;
         let nearest = (frequency_hz / rate_hz).round();
         let orders = (-reach..=reach).map(|k| (nearest + f64::from(k)) * rate_hz);
-        let beyond = frequency_hz - nearest * rate_hz;
-        orders.flat_map(|order| [order + beyond, order - beyond]).collect()
+        let remainder_hz = frequency_hz - nearest * rate_hz;
+        orders.flat_map(|order| [order + remainder_hz, order - remainder_hz]).collect()
     }
 
     /// True if the fundamental improves the criterion more than the best of this many frequencies would by chance.
     fn is_significant(&self, frequency_hz: f64, shading: bool, highest_hz: f64) -> bool {
         let Some(level) = self.fit(&self.level_columns(shading)) else { return false };
-        let (n, tried) = (self.count() as f64, (highest_hz * self.length_s()).max(1.0));
+        let (n, trials) = (self.count() as f64, (highest_hz * self.length_s()).max(1.0));
         // An exact fit of exact numbers.
         let squares = self.squares(frequency_hz, 1, shading).max(level.squares * 1e-24);
-        level.squares > 0.0 && n * ln(level.squares / squares) > 3.0 * ln(n) + 2.0 * ln(tried) + LEAST_GAIN
+        level.squares > 0.0 && n * ln(level.squares / squares) > 3.0 * ln(n) + 2.0 * ln(trials) + MIN_GAIN
     }
 
     /// The maximum of the periodogram: coarse over the blocks separately, then near it over all of them together.
@@ -246,19 +246,19 @@ impl TimeSeries {
     fn refined(&self, start_hz: f64, reach_hz: f64, harmonics: usize, shading: bool) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_895;
         let (mut low, mut high) = ((start_hz - reach_hz).max(0.05 * start_hz), start_hz + reach_hz);
-        let of = |f: f64| self.squares(f, harmonics, shading);
+        let squares_at = |f: f64| self.squares(f, harmonics, shading);
         let place = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
         let [mut a, mut b] = place(low, high);
-        let (mut at_a, mut at_b) = (of(a), of(b));
+        let (mut at_a, mut at_b) = (squares_at(a), squares_at(b));
         for _ in 0..40 {
             if at_a < at_b {
                 (high, b, at_b) = (b, a, at_a);
                 a = place(low, high)[0];
-                at_a = of(a);
+                at_a = squares_at(a);
             } else {
                 (low, a, at_a) = (a, b, at_b);
                 b = place(low, high)[1];
-                at_b = of(b);
+                at_b = squares_at(b);
             }
         }
         0.5 * (low + high)
@@ -268,7 +268,7 @@ impl TimeSeries {
     fn finished(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> Option<FourierFit> {
         let fit = self.fit(&self.columns(frequency_hz, harmonics, shading))?;
         let (count, parameters) = (self.count(), fit.coefficients.len() + 1);
-        let variance = fit.squares / count.saturating_sub(parameters).max(1) as f64 * self.alikeness(&fit.residuals);
+        let variance = fit.squares / count.saturating_sub(parameters).max(1) as f64 * self.correlation_factor(&fit.residuals);
         let step = 0.05 / (self.length_s() * harmonics as f64);
         let [below, above] = [-step, step].map(|d| self.squares(frequency_hz + d, harmonics, shading));
         let curvature = (below - 2.0 * fit.squares + above) / (step * step);
@@ -286,7 +286,7 @@ impl TimeSeries {
 impl TimeSeries {
     /// Variance factor for correlated errors of neighbours (for example where a series cannot follow an edge): (1 + ρ)/(1 − ρ) with
     /// their correlation ρ, at least 1 (as for a first-order autoregression).
-    fn alikeness(&self, residuals: &[f64]) -> f64 {
+    fn correlation_factor(&self, residuals: &[f64]) -> f64 {
         let mut next = 0;
         let (mut products, mut squares) = (0.0, 0.0);
         for (_, values) in &self.blocks {
@@ -297,8 +297,8 @@ impl TimeSeries {
         }
         // Correlations that independent errors show by chance are ignored.
         let correlation = if squares > 0.0 { products / squares } else { 0.0 };
-        let chance = 2.0 / (residuals.len() as f64).sqrt();
-        if correlation > chance { (1.0 + correlation) / (1.0 - correlation).max(1e-6) } else { 1.0 }
+        let significance = 2.0 / (residuals.len() as f64).sqrt();
+        if correlation > significance { (1.0 + correlation) / (1.0 - correlation).max(1e-6) } else { 1.0 }
     }
 }
 
@@ -376,11 +376,11 @@ impl FourierFit {
         let all = (0..PHASES).map(|i| self.slopes_at(f64::from(i) / f64::from(PHASES)));
         let mut all: Vec<(f64, Vec<f64>)> = all.map(|slopes| (at(&slopes), slopes)).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let ((low, of_low), (high, of_high)) = (&all[0], &all[all.len() - 1]);
+        let ((low, low_slopes), (high, high_slopes)) = (&all[0], &all[all.len() - 1]);
         let total = high + low;
         // ∂/∂high = 2 low/total², ∂/∂low = −2 high/total².
         let slope = |(l, h): (&f64, &f64)| 2.0 * (low * h - high * l) / (total * total);
-        let slopes: Vec<f64> = of_low.iter().zip(of_high).map(slope).collect();
+        let slopes: Vec<f64> = low_slopes.iter().zip(high_slopes).map(slope).collect();
         Estimate::new((high - low) / total, self.uncertainty(&slopes))
     }
 

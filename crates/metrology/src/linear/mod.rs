@@ -32,13 +32,13 @@ impl Matrix {
     /// The matrix with these rows, each of `columns` numbers. Panics if one is longer or shorter.
     #[must_use]
     pub fn from_rows<R: AsRef<[f64]>>(columns: usize, rows: impl IntoIterator<Item = R>) -> Self {
-        let mut made = Self::zeros(0, columns);
+        let mut matrix = Self::zeros(0, columns);
         for row in rows {
             assert_eq!(row.as_ref().len(), columns, "a row of a matrix of {columns} columns");
-            made.values.extend_from_slice(row.as_ref());
-            made.rows += 1;
+            matrix.values.extend_from_slice(row.as_ref());
+            matrix.rows += 1;
         }
-        made
+        matrix
     }
 
     /// Number of rows.
@@ -131,13 +131,13 @@ impl Cholesky {
     /// Factors a symmetric matrix; `None` if a pivot is less than `least` of its diagonal element: there the column depends
     /// linearly on those before it, to rounding.
     #[must_use]
-    pub fn of(a: &Matrix, least: f64) -> Option<Self> {
+    pub fn of(a: &Matrix, min_pivot: f64) -> Option<Self> {
         let n = a.rows();
         let mut lower = Matrix::zeros(n, n);
         for j in 0..n {
             let explained: f64 = lower.row(j)[..j].iter().map(|l| l * l).sum();
             let pivot = a.at(j, j) - explained;
-            if pivot.is_nan() || pivot <= least * a.at(j, j) {
+            if pivot.is_nan() || pivot <= min_pivot * a.at(j, j) {
                 return None;
             }
             let root = pivot.sqrt();
@@ -240,8 +240,8 @@ mod tests {
     fn hilbert_s_inverse_is_whole() {
         let hilbert = Matrix::from_rows(3, (0..3).map(|i| [0, 1, 2].map(|j| 1.0 / f64::from(i + j + 1))));
         let inverse = Cholesky::of(&hilbert, 1e-12).expect("positive definite").inverse();
-        let want = [[9.0, -36.0, 30.0], [-36.0, 192.0, -180.0], [30.0, -180.0, 180.0]];
-        for (i, row) in want.iter().enumerate() {
+        let expected = [[9.0, -36.0, 30.0], [-36.0, 192.0, -180.0], [30.0, -180.0, 180.0]];
+        for (i, row) in expected.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 // Condition number 524: about a hundred roundings of the largest element.
                 assert!((inverse.at(i, j) - value).abs() < 1e-10, "{i} {j}");

@@ -25,7 +25,7 @@ impl Orthogonal {
     /// Factors; `None` if there are fewer rows than columns, or if a column depends linearly on those before it to within `least`
     /// of its length.
     #[must_use]
-    pub fn of(a: &Matrix, least: f64) -> Option<Self> {
+    pub fn factor(a: &Matrix, min_pivot: f64) -> Option<Self> {
         let (m, n) = (a.rows(), a.columns());
         if m < n {
             return None;
@@ -33,9 +33,9 @@ impl Orthogonal {
         let mut packed = a.clone();
         let mut heads = Vec::with_capacity(n);
         for k in 0..n {
-            let whole = (0..m).map(|i| a.at(i, k) * a.at(i, k)).sum::<f64>().sqrt();
+            let column_norm = (0..m).map(|i| a.at(i, k) * a.at(i, k)).sum::<f64>().sqrt();
             let rest = (k..m).map(|i| packed.at(i, k) * packed.at(i, k)).sum::<f64>().sqrt();
-            if rest.is_nan() || rest <= least * whole {
+            if rest.is_nan() || rest <= min_pivot * column_norm {
                 return None;
             }
             let diagonal = if packed.at(k, k) > 0.0 { -rest } else { rest };
@@ -54,18 +54,18 @@ impl Orthogonal {
     #[must_use]
     pub fn solve(&self, b: &[f64]) -> Solution {
         let (m, n) = (self.packed.rows(), self.packed.columns());
-        let mut turned = b.to_vec();
+        let mut transformed = b.to_vec();
         for k in 0..n {
             let column = self.packed.clone_column(k);
-            let part = reflect(&column, self.heads[k], k, |i| turned[i]);
-            turned[k..m].copy_from_slice(&part);
+            let part = reflect(&column, self.heads[k], k, |i| transformed[i]);
+            transformed[k..m].copy_from_slice(&part);
         }
-        let mut parameters = turned[..n].to_vec();
+        let mut parameters = transformed[..n].to_vec();
         for i in (0..n).rev() {
             let known = dot(&self.packed.row(i)[i + 1..], &parameters[i + 1..]);
             parameters[i] = (parameters[i] - known) / self.packed.at(i, i);
         }
-        Solution { parameters, residual_squares: turned[n..].iter().map(|r| r * r).sum() }
+        Solution { parameters, residual_squares: transformed[n..].iter().map(|r| r * r).sum() }
     }
 
     /// (AᵀA)⁻¹ = R⁻¹ R⁻ᵀ: the covariance of the parameters for observations of unit variance.
@@ -95,9 +95,9 @@ fn reflect(column: &[f64], head: f64, k: usize, value: impl Fn(usize) -> f64) ->
     let below = &column[k + 1..];
     let v_v = head * head + below.iter().map(|v| v * v).sum::<f64>();
     let v_b = head * value(k) + below.iter().enumerate().map(|(i, v)| v * value(k + 1 + i)).sum::<f64>();
-    let share = 2.0 * v_b / v_v;
-    std::iter::once(value(k) - share * head)
-        .chain(below.iter().enumerate().map(|(i, v)| value(k + 1 + i) - share * v))
+    let factor = 2.0 * v_b / v_v;
+    std::iter::once(value(k) - factor * head)
+        .chain(below.iter().enumerate().map(|(i, v)| value(k + 1 + i) - factor * v))
         .collect()
 }
 
@@ -119,13 +119,13 @@ pub fn eigen(a: &Matrix) -> Eigen {
     let mut vectors =
         Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<_>>()));
     for _ in 0..SWEEPS {
-        let mut turned = false;
+        let mut rotated = false;
         for p in 0..n {
             for q in p + 1..n {
-                turned |= rotate(&mut a, &mut vectors, p, q);
+                rotated |= rotate(&mut a, &mut vectors, p, q);
             }
         }
-        if !turned {
+        if !rotated {
             break;
         }
     }
@@ -169,15 +169,15 @@ mod tests {
     fn a_line_through_points_with_its_uncertainty() {
         // y = 1 + 2 x, residuals +1, −2, +1: Σ = 6; (AᵀA)⁻¹ of x = 0, 1, 2 by hand: [5/6, −1/2; −1/2, 1/2].
         let a = Matrix::from_rows(2, [[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]);
-        let fit = Orthogonal::of(&a, 1e-12).expect("two columns");
+        let fit = Orthogonal::factor(&a, 1e-12).expect("two columns");
         let solution = fit.solve(&[2.0, 1.0, 6.0]);
         let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
         assert!(near(solution.parameters[0], 1.0) && near(solution.parameters[1], 2.0), "{solution:?}");
         assert!((solution.residual_squares - 6.0).abs() < 1e-13, "{solution:?}");
         let c = fit.unit_covariance();
         assert!(near(c.at(0, 0), 5.0 / 6.0) && near(c.at(0, 1), -0.5) && near(c.at(1, 1), 0.5), "{c:?}");
-        assert!(Orthogonal::of(&Matrix::from_rows(2, [[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]), 1e-12).is_none());
-        assert!(Orthogonal::of(&Matrix::from_rows(2, [[1.0, 2.0]]), 1e-12).is_none());
+        assert!(Orthogonal::factor(&Matrix::from_rows(2, [[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]), 1e-12).is_none());
+        assert!(Orthogonal::factor(&Matrix::from_rows(2, [[1.0, 2.0]]), 1e-12).is_none());
     }
 
     #[test]
@@ -193,11 +193,11 @@ mod tests {
                 })
             }),
         );
-        let found = eigen(&a);
+        let result = eigen(&a);
         let fifth = std::f64::consts::PI / 5.0;
-        for (k, (value, vector)) in found.values.iter().zip(&found.vectors).enumerate() {
-            let want = 2.0 - 2.0 * etendue_core::maths::f64::cos((k + 1) as f64 * fifth);
-            assert!((value - want).abs() < 1e-14, "{value} {want}");
+        for (k, (value, vector)) in result.values.iter().zip(&result.vectors).enumerate() {
+            let expected = 2.0 - 2.0 * etendue_core::maths::f64::cos((k + 1) as f64 * fifth);
+            assert!((value - expected).abs() < 1e-14, "{value} {expected}");
             let image = a.times(vector);
             let off: f64 = image.iter().zip(vector).map(|(i, v)| (i - value * v).abs()).sum();
             assert!(off < 1e-14 && (dot(vector, vector) - 1.0).abs() < 1e-14, "{off}");

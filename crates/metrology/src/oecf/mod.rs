@@ -59,10 +59,10 @@ impl ExposurePoint {
     /// Mean and scatter of a uniform surface with equal errors in blocks of `shared_px` × `shared_px` pixels (1: none);
     /// `full_scale` is the reading of a saturated pixel.
     #[must_use]
-    pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>, shared_px: usize) -> Self {
+    pub fn from_surface(exposure: f64, surface: &Image, full_scale: Option<f64>, shared_px: usize) -> Self {
         let patch = patch_statistics(surface, shared_px);
-        let whole = surface.samples().iter().all(|s| s.fract() == 0.0);
-        let rounding = if whole { rounding_variance(patch.variance.value) } else { 0.0 };
+        let integers = surface.samples().iter().all(|s| s.fract() == 0.0);
+        let rounding = if integers { rounding_variance(patch.variance.value) } else { 0.0 };
         let own = patch.mean.standard_uncertainty;
         Self {
             exposure,
@@ -153,7 +153,7 @@ impl Oecf {
         }
         points.sort_by(|a, b| a.exposure.total_cmp(&b.exposure));
         for pair in points.windows(2) {
-            rises(pair[0], pair[1])?;
+            is_rising(pair[0], pair[1])?;
         }
         let (first, last) = (points[0].reading.value, points[points.len() - 1].reading.value);
         if last <= first {
@@ -183,7 +183,7 @@ impl Oecf {
     /// The reading at an exposure within the range; that of the nearest end outside it.
     #[must_use]
     pub fn reading(&self, exposure: f64) -> f64 {
-        let (k, t, width) = self.place(exposure);
+        let (k, t, width) = self.segment_at(exposure);
         let (a, b) = (self.points[k].reading.value, self.points[k + 1].reading.value);
         let (s, square) = (1.0 - t, t * t);
         let hermite = s * s * (1.0 + 2.0 * t) * a + square * (1.0 + 2.0 * s) * b;
@@ -193,14 +193,14 @@ impl Oecf {
     /// The curve's slope at an exposure: the incremental gain.
     #[must_use]
     pub fn gain(&self, exposure: f64) -> f64 {
-        let (k, t, width) = self.place(exposure);
+        let (k, t, width) = self.segment_at(exposure);
         let rise = self.points[k + 1].reading.value - self.points[k].reading.value;
         let (m, n) = (self.slopes[k], self.slopes[k + 1]);
         6.0 * t * (1.0 - t) * rise / width + (1.0 - t) * (1.0 - 3.0 * t) * m + t * (3.0 * t - 2.0) * n
     }
 
     /// The interval of an exposure, the position in it, and its width.
-    fn place(&self, exposure: f64) -> (usize, f64, f64) {
+    fn segment_at(&self, exposure: f64) -> (usize, f64, f64) {
         let above = self.points.partition_point(|p| p.exposure <= exposure);
         let k = above.clamp(1, self.points.len() - 1) - 1;
         let width = self.points[k + 1].exposure - self.points[k].exposure;
@@ -235,7 +235,7 @@ impl Oecf {
         let ratios: Vec<f64> = self.points.iter().map(snr).map_while(|r| r).collect();
         let top = self.points[self.saturation.clamp(1, self.points.len()) - 1].exposure;
         let first = ratios.first()?;
-        let least = if *first >= 1.0 {
+        let min_light = if *first >= 1.0 {
             // Below the first point noise and gain are constant: SNR falls in proportion.
             self.points[0].exposure / first
         } else {
@@ -244,11 +244,11 @@ impl Oecf {
             let (low, high) = (ln(self.points[k].exposure), ln(self.points[k + 1].exposure));
             exp(low + (high - low) * -a / (b - a))
         };
-        Some(top / least)
+        Some(top / min_light)
     }
 }
 
-fn rises(a: ExposurePoint, b: ExposurePoint) -> Result<(), OecfError> {
+fn is_rising(a: ExposurePoint, b: ExposurePoint) -> Result<(), OecfError> {
     if a.exposure == b.exposure {
         return Err(OecfError::Twice(a.exposure));
     }
@@ -300,23 +300,23 @@ fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
 fn saturation(points: &[ExposurePoint]) -> usize {
     let top = points[points.len() - 1].reading.value;
     let range = top - points[0].reading.value;
-    let stays = |k: &usize| {
+    let is_saturated = |k: &usize| {
         let rest = top - points[*k].reading.value;
-        let share = (points[points.len() - 1].exposure - points[*k].exposure) / points[points.len() - 1].exposure;
-        rest <= 0.1 * range * share && rest <= 0.01 * range
+        let fraction = (points[points.len() - 1].exposure - points[*k].exposure) / points[points.len() - 1].exposure;
+        rest <= 0.1 * range * fraction && rest <= 0.01 * range
     };
-    (1..points.len() - 1).find(stays).unwrap_or(points.len())
+    (1..points.len() - 1).find(is_saturated).unwrap_or(points.len())
 }
 
 /// The mean reading of light whose readings have the standard deviation `noise`.
 pub fn noisy_mean(curve: impl Fn(f64) -> f64, light: f64, noise: f64) -> f64 {
-    let of = |sigma: f64| moments(&curve, light, sigma);
+    let moments_with = |sigma: f64| moments(&curve, light, sigma);
     if noise <= 0.0 || noise.is_nan() {
         return curve(light);
     }
     // Increase σ until the readings scatter enough; never if the curve is flat.
     let mut high = 1e-6 * light.abs().max(1e-6);
-    while of(high).1 < noise {
+    while moments_with(high).1 < noise {
         high *= 2.0;
         if high > 1e6 * light.abs().max(1e-6) {
             return curve(light);
@@ -325,21 +325,21 @@ pub fn noisy_mean(curve: impl Fn(f64) -> f64, light: f64, noise: f64) -> f64 {
     let mut low = 0.0;
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
-        if of(middle).1 < noise { low = middle } else { high = middle }
+        if moments_with(middle).1 < noise { low = middle } else { high = middle }
     }
-    of(0.5 * (low + high)).0
+    moments_with(0.5 * (low + high)).0
 }
 
 /// Mean and standard deviation of the readings.
 fn moments(curve: &impl Fn(f64) -> f64, light: f64, sigma: f64) -> (f64, f64) {
-    let (mut whole, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    let (mut total, mut sum, mut squares) = (0.0, 0.0, 0.0);
     for i in -80..=80 {
         let z = f64::from(i) / 16.0;
         let (weight, y) = (exp(-0.5 * z * z), curve(light + sigma * z));
-        whole += weight;
+        total += weight;
         sum += weight * y;
         squares += weight * y * y;
     }
-    let mean = sum / whole;
-    (mean, (squares / whole - mean * mean).max(0.0).sqrt())
+    let mean = sum / total;
+    (mean, (squares / total - mean * mean).max(0.0).sqrt())
 }

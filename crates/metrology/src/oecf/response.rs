@@ -47,13 +47,13 @@ pub struct ResponseSettings {
 }
 
 /// Range of readings used: away from black and saturation, as fractions of the range.
-const USABLE: core::ops::Range<f64> = 0.02..0.98;
+const USABLE_RANGE: core::ops::Range<f64> = 0.02..0.98;
 /// Pixels used from each pair, uniformly distributed.
 const PIXELS: usize = 20_000;
 
 /// A pair of readings of one pixel, with the indices of their images.
 #[derive(Clone, Copy)]
-struct Pair {
+struct ReadingPair {
     low: f64,
     high: f64,
     pictures: (usize, usize),
@@ -63,8 +63,8 @@ struct Pair {
 ///
 /// # Errors
 /// If there are too few images, pixels or exposures.
-pub fn camera_response(pictures: &[(f64, &Image)], settings: &ResponseSettings) -> Result<Response, OecfError> {
-    let mut sorted: Vec<(f64, &Image)> = pictures.to_vec();
+pub fn camera_response(images: &[(f64, &Image)], settings: &ResponseSettings) -> Result<Response, OecfError> {
+    let mut sorted: Vec<(f64, &Image)> = images.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     if sorted.len() < 2 {
         return Err(OecfError::TooFew(sorted.len()));
@@ -92,23 +92,23 @@ pub fn camera_response(pictures: &[(f64, &Image)], settings: &ResponseSettings) 
     Ok(Response { ratios: exposures, ..best })
 }
 
-fn pairs(pictures: &[(f64, &Image)], settings: &ResponseSettings) -> Vec<Pair> {
-    let share = |s: f32| (f64::from(s) - settings.black) / (settings.full_scale - settings.black);
+fn pairs(images: &[(f64, &Image)], settings: &ResponseSettings) -> Vec<ReadingPair> {
+    let fraction = |s: f32| (f64::from(s) - settings.black) / (settings.full_scale - settings.black);
     let mut pairs = Vec::new();
-    for (q, two) in pictures.windows(2).enumerate() {
+    for (q, two) in images.windows(2).enumerate() {
         let (low, high) = (two[0].1.samples(), two[1].1.samples());
         let step = (low.len() / PIXELS).max(1);
-        let both = low.iter().zip(high).step_by(step).map(|(a, b)| (share(*a), share(*b)));
-        let usable = both.filter(|(a, b)| USABLE.contains(a) && USABLE.contains(b));
-        pairs.extend(usable.map(|(low, high)| Pair { low, high, pictures: (q, q + 1) }));
+        let both = low.iter().zip(high).step_by(step).map(|(a, b)| (fraction(*a), fraction(*b)));
+        let usable = both.filter(|(a, b)| USABLE_RANGE.contains(a) && USABLE_RANGE.contains(b));
+        pairs.extend(usable.map(|(low, high)| ReadingPair { low, high, pictures: (q, q + 1) }));
     }
     pairs
 }
 
 /// The lowest sufficient degree.
-fn search(pairs: &[Pair], exposures: &[f64], most: usize) -> Result<Response, OecfError> {
+fn search(pairs: &[ReadingPair], exposures: &[f64], max_degree: usize) -> Result<Response, OecfError> {
     let mut best: Option<Response> = None;
-    for degree in 1..=most.max(1) {
+    for degree in 1..=max_degree.max(1) {
         let Some(next) = fitted(pairs, exposures, degree, 0.0) else { continue };
         let free = pairs.len() as f64;
         // Standard deviation of a variance over this many pairs.
@@ -128,7 +128,7 @@ fn search(pairs: &[Pair], exposures: &[f64], most: usize) -> Result<Response, Oe
 }
 
 /// The polynomial of a degree, for readings of a given noise variance.
-fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Option<Response> {
+fn fitted(pairs: &[ReadingPair], exposures: &[f64], degree: usize, noise: f64) -> Option<Response> {
     let mut response = Response {
         coefficients: [0.0, 1.0].into_iter().chain(core::iter::repeat_n(0.0, degree - 1)).collect(),
         covariance: Matrix::zeros(0, 0),
@@ -164,7 +164,7 @@ fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Optio
 
 /// The equation f(M_high) − R f(M_low) = 0 with f(M) = M + Σ_(n ≥ 2) c_n (Mⁿ − M) + …, as a row of c₁ … c_N and a constant. c₁ is
 /// replaced by 1 − Σ c_n, so that f(1) = 1: its own column is a weak tie to that value.
-fn equation(pair: &Pair, exposures: &[f64], degree: usize) -> (Vec<f64>, f64) {
+fn equation(pair: &ReadingPair, exposures: &[f64], degree: usize) -> (Vec<f64>, f64) {
     let ratio = exposures[pair.pictures.1] / exposures[pair.pictures.0];
     let constant = pair.high - ratio * pair.low;
     let powers = |m: f64, n: usize| (1..n).fold(m, |p, _| p * m) - m;
@@ -179,11 +179,11 @@ fn gradient(reading: f64, degree: usize, ratio: f64) -> Vec<f64> {
 }
 
 /// Exposure ratios that the response implies: medians of f(M_high)/f(M_low).
-fn refined(pairs: &[Pair], response: &Response, pictures: usize) -> Vec<f64> {
-    let mut exposures = vec![1.0; pictures];
-    for q in 1..pictures {
-        let of = pairs.iter().filter(|p| p.pictures.1 == q);
-        let mut ratios: Vec<f64> = of.map(|p| response.light(p.high) / response.light(p.low)).collect();
+fn refined(pairs: &[ReadingPair], response: &Response, images: usize) -> Vec<f64> {
+    let mut exposures = vec![1.0; images];
+    for q in 1..images {
+        let own_pairs = pairs.iter().filter(|p| p.pictures.1 == q);
+        let mut ratios: Vec<f64> = own_pairs.map(|p| response.light(p.high) / response.light(p.low)).collect();
         ratios.sort_unstable_by(f64::total_cmp);
         let ratio = ratios.get(ratios.len() / 2).copied().filter(|r| r.is_finite() && *r > 0.0).unwrap_or(1.0);
         exposures[q] = exposures[q - 1] * ratio;

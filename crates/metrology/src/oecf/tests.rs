@@ -30,7 +30,7 @@ fn a_straight_sensor_is_straight_up_to_its_saturation() {
 }
 
 #[test]
-fn a_tone_curve_is_met_between_its_points() {
+fn a_tone_curve_is_interpolated_between_its_points() {
     let tone = |h: f64| 255.0 * pow(h / 1.6, 1.0 / 2.2);
     let oecf = Oecf::new(series(tone)).expect("a curve");
     assert_eq!(oecf.saturation(), 15);
@@ -45,12 +45,12 @@ fn a_tone_curve_is_met_between_its_points() {
 
 #[test]
 fn curves_that_are_none_are_refused() {
-    let of = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).map(|_| ());
-    assert_eq!(of(&[point(1.0, 5.0)]), Err(OecfError::TooFew(1)));
-    assert_eq!(of(&[point(1.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Twice(1.0)));
-    assert_eq!(of(&[point(0.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Exposure(0.0)));
-    assert!(matches!(of(&[point(1.0, 5.0), point(2.0, 9.0), point(3.0, 7.0)]), Err(OecfError::Falls { .. })));
-    assert_eq!(of(&[point(1.0, 255.0), point(2.0, 255.0), point(3.0, 255.0)]), Err(OecfError::Flat));
+    let result = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).map(|_| ());
+    assert_eq!(result(&[point(1.0, 5.0)]), Err(OecfError::TooFew(1)));
+    assert_eq!(result(&[point(1.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Twice(1.0)));
+    assert_eq!(result(&[point(0.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Exposure(0.0)));
+    assert!(matches!(result(&[point(1.0, 5.0), point(2.0, 9.0), point(3.0, 7.0)]), Err(OecfError::Falls { .. })));
+    assert_eq!(result(&[point(1.0, 255.0), point(2.0, 255.0), point(3.0, 255.0)]), Err(OecfError::Flat));
 }
 
 /// Noise at full scale is clipped: the mean is still rising there, but no longer correct.
@@ -58,21 +58,21 @@ fn curves_that_are_none_are_refused() {
 fn clipped_light_is_no_part_of_the_straight_line() {
     let shot = |i: u32| {
         let exposure = f64::from(i) * 0.1;
-        let clipped = picture(1.0, |_| 0.0, i);
+        let clipped = exposed_image(1.0, |_| 0.0, i);
         let sample = |s: &f32| (f64::from(*s) * 50.0 + 900.0 * exposure).min(1000.0) as f32;
         let samples = clipped.samples().iter().map(sample).collect();
-        ExposurePoint::of(exposure, &Image::from_samples(128, 64, samples).expect("a rectangle"), Some(1000.0), 1)
+        ExposurePoint::from_surface(exposure, &Image::from_samples(128, 64, samples).expect("a rectangle"), Some(1000.0), 1)
     };
     let points: Vec<ExposurePoint> = (1..=15).map(shot).collect();
-    let told = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).expect("a curve");
+    let curve = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).expect("a curve");
     let (known, unknown) =
-        (told(&points), told(&points.iter().map(|p| ExposurePoint { clipped: false, ..*p }).collect::<Vec<_>>()));
+        (curve(&points), curve(&points.iter().map(|p| ExposurePoint { clipped: false, ..*p }).collect::<Vec<_>>()));
     assert!(known.saturation() < unknown.saturation(), "{} {}", known.saturation(), unknown.saturation());
     assert!(Oecf::new(points[13..].iter().chain(&points[12..13]).copied().collect()).is_err());
 }
 
 /// A scene of all light levels, captured by a camera with a given curve and noise of 0.2 %.
-fn picture(exposure: f64, curve: impl Fn(f64) -> f64, frame: u32) -> Image {
+fn exposed_image(exposure: f64, curve: impl Fn(f64) -> f64, frame: u32) -> Image {
     let normal = Normal::new(0.0, 0.002).expect("a width");
     let sample = |i: usize| {
         let pixel = Pixel { x: (i % 128) as u32, y: (i / 128) as u32 };
@@ -88,34 +88,34 @@ fn the_response_comes_back_from_relative_exposures() {
     let srgb = |l: f64| if l <= 0.003_130_8 { 12.92 * l } else { 1.055 * pow(l, 1.0 / 2.4) - 0.055 };
     let decode = |m: f64| if m <= 0.040_45 { m / 12.92 } else { pow((m + 0.055) / 1.055, 2.4) };
     let images: Vec<(f64, Image)> =
-        (0..5).map(|i| (f64::from(1 << i), picture(f64::from(1 << i) / 16.0, srgb, i))).collect();
-    let given: Vec<(f64, &Image)> = images.iter().map(|(e, image)| (3.0 * e, image)).collect();
+        (0..5).map(|i| (f64::from(1 << i), exposed_image(f64::from(1 << i) / 16.0, srgb, i))).collect();
+    let exposed_images: Vec<(f64, &Image)> = images.iter().map(|(e, image)| (3.0 * e, image)).collect();
     let settings = ResponseSettings { full_scale: 1000.0, black: 0.0, degree: 8, refine: false };
-    let response = camera_response(&given, &settings).expect("five pictures");
+    let response = camera_response(&exposed_images, &settings).expect("five pictures");
     for i in 1..=20 {
         let m = f64::from(i) * 0.05;
-        let found = response.estimate(m);
+        let light = response.estimate(m);
         // The requirement is half a per cent of full scale.
         assert!(
-            (found.value - decode(m)).abs() < 0.005,
-            "{m}: {found:?} for {} of degree {}",
+            (light.value - decode(m)).abs() < 0.005,
+            "{m}: {light:?} for {} of degree {}",
             decode(m),
             response.coefficients.len()
         );
     }
     let linear: Vec<(f64, Image)> =
-        (0..4).map(|i| (f64::from(1 << i), picture(f64::from(1 << i) / 8.0, |l| l, i))).collect();
-    let given: Vec<(f64, &Image)> = linear.iter().map(|(e, image)| (*e, image)).collect();
-    let response = camera_response(&given, &settings).expect("four pictures");
+        (0..4).map(|i| (f64::from(1 << i), exposed_image(f64::from(1 << i) / 8.0, |l| l, i))).collect();
+    let exposed_images: Vec<(f64, &Image)> = linear.iter().map(|(e, image)| (*e, image)).collect();
+    let response = camera_response(&exposed_images, &settings).expect("four pictures");
     assert!((response.light(0.5) - 0.5).abs() < 0.002, "{response:?}");
-    assert_eq!(camera_response(&given[..1], &settings), Err(OecfError::TooFew(1)));
+    assert_eq!(camera_response(&exposed_images[..1], &settings), Err(OecfError::TooFew(1)));
 }
 
 /// Means of rounded normal noise over all phases of a step, from the normal distribution: the variance of their errors.
 #[test]
 fn what_rounding_leaves_follows_from_the_noise() {
     for sigma in [0.1, 0.3, 0.5] {
-        let of_phase = |i: usize| {
+        let phase_variance = |i: usize| {
             let y = i as f64 / 400.0;
             let step = |n: i32| {
                 let above = |edge: f64| etendue_stats::normal::cdf((y - edge) / sigma);
@@ -125,11 +125,11 @@ fn what_rounding_leaves_follows_from_the_noise() {
             let mean: f64 = (-6..=7).map(step).sum();
             (mean - y, (-6..=7).map(squares).sum::<f64>() - mean * mean)
         };
-        let phases: Vec<(f64, f64)> = (0..400).map(of_phase).collect();
+        let phases: Vec<(f64, f64)> = (0..400).map(phase_variance).collect();
         let left = phases.iter().map(|(error, _)| error * error).sum::<f64>() / 400.0;
         // Sheppard: the variance of a reading is σ² + 1/12, all phases together.
-        let found = super::rounding_variance(sigma * sigma + 1.0 / 12.0);
-        assert!((found - left).abs() < 1e-5, "{sigma}: {found} and {left}");
+        let result = super::rounding_variance(sigma * sigma + 1.0 / 12.0);
+        assert!((result - left).abs() < 1e-5, "{sigma}: {result} and {left}");
     }
     assert!((super::rounding_variance(0.0) - 1.0 / 12.0).abs() < 3e-4);
 }

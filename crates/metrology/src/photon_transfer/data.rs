@@ -9,7 +9,7 @@
 //!
 //! (EMVA 1288 release 4.0 linear, section on spatial nonuniformity; stacks of L frames without light and at 50 % of saturation.)
 
-use super::spatial::{Parts, Pattern};
+use super::spatial::{VarianceComponents, Pattern};
 use super::{LevelStatistics, TransferError};
 use crate::Estimate;
 use crate::estimate::{propagate, root};
@@ -125,14 +125,14 @@ impl TransferData {
     /// Levels from 5 % to 95 % of saturation: those of the linearity fit.
     #[must_use]
     pub fn linearity_range(&self) -> core::ops::Range<usize> {
-        let least = 0.05 * self.signal_dn(self.saturation);
-        let first = (0..self.bright.len()).find(|i| self.signal_dn(*i) >= least).unwrap_or(0);
+        let min_signal = 0.05 * self.signal_dn(self.saturation);
+        let first = (0..self.bright.len()).find(|i| self.signal_dn(*i) >= min_signal).unwrap_or(0);
         first..self.last_up_to(0.95) + 1
     }
 
-    fn last_up_to(&self, share: f64) -> usize {
-        let most = share * self.signal_dn(self.saturation);
-        (0..self.bright.len()).rev().find(|i| self.signal_dn(*i) <= most).unwrap_or(0)
+    fn last_up_to(&self, fraction: f64) -> usize {
+        let max_signal = fraction * self.signal_dn(self.saturation);
+        (0..self.bright.len()).rev().find(|i| self.signal_dn(*i) <= max_signal).unwrap_or(0)
     }
 
     /// Light at the saturation point. The variance increases with the light up to saturation and decreases steeply beyond, so the
@@ -151,8 +151,8 @@ impl TransferData {
 /// Merges levels without light at one exposure time: they give no information on the growth of the dark signal with time.
 fn pooled(levels: &[Level]) -> Level {
     let count = levels.len() as f64;
-    let mean = |of: fn(&LevelStatistics) -> Estimate| {
-        let all = || levels.iter().map(|level| of(&level.statistics));
+    let mean = |statistic: fn(&LevelStatistics) -> Estimate| {
+        let all = || levels.iter().map(|level| statistic(&level.statistics));
         let squares = all().map(|e| e.standard_uncertainty * e.standard_uncertainty).sum::<f64>();
         Estimate::new(all().map(|e| e.value).sum::<f64>() / count, squares.sqrt() / count)
     };
@@ -179,11 +179,11 @@ fn saturation(bright: &[Level]) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nonuniformity {
     /// Dark signal nonuniformity, e⁻.
-    pub dsnu_e: Parts<Estimate>,
+    pub dsnu_e: VarianceComponents<Estimate>,
     /// Dark signal nonuniformity, DN.
-    pub dsnu_dn: Parts<Estimate>,
+    pub dsnu_dn: VarianceComponents<Estimate>,
     /// Photo response nonuniformity, relative to the mean.
-    pub prnu: Parts<Estimate>,
+    pub prnu: VarianceComponents<Estimate>,
     /// Temporal row noise in the dark, DN (not a figure of the standard).
     pub row_noise_dn: f64,
     /// Temporal column noise in the dark, DN (not a figure of the standard).
@@ -215,7 +215,7 @@ pub fn nonuniformity(
     Ok(Nonuniformity {
         dsnu_dn,
         dsnu_e: dsnu_dn.map(|s| quotient(s, gain_dn_per_e)),
-        prnu: bright.less(dark).map(|s| quotient(root(s), signal)),
+        prnu: bright.without_dark(dark).map(|s| quotient(root(s), signal)),
         row_noise_dn: row.sqrt(),
         column_noise_dn: column.sqrt(),
     })

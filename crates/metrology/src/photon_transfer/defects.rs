@@ -19,7 +19,7 @@ use super::Stack;
 /// Maximum number of bins.
 const BINS: usize = 256;
 /// The standard deviation of a normal distribution over its median magnitude: 1/Φ⁻¹(3/4).
-const NORMAL: f64 = 1.482_602_2;
+const MAD_TO_SIGMA: f64 = 1.482_602_2;
 
 /// Histograms of deviations from their mean.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,23 +39,23 @@ pub struct Deviations {
 impl Deviations {
     /// Deviations of pixels from the mean without light, DN.
     #[must_use]
-    pub fn of_dark(dark: &Stack) -> Self {
+    pub fn from_dark(dark: &Stack) -> Self {
         let average = dark.average();
         let mean = average.iter().sum::<f64>() / average.len() as f64;
-        Self::of(average.iter().map(|y| y - mean).collect(), step_dn(&[dark]))
+        Self::from_deviations(average.iter().map(|y| y - mean).collect(), step_dn(&[dark]))
     }
 
     /// Deviations of responses from the mean response, %.
     #[must_use]
-    pub fn of_response(dark: &Stack, bright: &Stack) -> Self {
+    pub fn from_response(dark: &Stack, bright: &Stack) -> Self {
         let signal: Vec<f64> = bright.average().iter().zip(&dark.average()).map(|(b, d)| b - d).collect();
         let mean = signal.iter().sum::<f64>() / signal.len() as f64;
         let step = 100.0 * step_dn(&[dark, bright]) / mean.abs();
-        Self::of(signal.iter().map(|s| 100.0 * (s / mean - 1.0)).collect(), step)
+        Self::from_deviations(signal.iter().map(|s| 100.0 * (s / mean - 1.0)).collect(), step)
     }
 
     /// Bin widths are whole multiples of the step of averages of integers: otherwise bins would contain varying numbers of steps.
-    fn of(deviations: Vec<f64>, step: f64) -> Self {
+    fn from_deviations(deviations: Vec<f64>, step: f64) -> Self {
         let pixels = deviations.len();
         let (low, high) = deviations.iter().fold((0.0_f64, 0.0_f64), |(l, h), d| (l.min(*d), h.max(*d)));
         let width = step * ((high - low) / (step * (BINS - 1) as f64)).ceil().max(1.0);
@@ -68,16 +68,16 @@ impl Deviations {
         sorted.sort_by(f64::total_cmp);
         let middle = |i: usize| low + (i as f64 + 0.5) * width;
         let largest = sorted[pixels - 1];
-        let beyond = |i: usize| {
+        let above = |i: usize| {
             let x = largest * i as f64 / BINS as f64;
             (x, (pixels - sorted.partition_point(|d| *d <= x)) as f64 / pixels as f64)
         };
         Self {
             bins: counts.into_iter().enumerate().map(|(i, n)| (middle(i), n)).collect(),
             width,
-            sigma: NORMAL * median(&sorted, step),
+            sigma: MAD_TO_SIGMA * median(&sorted, step),
             pixels,
-            accumulated: (0..BINS).map(beyond).collect(),
+            accumulated: (0..BINS).map(above).collect(),
         }
     }
 
@@ -116,29 +116,29 @@ mod tests {
         // The quantiles of a normal distribution of standard deviation 2, and twenty pixels at 30.
         let mut values: Vec<f64> = (0..COUNT).map(|i| 2.0 * quantile((i as f64 + 0.5) / COUNT as f64)).collect();
         values[..20].fill(30.0);
-        let found = Deviations::of(values, 1e-6);
+        let deviations = Deviations::from_deviations(values, 1e-6);
         // The median of a fine grid of quantiles; twenty of forty thousand shift it by 5·10⁻⁴.
-        assert!((found.sigma - 2.0).abs() < 3e-3, "{}", found.sigma);
-        assert_eq!(found.bins.iter().map(|b| b.1).sum::<u64>(), COUNT as u64);
-        let (x, counted) = *found.bins.last().expect("bins");
-        assert!(counted == 20 && found.normal(x) < 1e-30, "{counted}");
-        let (x, counted) = found.bins[found.bins.iter().position(|b| b.0 > 0.0).expect("a middle")];
+        assert!((deviations.sigma - 2.0).abs() < 3e-3, "{}", deviations.sigma);
+        assert_eq!(deviations.bins.iter().map(|b| b.1).sum::<u64>(), COUNT as u64);
+        let (x, counted) = *deviations.bins.last().expect("bins");
+        assert!(counted == 20 && deviations.normal(x) < 1e-30, "{counted}");
+        let (x, counted) = deviations.bins[deviations.bins.iter().position(|b| b.0 > 0.0).expect("a middle")];
         // A bin contains hundreds of quantiles: ± one.
-        assert!((counted as f64 / found.normal(x) - 1.0).abs() < 0.02, "{counted} {}", found.normal(x));
-        let beyond = found.accumulated.iter().find(|(x, _)| *x > 10.0).expect("as far as 30");
-        assert!((beyond.1 - 20.0 / COUNT as f64).abs() < 1e-9, "{beyond:?}");
-        assert!(found.accumulated.windows(2).all(|pair| pair[1].1 <= pair[0].1) && found.accumulated[0].1 > 0.99);
+        assert!((counted as f64 / deviations.normal(x) - 1.0).abs() < 0.02, "{counted} {}", deviations.normal(x));
+        let above = deviations.accumulated.iter().find(|(x, _)| *x > 10.0).expect("as far as 30");
+        assert!((above.1 - 20.0 / COUNT as f64).abs() < 1e-9, "{above:?}");
+        assert!(deviations.accumulated.windows(2).all(|pair| pair[1].1 <= pair[0].1) && deviations.accumulated[0].1 > 0.99);
     }
     #[test]
     fn averages_of_whole_numbers_fill_the_bins_evenly() {
         // Thirty frames: steps of 1/30 DN, 126 of them in a range of 4.2 DN.
         const COUNT: usize = 200_000;
         let value = |i: usize| (30.0 * 0.42 * quantile((i as f64 + 0.5) / COUNT as f64)).round() / 30.0;
-        let found = Deviations::of((0..COUNT).map(value).collect(), 1.0 / 30.0);
-        assert!((found.width - 1.0 / 30.0).abs() < 1e-12, "{}", found.width);
-        for (x, counted) in found.bins.iter().filter(|(x, _)| x.abs() < 0.8) {
+        let deviations = Deviations::from_deviations((0..COUNT).map(value).collect(), 1.0 / 30.0);
+        assert!((deviations.width - 1.0 / 30.0).abs() < 1e-12, "{}", deviations.width);
+        for (x, counted) in deviations.bins.iter().filter(|(x, _)| x.abs() < 0.8) {
             // σ from the median to a few hundredths; the density at the centre of a bin instead of its mean over it.
-            assert!((*counted as f64 / found.normal(*x) - 1.0).abs() < 0.05, "{x}: {counted}");
+            assert!((*counted as f64 / deviations.normal(*x) - 1.0).abs() < 0.05, "{x}: {counted}");
         }
     }
 }

@@ -95,7 +95,7 @@ impl TransferData {
         let figures = propagate(&inputs, values);
         let current = |figure: Estimate| (self.dark().len() >= 3).then_some(figure);
         let [k, r, eta, sd_dn, sd, pmin, emin, psat, esat, snr, dr, level, mean, variance] = figures;
-        let [error, least, most] = Values::new(self, &at(&inputs)).linearity();
+        let [error, min_error, max_error] = Values::new(self, &at(&inputs)).linearity();
         Ok(Figures {
             gain_dn_per_e: k,
             responsivity_dn_per_photon: r,
@@ -110,8 +110,8 @@ impl TransferData {
             dynamic_range: dr,
             linearity_error: error,
             linearity_error_of_noise: self.linearity_noise(&inputs),
-            linearity_error_min: least,
-            linearity_error_max: most,
+            linearity_error_min: min_error,
+            linearity_error_max: max_error,
             dark_level_dn: level,
             dark_current_mean_e_per_s: current(mean),
             dark_current_variance_e_per_s: current(variance),

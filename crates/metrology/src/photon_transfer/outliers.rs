@@ -19,17 +19,17 @@ use super::Stack;
 use crate::Estimate;
 
 /// Minimum number for a fraction.
-pub const FEWEST: usize = 5;
+pub const MIN_OUTLIERS: usize = 5;
 /// Standard deviation of a normal distribution over its median magnitude.
-const NORMAL: f64 = 1.482_602_2;
+const MAD_TO_SIGMA: f64 = 1.482_602_2;
 
 /// Defective pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outliers {
     /// Columns and rows in the stack, from 0.
-    pub places: Vec<[usize; 2]>,
+    pub positions: Vec<[usize; 2]>,
     /// Fraction of all pixels; `None` for fewer than [`FEWEST`].
-    pub share: Option<Estimate>,
+    pub fraction: Option<Estimate>,
     /// Mean additional current of hot pixels, e⁻/s.
     pub mean_e_s: Option<Estimate>,
     /// Detection limit: e⁻/s, or a fraction of the mean response.
@@ -67,52 +67,52 @@ pub fn hot_pixels(
     let mut sorted = currents.clone();
     let middle = median(&mut sorted);
     let mut off: Vec<f64> = currents.iter().map(|i| (i - middle).abs()).collect();
-    let spread_e_s = NORMAL * median(&mut off);
+    let spread_e_s = MAD_TO_SIGMA * median(&mut off);
     let limit = middle + (6.0 * spread_e_s).max(10.0 * middle.max(0.0));
     let is_full = |i: usize| full_scale_dn.is_some_and(|full| long_dn[i] >= 0.98 * full);
     let above: Vec<usize> = (0..currents.len()).filter(|i| currents[*i] > limit).collect();
-    let found = without_overflow(&above, long.width(), is_full);
-    let below = found.iter().filter(|i| !is_full(**i)).count();
-    let places = found.iter().map(|i| [i % long.width(), i / long.width()]).collect();
+    let hot = without_overflow(&above, long.width(), is_full);
+    let below = hot.iter().filter(|i| !is_full(**i)).count();
+    let places = hot.iter().map(|i| [i % long.width(), i / long.width()]).collect();
     let added_e_s = above.iter().map(|i| currents[*i] - middle).sum::<f64>() / currents.len() as f64;
-    let none = Outliers { places, share: None, mean_e_s: None, limit, added_e_s, spread_e_s };
-    if below < FEWEST {
+    let none = Outliers { positions: places, fraction: None, mean_e_s: None, limit, added_e_s, spread_e_s };
+    if below < MIN_OUTLIERS {
         return Some(none);
     }
-    let excess: f64 = found.iter().map(|i| currents[*i] - limit).sum();
+    let excess: f64 = hot.iter().map(|i| currents[*i] - limit).sum();
     let mean = excess / below as f64;
     let u_mean = mean / (below as f64).sqrt();
-    let all = found.len() as f64;
+    let all = hot.len() as f64;
     // Extrapolation this far below the observed currents is not meaningful.
     if limit > mean {
         return Some(none);
     }
-    let share = all / currents.len() as f64 * exp(limit / mean);
-    let u_share = share * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
-    let (share, mean_e_s) = (Some(Estimate::new(share, u_share)), Some(Estimate::new(mean, u_mean)));
-    Some(Outliers { share, mean_e_s, ..none })
+    let fraction = all / currents.len() as f64 * exp(limit / mean);
+    let u_fraction = fraction * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
+    let (fraction, mean_e_s) = (Some(Estimate::new(fraction, u_fraction)), Some(Estimate::new(mean, u_mean)));
+    Some(Outliers { fraction, mean_e_s, ..none })
 }
 
 /// For adjacent pixels (increasing index, row by row) that include saturated ones: only the middle one of the saturated ones, as
 /// the charge of the others overflowed from it, equally to both sides.
 fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bool) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut seen = vec![false; above.len()];
+    let mut clusters = Vec::new();
+    let mut visited = vec![false; above.len()];
     for start in 0..above.len() {
-        if core::mem::replace(&mut seen[start], true) {
+        if core::mem::replace(&mut visited[start], true) {
             continue;
         }
         let (mut group, mut next) = (vec![start], 0);
         while let Some(at) = group.get(next).map(|member| above[*member]) {
             let column = at % width;
-            let beside = [
+            let neighbours = [
                 (column > 0).then(|| at - 1),
                 (column + 1 < width).then_some(at + 1),
                 at.checked_sub(width),
                 Some(at + width),
             ];
-            for member in beside.into_iter().flatten().filter_map(|place| above.binary_search(&place).ok()) {
-                if !core::mem::replace(&mut seen[member], true) {
+            for member in neighbours.into_iter().flatten().filter_map(|place| above.binary_search(&place).ok()) {
+                if !core::mem::replace(&mut visited[member], true) {
                     group.push(member);
                 }
             }
@@ -122,12 +122,12 @@ fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bo
         let mut full: Vec<usize> = places.clone().filter(|place| is_full(*place)).collect();
         full.sort_unstable();
         match full.get(full.len() / 2) {
-            Some(source) => found.push(*source),
-            None => found.extend(places),
+            Some(source) => clusters.push(*source),
+            None => clusters.extend(places),
         }
     }
-    found.sort_unstable();
-    found
+    clusters.sort_unstable();
+    clusters
 }
 
 /// Dead pixels, from the averages of stacks with light and without.
@@ -136,11 +136,11 @@ pub fn dead_pixels(dark: &Stack, bright: &Stack) -> Outliers {
     const HALF: f64 = 0.5;
     let signal: Vec<f64> = bright.average().iter().zip(&dark.average()).map(|(b, d)| b - d).collect();
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
-    let found = (0..signal.len()).filter(|i| signal[*i] < HALF * mean);
-    let places: Vec<[usize; 2]> = found.map(|i| [i % dark.width(), i / dark.width()]).collect();
+    let dead = (0..signal.len()).filter(|i| signal[*i] < HALF * mean);
+    let places: Vec<[usize; 2]> = dead.map(|i| [i % dark.width(), i / dark.width()]).collect();
     let (count, all) = (places.len() as f64, signal.len() as f64);
-    let share = (places.len() >= FEWEST).then(|| Estimate::new(count / all, count.sqrt() / all));
-    Outliers { places, share, mean_e_s: None, limit: HALF, added_e_s: 0.0, spread_e_s: 0.0 }
+    let fraction = (places.len() >= MIN_OUTLIERS).then(|| Estimate::new(count / all, count.sqrt() / all));
+    Outliers { positions: places, fraction, mean_e_s: None, limit: HALF, added_e_s: 0.0, spread_e_s: 0.0 }
 }
 
 /// The median; sorts the values.
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn hot_pixels_have_their_share_and_mean_although_some_are_saturated() {
+    fn hot_pixels_have_their_fraction_and_mean_although_some_are_saturated() {
         const COUNT: usize = 40_000;
         const HOT: usize = 400;
         // Hot ones, a hundred apart, are not adjacent.
@@ -175,19 +175,19 @@ mod tests {
         // 1 e⁻/s with some scatter, and an exponential of 2 000 e⁻/s by its quantiles; 2 s at 0.5 DN/e⁻ are 1 DN for 1 e⁻/s.
         let quantile = |i: usize| -2000.0 * ln(1.0 - (i as f64 + 0.5) / HOT as f64);
         let current = |i: usize| {
-            let usual = 1.0 + 0.1 * ((i * 7919 % 101) as f64 / 50.0 - 1.0);
-            if i.is_multiple_of(100) { usual + quantile(i / 100) } else { usual }
+            let usual_level = 1.0 + 0.1 * ((i * 7919 % 101) as f64 / 50.0 - 1.0);
+            if i.is_multiple_of(100) { usual_level + quantile(i / 100) } else { usual_level }
         };
         let long: Vec<f64> = (0..COUNT).map(|i| (64.0 + current(i)).min(4095.0)).collect();
-        let found =
+        let hot =
             hot_pixels(&dark(&stack(&long, WIDTH), 2.5), &dark(&stack(&[64.0; COUNT], WIDTH), 0.5), 0.5, Some(4095.0));
-        let found = found.expect("two exposures");
+        let hot = hot.expect("two exposures");
         // Those below the limit of about 10 e⁻/s are added: 0.5 % of 400.
-        assert!((390..=HOT).contains(&found.places.len()) && found.places[0] == [40, 1], "{:?}", &found.places[..2]);
-        let (share, mean) = (found.share.expect("many"), found.mean_e_s.expect("many"));
-        assert!((share.value / 0.01 - 1.0).abs() < 0.01, "{share:?}");
+        assert!((390..=HOT).contains(&hot.positions.len()) && hot.positions[0] == [40, 1], "{:?}", &hot.positions[..2]);
+        let (fraction, mean) = (hot.fraction.expect("many"), hot.mean_e_s.expect("many"));
+        assert!((fraction.value / 0.01 - 1.0).abs() < 0.01, "{fraction:?}");
         // A hundredth of the pixels adds 20 e⁻/s; saturation limits it.
-        assert!((15.0..20.0).contains(&found.added_e_s) && found.spread_e_s < 0.2, "{found:?}");
+        assert!((15.0..20.0).contains(&hot.added_e_s) && hot.spread_e_s < 0.2, "{hot:?}");
         assert!((mean.value / 2000.0 - 1.0).abs() < 0.02 && mean.standard_uncertainty < 120.0, "{mean:?}");
     }
 
@@ -198,21 +198,21 @@ mod tests {
         [5, 99, 430, 931, 1900].iter().for_each(|i| long[*i] = 800.0);
         [990, 1010, 1030].iter().for_each(|i| long[*i] = 4095.0);
         [(950, 700.0), (970, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
-        let found = hot_pixels(&dark(&stack(&long, 20), 2.5), &dark(&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
-        let found = found.expect("two exposures");
-        assert_eq!(found.places, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
+        let hot = hot_pixels(&dark(&stack(&long, 20), 2.5), &dark(&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
+        let hot = hot.expect("two exposures");
+        assert_eq!(hot.positions, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
         // The charge is counted, wherever it was generated.
         let added = (5.0 * 735.0 + 3.0 * 4030.0 + 635.0 + 1435.0 + 2235.0) / 2000.0;
-        assert!((found.added_e_s - added).abs() < 1e-9, "{}", found.added_e_s);
+        assert!((hot.added_e_s - added).abs() < 1e-9, "{}", hot.added_e_s);
     }
 
     #[test]
     fn dead_pixels_are_found_by_their_places() {
         let mut bright = [100.0; 600];
         [3, 77, 78, 200, 599].iter().for_each(|i| bright[*i] = 20.0);
-        let found = dead_pixels(&stack(&[10.0; 600], 30), &stack(&bright, 30));
-        assert_eq!(found.places, [[3, 0], [17, 2], [18, 2], [20, 6], [29, 19]]);
-        assert!((found.share.expect("five").value - 5.0 / 600.0).abs() < 1e-15);
-        assert_eq!(dead_pixels(&stack(&[10.0; 600], 30), &stack(&[100.0; 600], 30)).share, None);
+        let dead = dead_pixels(&stack(&[10.0; 600], 30), &stack(&bright, 30));
+        assert_eq!(dead.positions, [[3, 0], [17, 2], [18, 2], [20, 6], [29, 19]]);
+        assert!((dead.fraction.expect("five").value - 5.0 / 600.0).abs() < 1e-15);
+        assert_eq!(dead_pixels(&stack(&[10.0; 600], 30), &stack(&[100.0; 600], 30)).fraction, None);
     }
 }

@@ -36,7 +36,7 @@ use crate::{Estimate, fourier::transform};
 
 /// Variances, DN², of a pattern and its components.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Parts<T> {
+pub struct VarianceComponents<T> {
     /// Total.
     pub total: T,
     /// Row to row.
@@ -47,11 +47,11 @@ pub struct Parts<T> {
     pub pixel: T,
 }
 
-impl<T> Parts<T> {
+impl<T> VarianceComponents<T> {
     /// Maps the components in a fixed order: total, row, column, pixel.
-    pub fn map<U>(self, f: impl FnMut(T) -> U) -> Parts<U> {
+    pub fn map<U>(self, f: impl FnMut(T) -> U) -> VarianceComponents<U> {
         let [total, row, column, pixel] = [self.total, self.row, self.column, self.pixel].map(f);
-        Parts { total, row, column, pixel }
+        VarianceComponents { total, row, column, pixel }
     }
 }
 
@@ -76,7 +76,7 @@ impl Pattern {
     ///
     /// # Errors
     /// If there are fewer than two frames, or fewer than three rows or columns.
-    pub fn of(stack: &Stack) -> Result<Self, TransferError> {
+    pub fn from_stack(stack: &Stack) -> Result<Self, TransferError> {
         let (width, height) = (stack.width(), stack.height());
         let temporal = stack.temporal()?;
         if width < 3 || height < 3 {
@@ -90,7 +90,7 @@ impl Pattern {
         let squares = [
             n * square(&rows) / (m - 1.0),
             m * square(&columns) / (n - 1.0),
-            residual.second * m * n / ((m - 1.0) * (n - 1.0)),
+            residual.second_moment * m * n / ((m - 1.0) * (n - 1.0)),
         ];
         Ok(Self {
             rows: m,
@@ -105,14 +105,14 @@ impl Pattern {
 
     /// The variances with their uncertainties.
     #[must_use]
-    pub fn variances_dn2(&self) -> Parts<Estimate> {
+    pub fn variances_dn2(&self) -> VarianceComponents<Estimate> {
         self.parts_with(|k| self.spread(k) * self.squares[k] * self.squares[k])
     }
 
     /// Variances of this pattern less those of `dark`, which shares its offsets: the scatter of the dark pattern is in both and
     /// cancels.
     #[must_use]
-    pub fn less(&self, dark: &Self) -> Parts<Estimate> {
+    pub fn without_dark(&self, dark: &Self) -> VarianceComponents<Estimate> {
         let variance = |k: usize| {
             let common = (dark.squares[k] - dark.remainder(k)).max(0.0);
             let own = self.squares[k] * self.squares[k] + dark.squares[k] * dark.squares[k];
@@ -121,7 +121,7 @@ impl Pattern {
         let own = self.parts_with(variance).map(|e| e);
         let other = dark.values();
         let less = |e: Estimate, dark: f64| Estimate::new(e.value - dark, e.standard_uncertainty);
-        Parts {
+        VarianceComponents {
             total: less(own.total, other.total),
             row: less(own.row, other.row),
             column: less(own.column, other.column),
@@ -136,7 +136,7 @@ impl Pattern {
         ((row - pixel / self.columns).max(0.0), (column - pixel / self.rows).max(0.0))
     }
 
-    fn values(&self) -> Parts<f64> {
+    fn values(&self) -> VarianceComponents<f64> {
         self.parts(self.squares, self.temporal)
     }
 
@@ -157,7 +157,7 @@ impl Pattern {
     }
 
     /// The variances from mean squares and temporal variances: linear in both.
-    fn parts(&self, squares: [f64; 3], temporal: [f64; 3]) -> Parts<f64> {
+    fn parts(&self, squares: [f64; 3], temporal: [f64; 3]) -> VarianceComponents<f64> {
         let (m, n, frames) = (self.rows, self.columns, self.frames);
         let dof: [f64; 3] = core::array::from_fn(|k| self.degrees_of_freedom(k));
         let measured = (0..3).map(|k| dof[k] * squares[k]).sum::<f64>() / (m * n - 1.0);
@@ -165,7 +165,7 @@ impl Pattern {
         let rav = dof[0] / m * squares[0] / n - temporal[1] / frames;
         let cav = dof[1] / n * squares[1] / m - temporal[2] / frames;
         let d = m * n - m - n;
-        Parts {
+        VarianceComponents {
             total,
             row: ((m * n - n) * rav - m * (total - cav)) / d,
             column: ((m * n - m) * cav - n * (total - rav)) / d,
@@ -174,10 +174,10 @@ impl Pattern {
     }
 
     /// The variances, with uncertainties from those of the mean squares and of the temporal variances.
-    fn parts_with(&self, variance_of_square: impl Fn(usize) -> f64) -> Parts<Estimate> {
-        let mut sum = Parts::default();
-        let mut add = |slope: Parts<f64>, variance: f64| {
-            let Parts { total, row, column, pixel } = &mut sum;
+    fn parts_with(&self, variance_of_square: impl Fn(usize) -> f64) -> VarianceComponents<Estimate> {
+        let mut sum = VarianceComponents::default();
+        let mut add = |slope: VarianceComponents<f64>, variance: f64| {
+            let VarianceComponents { total, row, column, pixel } = &mut sum;
             for (sum, slope) in
                 [total, row, column, pixel].into_iter().zip([slope.total, slope.row, slope.column, slope.pixel])
             {
@@ -191,7 +191,7 @@ impl Pattern {
         }
         let values = self.values();
         let estimate = |value: f64, variance: f64| Estimate::new(value, variance.sqrt());
-        Parts {
+        VarianceComponents {
             total: estimate(values.total, sum.total),
             row: estimate(values.row, sum.row),
             column: estimate(values.column, sum.column),
@@ -220,18 +220,18 @@ fn deviations(average: &[f64], width: usize, mean: f64) -> (Vec<f64>, Vec<f64>) 
 }
 
 /// Second and fourth moments of the residual after rows and columns.
-struct Residual {
-    second: f64,
-    fourth: f64,
+struct ResidualMoments {
+    second_moment: f64,
+    fourth_moment: f64,
 }
 
-impl Residual {
+impl ResidualMoments {
     fn kurtosis(&self) -> f64 {
-        if self.second > 0.0 { self.fourth / (self.second * self.second) - 3.0 } else { 0.0 }
+        if self.second_moment > 0.0 { self.fourth_moment / (self.second_moment * self.second_moment) - 3.0 } else { 0.0 }
     }
 }
 
-fn residual(average: &[f64], rows: &[f64], columns: &[f64], mean: f64) -> Residual {
+fn residual(average: &[f64], rows: &[f64], columns: &[f64], mean: f64) -> ResidualMoments {
     let (mut second, mut fourth) = (0.0, 0.0);
     for (row, row_deviation) in average.chunks_exact(columns.len()).zip(rows) {
         for (y, column_deviation) in row.iter().zip(columns) {
@@ -241,22 +241,22 @@ fn residual(average: &[f64], rows: &[f64], columns: &[f64], mean: f64) -> Residu
         }
     }
     let count = average.len() as f64;
-    Residual { second: second / count, fourth: fourth / count }
+    ResidualMoments { second_moment: second / count, fourth_moment: fourth / count }
 }
 
 /// The spectrum along rows (horizontal) of an image stored row by row, DN².
 #[must_use]
-pub fn horizontal(picture: &[f64], width: usize) -> Vec<f64> {
-    let mean = picture.iter().sum::<f64>() / picture.len() as f64;
-    spectrum(picture.chunks_exact(width).map(|row| row.iter().map(|y| y - mean).collect()), width)
+pub fn horizontal(image: &[f64], width: usize) -> Vec<f64> {
+    let mean = image.iter().sum::<f64>() / image.len() as f64;
+    spectrum(image.chunks_exact(width).map(|row| row.iter().map(|y| y - mean).collect()), width)
 }
 
 /// The spectrum along columns (vertical), DN².
 #[must_use]
-pub fn vertical(picture: &[f64], width: usize) -> Vec<f64> {
-    let mean = picture.iter().sum::<f64>() / picture.len() as f64;
-    let column = |x: usize| picture.iter().skip(x).step_by(width).map(|y| y - mean).collect();
-    spectrum((0..width).map(column), picture.len() / width)
+pub fn vertical(image: &[f64], width: usize) -> Vec<f64> {
+    let mean = image.iter().sum::<f64>() / image.len() as f64;
+    let column = |x: usize| image.iter().skip(x).step_by(width).map(|y| y - mean).collect();
+    spectrum((0..width).map(column), image.len() / width)
 }
 
 fn spectrum(lines: impl Iterator<Item = Vec<f64>>, length: usize) -> Vec<f64> {
@@ -284,12 +284,12 @@ mod tests {
     fn a_wave_along_rows_is_one_line() {
         let (width, height) = (30, 12);
         let wave = |x: usize| 5.0 + 2.0 * cos(TAU * 4.0 * x as f64 / 30.0);
-        let picture: Vec<f64> = (0..width * height).map(|i| wave(i % width)).collect();
-        let power = horizontal(&picture, width);
+        let wave_image: Vec<f64> = (0..width * height).map(|i| wave(i % width)).collect();
+        let power = horizontal(&wave_image, width);
         // An amplitude of 2 in one of 30 lines: (2/2)² · 30.
         assert!((power[4] - 30.0).abs() < 1e-10, "{power:?}");
         assert!(power.iter().enumerate().all(|(k, p)| k == 4 || p.abs() < 1e-10));
         // Constant along columns: all power is at frequency 0.
-        assert!(vertical(&picture, width).iter().skip(1).all(|p| p.abs() < 1e-10));
+        assert!(vertical(&wave_image, width).iter().skip(1).all(|p| p.abs() < 1e-10));
     }
 }

@@ -30,27 +30,27 @@ pub struct Stack {
     width: usize,
     height: usize,
     frame_means: Vec<f64>,
-    sums: Sums,
-    rows: Sums,
-    columns: Sums,
+    sums: PowerSums,
+    rows: PowerSums,
+    columns: PowerSums,
     /// Fingerprints of frames that are not constant.
     fingerprints: Vec<u64>,
 }
 
 /// Σ x and Σ x² of many numbers.
 #[derive(Clone, Debug)]
-struct Sums {
-    first: Vec<f64>,
-    second: Vec<f64>,
+struct PowerSums {
+    sum: Vec<f64>,
+    sum_of_squares: Vec<f64>,
 }
 
-impl Sums {
+impl PowerSums {
     fn new(count: usize) -> Self {
-        Self { first: vec![0.0; count], second: vec![0.0; count] }
+        Self { sum: vec![0.0; count], sum_of_squares: vec![0.0; count] }
     }
 
     fn push(&mut self, values: impl IntoIterator<Item = f64>) {
-        for ((first, second), value) in self.first.iter_mut().zip(&mut self.second).zip(values) {
+        for ((first, second), value) in self.sum.iter_mut().zip(&mut self.sum_of_squares).zip(values) {
             *first += value;
             *second += value * value;
         }
@@ -58,19 +58,19 @@ impl Sums {
 
     /// Adds a constant to all readings of one number; its variance is unchanged.
     fn shift(&mut self, i: usize, change: f64, frames: f64) {
-        let (before, after) = (self.first[i], self.first[i] + change);
-        self.first[i] = after;
-        self.second[i] += (after * after - before * before) / frames;
+        let (before, after) = (self.sum[i], self.sum[i] + change);
+        self.sum[i] = after;
+        self.sum_of_squares[i] += (after * after - before * before) / frames;
     }
 
     /// Unbiased variance of each number over `frames`.
     fn variances(&self, frames: f64) -> impl Iterator<Item = f64> {
-        let pairs = self.first.iter().zip(&self.second);
+        let pairs = self.sum.iter().zip(&self.sum_of_squares);
         pairs.map(move |(first, second)| ((second - first * first / frames) / (frames - 1.0)).max(0.0))
     }
 
     fn mean_variance(&self, frames: f64) -> f64 {
-        self.variances(frames).sum::<f64>() / self.first.len() as f64
+        self.variances(frames).sum::<f64>() / self.sum.len() as f64
     }
 }
 
@@ -91,9 +91,9 @@ impl Stack {
             width,
             height,
             frame_means: Vec::new(),
-            sums: Sums::new(width * height),
-            rows: Sums::new(height),
-            columns: Sums::new(width),
+            sums: PowerSums::new(width * height),
+            rows: PowerSums::new(height),
+            columns: PowerSums::new(width),
             fingerprints: Vec::new(),
         }
     }
@@ -161,22 +161,22 @@ impl Stack {
     #[must_use]
     pub fn average(&self) -> Vec<f64> {
         let frames = self.frames() as f64;
-        self.sums.first.iter().map(|sum| sum / frames).collect()
+        self.sums.sum.iter().map(|sum| sum / frames).collect()
     }
 
     /// The stack with the readings at some positions (column, row) replaced by those of the nearest other pixel of the row.
     /// Temporal row, column and frame noise is unchanged; so is a row without another pixel.
     #[must_use]
     pub fn replacing(&self, places: &[[usize; 2]]) -> Self {
-        let taken: HashSet<[usize; 2]> = places.iter().copied().collect();
+        let replaced: HashSet<[usize; 2]> = places.iter().copied().collect();
         let (mut stack, frames) = (self.clone(), self.frames() as f64);
         let mut changed = 0.0;
-        for &[x, y] in &taken {
-            let others = (0..self.width).filter(|other| !taken.contains(&[*other, y]));
+        for &[x, y] in &replaced {
+            let others = (0..self.width).filter(|other| !replaced.contains(&[*other, y]));
             let Some(other) = others.min_by_key(|other| other.abs_diff(x)) else { continue };
             let (at, from) = (y * self.width + x, y * self.width + other);
-            let change = self.sums.first[from] - self.sums.first[at];
-            (stack.sums.first[at], stack.sums.second[at]) = (self.sums.first[from], self.sums.second[from]);
+            let change = self.sums.sum[from] - self.sums.sum[at];
+            (stack.sums.sum[at], stack.sums.sum_of_squares[at]) = (self.sums.sum[from], self.sums.sum_of_squares[from]);
             stack.rows.shift(y, change / self.width as f64, frames);
             stack.columns.shift(x, change / self.height as f64, frames);
             changed += change;
@@ -192,21 +192,21 @@ impl Stack {
     /// If there are fewer than two frames, or fewer than two pixels.
     pub fn statistics(&self) -> Result<LevelStatistics, TransferError> {
         let frames = self.at_least_two()?;
-        let pixels = self.sums.first.len() as f64;
-        let moments = etendue_stats::Moments::of(self.sums.variances(frames));
+        let pixels = self.sums.sum.len() as f64;
+        let moments = etendue_stats::Moments::from_values(self.sums.variances(frames));
         let variance = (moments.mean() - self.drift_variance()).max(0.0);
         let u = moments.variance_of_mean().unwrap_or(f64::INFINITY).sqrt();
         let mean = self.frame_means.iter().sum::<f64>() / frames;
         let [_, row, column] = self.temporal()?;
         let (rows, columns) = (self.height as f64, self.width as f64);
-        let of_frame = (variance / pixels).max(row / rows).max(column / columns);
+        let frame_variance = (variance / pixels).max(row / rows).max(column / columns);
         let shared = |average: f64, others: f64, count: f64| {
             let shared = (average - variance / others).max(0.0);
             2.0 * shared * shared / (count * (frames - 1.0))
         };
         let u = (u * u + shared(row, columns, rows) + shared(column, rows, columns)).sqrt();
         Ok(LevelStatistics {
-            mean_dn: Estimate::new(mean, (of_frame / frames).sqrt()),
+            mean_dn: Estimate::new(mean, (frame_variance / frames).sqrt()),
             variance_dn2: Estimate::new(variance, u),
         })
     }
@@ -219,7 +219,7 @@ impl Stack {
 
     /// Variance of the frame means over the frames.
     fn drift_variance(&self) -> f64 {
-        etendue_stats::Moments::of(self.frame_means.iter().copied()).variance().unwrap_or(0.0)
+        etendue_stats::Moments::from_values(self.frame_means.iter().copied()).variance().unwrap_or(0.0)
     }
 
     fn at_least_two(&self) -> Result<f64, TransferError> {
@@ -276,9 +276,9 @@ mod tests {
         assert!((statistics.mean_dn.value - 3.5).abs() < 1e-12);
         // d²/2 = 0.5, 4.5, 0, 8: variance of their mean by hand.
         let deviations = [0.5 - 3.25, 4.5 - 3.25, 0.0 - 3.25, 8.0_f64 - 3.25];
-        let want = deviations.iter().map(|d| d * d).sum::<f64>() / 12.0;
+        let expected = deviations.iter().map(|d| d * d).sum::<f64>() / 12.0;
         // The part shared by columns is 1.125 − 1.25/2: 2 · 0.5²/2.
-        assert!((statistics.variance_dn2.standard_uncertainty - (want + 0.25).sqrt()).abs() < 1e-12);
+        assert!((statistics.variance_dn2.standard_uncertainty - (expected + 0.25).sqrt()).abs() < 1e-12);
     }
 
     /// Offsets of whole rows: 64 columns give no more information than one.
@@ -305,21 +305,21 @@ mod tests {
             frames.iter().for_each(|frame| stack.push(&image(3, frame)).expect("a frame"));
             stack
         };
-        let (found, expected) = (
+        let (actual, expected) = (
             stack(&frames).replacing(&[[0, 1]]),
             stack(&frames.map(|mut f| {
                 f[3] = f[4];
                 f
             })),
         );
-        assert_eq!(found.average(), expected.average());
-        assert_eq!(found.sums.second, expected.sums.second);
-        let sums = |stack: &Stack| [stack.rows.first.clone(), stack.columns.first.clone()].concat();
-        assert!(sums(&found).iter().zip(sums(&expected)).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert_eq!(actual.average(), expected.average());
+        assert_eq!(actual.sums.sum_of_squares, expected.sums.sum_of_squares);
+        let sums = |stack: &Stack| [stack.rows.sum.clone(), stack.columns.sum.clone()].concat();
+        assert!(sums(&actual).iter().zip(sums(&expected)).all(|(a, b)| (a - b).abs() < 1e-12));
         let mean = |stack: &Stack| stack.frame_means.iter().sum::<f64>();
-        assert!((mean(&found) - mean(&expected)).abs() < 1e-12);
+        assert!((mean(&actual) - mean(&expected)).abs() < 1e-12);
         let before = stack(&frames).rows.variances(2.0).collect::<Vec<_>>();
-        assert!(found.rows.variances(2.0).zip(before).all(|(a, b)| (a - b).abs() < 1e-9));
+        assert!(actual.rows.variances(2.0).zip(before).all(|(a, b)| (a - b).abs() < 1e-9));
         // A row without another pixel is unchanged.
         assert_eq!(stack(&frames).replacing(&[[0, 0], [1, 0], [2, 0]]).average(), stack(&frames).average());
     }

@@ -25,7 +25,7 @@ pub const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// A growth law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
+pub enum GrowthLaw {
     /// Doubling per constant temperature step.
     Doubling,
     /// Generation in the depleted silicon.
@@ -34,7 +34,7 @@ pub enum Law {
     Diffusion,
 }
 
-impl Law {
+impl GrowthLaw {
     /// All laws.
     pub const ALL: [Self; 3] = [Self::Doubling, Self::Generation, Self::Diffusion];
 
@@ -52,9 +52,9 @@ impl Law {
 
 /// A law fitted to dark currents.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Growth {
+pub struct DarkCurrentFit {
     /// Law.
-    pub law: Law,
+    pub law: GrowthLaw,
     /// Dark current at the reference temperature, e⁻/s.
     pub reference_e_per_s: Estimate,
     /// Temperature rise that doubles it, K, at the reference temperature; exact for the laws of silicon.
@@ -69,11 +69,11 @@ pub struct Growth {
 ///
 /// # Errors
 /// If there are fewer than three different temperatures, one is impossible, a current has no uncertainty, or none is above zero.
-pub fn fit(law: Law, currents: &[(f64, Estimate)], reference_c: f64) -> Result<Growth, TransferError> {
+pub fn fit(law: GrowthLaw, currents: &[(f64, Estimate)], reference_c: f64) -> Result<DarkCurrentFit, TransferError> {
     check(currents)?;
-    let points: Vec<Point> = currents.iter().map(|(t, e)| Point::new(law, *t, *e, reference_c)).collect();
+    let points: Vec<CurrentPoint> = currents.iter().map(|(t, e)| CurrentPoint::new(law, *t, *e, reference_c)).collect();
     let none = TransferError::NoDarkCurrent;
-    let free = law == Law::Doubling;
+    let free = law == GrowthLaw::Doubling;
     let [ln_reference, slope] =
         if free { growing(&points).ok_or(none)? } else { [ln(scale(&points, 0.0).ok_or(none)?), 0.0] };
     let normal = normal(&points, ln_reference, slope);
@@ -84,7 +84,7 @@ pub fn fit(law: Law, currents: &[(f64, Estimate)], reference_c: f64) -> Result<G
     };
     let doubling = if free { slope } else { law.ln_shape(reference_c + 0.5) - law.ln_shape(reference_c - 0.5) };
     let reference = exp(ln_reference);
-    Ok(Growth {
+    Ok(DarkCurrentFit {
         law,
         reference_e_per_s: Estimate::new(reference, reference * u_reference),
         doubling_k: Estimate::new(LN_2 / doubling, LN_2 / (doubling * doubling) * u_slope),
@@ -109,15 +109,15 @@ fn check(currents: &[(f64, Estimate)]) -> Result<(), TransferError> {
 }
 
 /// A current, its shape factor relative to the reference temperature without the law's slope, and its weight.
-struct Point {
+struct CurrentPoint {
     from_reference_k: f64,
     current: f64,
     shape: f64,
     weight: f64,
 }
 
-impl Point {
-    fn new(law: Law, temperature_c: f64, current: Estimate, reference_c: f64) -> Self {
+impl CurrentPoint {
+    fn new(law: GrowthLaw, temperature_c: f64, current: Estimate, reference_c: f64) -> Self {
         Self {
             from_reference_k: temperature_c - reference_c,
             current: current.value,
@@ -132,19 +132,19 @@ impl Point {
 }
 
 /// The best-fitting current at the reference temperature for a slope; `None` if it is not above zero.
-fn scale(points: &[Point], slope: f64) -> Option<f64> {
-    let sum = |f: &dyn Fn(&Point, f64) -> f64| points.iter().map(|p| f(p, p.model(0.0, slope))).sum::<f64>();
+fn scale(points: &[CurrentPoint], slope: f64) -> Option<f64> {
+    let sum = |f: &dyn Fn(&CurrentPoint, f64) -> f64| points.iter().map(|p| f(p, p.model(0.0, slope))).sum::<f64>();
     let best = sum(&|p, m| p.weight * m * p.current) / sum(&|p, m| p.weight * m * m);
     (best > 0.0).then_some(best)
 }
 
-fn chi_square(points: &[Point], ln_reference: f64, slope: f64) -> f64 {
-    let off = |p: &Point| p.current - p.model(ln_reference, slope);
+fn chi_square(points: &[CurrentPoint], ln_reference: f64, slope: f64) -> f64 {
+    let off = |p: &CurrentPoint| p.current - p.model(ln_reference, slope);
     points.iter().map(|p| p.weight * off(p) * off(p)).sum()
 }
 
 /// JᵀJ for ln I_ref and the slope: its elements 00, 01, 11.
-fn normal(points: &[Point], ln_reference: f64, slope: f64) -> [f64; 3] {
+fn normal(points: &[CurrentPoint], ln_reference: f64, slope: f64) -> [f64; 3] {
     points.iter().fold([0.0; 3], |sum, p| {
         let (m, x) = (p.model(ln_reference, slope), p.from_reference_k);
         let square = p.weight * m * m;
@@ -154,16 +154,16 @@ fn normal(points: &[Point], ln_reference: f64, slope: f64) -> [f64; 3] {
 
 /// ln I_ref and ln 2 over the doubling temperature: the best of slopes from halving to doubling per kelvin, then by Gauss and
 /// Newton.
-fn growing(points: &[Point]) -> Option<[f64; 2]> {
+fn growing(points: &[CurrentPoint]) -> Option<[f64; 2]> {
     let slopes = (-70..=70).map(|i| 0.01 * f64::from(i));
-    let tried = slopes.filter_map(|slope| Some([ln(scale(points, slope)?), slope]));
-    let mut best = tried.min_by(|a, b| chi_square(points, a[0], a[1]).total_cmp(&chi_square(points, b[0], b[1])))?;
+    let candidates = slopes.filter_map(|slope| Some([ln(scale(points, slope)?), slope]));
+    let mut best = candidates.min_by(|a, b| chi_square(points, a[0], a[1]).total_cmp(&chi_square(points, b[0], b[1])))?;
     for _ in 0..20 {
         let [aa, ab, bb] = normal(points, best[0], best[1]);
         let [ra, rb] = points.iter().fold([0.0; 2], |sum, p| {
             let m = p.model(best[0], best[1]);
-            let pull = p.weight * m * (p.current - m);
-            [sum[0] + pull, sum[1] + pull * p.from_reference_k]
+            let weighted_residual = p.weight * m * (p.current - m);
+            [sum[0] + weighted_residual, sum[1] + weighted_residual * p.from_reference_k]
         });
         let determinant = aa * bb - ab * ab;
         let next = [best[0] + (bb * ra - ab * rb) / determinant, best[1] + (aa * rb - ab * ra) / determinant];
@@ -187,13 +187,13 @@ mod tests {
     #[test]
     fn each_law_is_known_by_its_own_series() {
         let doubling = series(|t| 12.0 * exp((t - 30.0) / 8.0 * LN_2));
-        let growth = fit(Law::Doubling, &doubling, 30.0).expect("a fit");
+        let growth = fit(GrowthLaw::Doubling, &doubling, 30.0).expect("a fit");
         assert!((growth.reference_e_per_s.value / 12.0 - 1.0).abs() < 1e-12);
         assert!((growth.doubling_k.value / 8.0 - 1.0).abs() < 1e-12 && growth.chi_square < 1e-18);
-        let silicon = series(|t| exp(30.0 + Law::Generation.ln_shape(t)));
-        assert!(fit(Law::Generation, &silicon, 30.0).expect("a fit").chi_square < 1e-18);
+        let silicon = series(|t| exp(30.0 + GrowthLaw::Generation.ln_shape(t)));
+        assert!(fit(GrowthLaw::Generation, &silicon, 30.0).expect("a fit").chi_square < 1e-18);
         // One doubling temperature cannot be valid from 20 to 80 °C.
-        for law in [Law::Doubling, Law::Diffusion] {
+        for law in [GrowthLaw::Doubling, GrowthLaw::Diffusion] {
             assert!(fit(law, &silicon, 30.0).expect("a fit").chi_square > 30.0, "{law:?}");
         }
     }
@@ -201,31 +201,31 @@ mod tests {
     #[test]
     fn silicon_doubles_as_in_the_tables() {
         // To one decimal: generation 8.5 K at 300 K, 10.3 K at 333 K; diffusion 4.2, 5.2.
-        for (law, kelvin, want) in [
-            (Law::Generation, 300.0, 8.5),
-            (Law::Generation, 333.0, 10.3),
-            (Law::Diffusion, 300.0, 4.2),
-            (Law::Diffusion, 333.0, 5.2),
+        for (law, kelvin, expected) in [
+            (GrowthLaw::Generation, 300.0, 8.5),
+            (GrowthLaw::Generation, 333.0, 10.3),
+            (GrowthLaw::Diffusion, 300.0, 4.2),
+            (GrowthLaw::Diffusion, 333.0, 5.2),
         ] {
             let at = kelvin - ZERO_CELSIUS_K;
             let doubling = fit(law, &series(|t| exp(law.ln_shape(t))), at).expect("a fit").doubling_k.value;
-            assert!((doubling - want).abs() < 0.06, "{law:?} {kelvin}: {doubling}");
+            assert!((doubling - expected).abs() < 0.06, "{law:?} {kelvin}: {doubling}");
         }
     }
 
     #[test]
     fn two_temperatures_are_too_few() {
-        assert_eq!(fit(Law::Doubling, &series(|t| t)[..2], 30.0), Err(TransferError::TooFewTemperatures(2)));
-        let at = |celsius: f64, e: Estimate| fit(Law::Doubling, &[&series(|t| t)[..], &[(celsius, e)]].concat(), 30.0);
+        assert_eq!(fit(GrowthLaw::Doubling, &series(|t| t)[..2], 30.0), Err(TransferError::TooFewTemperatures(2)));
+        let at = |celsius: f64, e: Estimate| fit(GrowthLaw::Doubling, &[&series(|t| t)[..], &[(celsius, e)]].concat(), 30.0);
         let one = Estimate::new(1.0, 0.1);
         assert!(matches!(at(f64::NAN, one), Err(TransferError::NoTemperature(_))));
         assert_eq!(at(-300.0, one), Err(TransferError::NoTemperature(-300.0)));
         assert_eq!(at(5.0, Estimate::new(1.0, 0.0)), Err(TransferError::DarkCurrentUnknown(5.0)));
         let same = [(25.0, one); 3];
-        assert_eq!(fit(Law::Doubling, &same, 30.0), Err(TransferError::TooFewTemperatures(1)));
+        assert_eq!(fit(GrowthLaw::Doubling, &same, 30.0), Err(TransferError::TooFewTemperatures(1)));
         let none: Vec<(f64, Estimate)> =
             series(|t| t).iter().map(|(t, e)| (*t, Estimate::new(-1.0, e.value))).collect();
-        assert_eq!(fit(Law::Diffusion, &none, 30.0), Err(TransferError::NoDarkCurrent));
+        assert_eq!(fit(GrowthLaw::Diffusion, &none, 30.0), Err(TransferError::NoDarkCurrent));
     }
 
     /// A cold current that is negative due to noise counts: omitting it would increase the doubling temperature.
@@ -234,7 +234,7 @@ mod tests {
         let mut noisy = series(|t| exp((t - 30.0) / 8.0 * LN_2));
         noisy[0] = (20.0, Estimate::new(-0.5, 0.5));
         noisy[1] = (30.0, Estimate::new(1.8, 0.5));
-        let growth = |points: &[(f64, Estimate)]| fit(Law::Doubling, points, 30.0).expect("a fit");
+        let growth = |points: &[(f64, Estimate)]| fit(GrowthLaw::Doubling, points, 30.0).expect("a fit");
         assert!(growth(&noisy).chi_square > growth(&noisy[1..]).chi_square + 1.0);
         assert!((growth(&noisy).doubling_k.value - 8.0).abs() < 3.0 * growth(&noisy).doubling_k.standard_uncertainty);
     }

@@ -19,13 +19,13 @@ const SIZE: usize = 32;
 const STEPS: u32 = 14;
 const PHOTONS_PER_S: f64 = 1.25e6;
 
-struct Sensor {
+struct DeclaredSensor {
     seed: u64,
     offset_e: Vec<f64>,
     response: Vec<f64>,
 }
 
-impl Sensor {
+impl DeclaredSensor {
     fn new(seed: u64) -> Self {
         let pattern = |parts: [f64; 3], draws: [NoiseDraw; 3]| -> Vec<f64> {
             let normal = Normal::new(0.0, 1.0).expect("a width");
@@ -77,7 +77,7 @@ impl Sensor {
     fn measure(&self) -> (Figures, Nonuniformity) {
         let data = TransferData::new(&self.levels()).expect("levels");
         let figures = data.figures().expect("figures");
-        let pattern = |photons, first| Pattern::of(&self.stack(6e-3, photons, first, 8)).expect("a stack");
+        let pattern = |photons, first| Pattern::from_stack(&self.stack(6e-3, photons, first, 8)).expect("a stack");
         let (dark, bright) = (pattern(0.0, 1000), pattern(6e-3 * PHOTONS_PER_S, 2000));
         let patterns = nonuniformity(&dark, &bright, figures.gain_dn_per_e, &data).expect("patterns");
         (figures, patterns)
@@ -89,7 +89,7 @@ fn quadrature(parts: [f64; 3]) -> f64 {
 }
 
 /// (name, measured value, declared value).
-fn compared(sensor: &Sensor) -> Vec<(&'static str, Estimate, f64)> {
+fn compared(sensor: &DeclaredSensor) -> Vec<(&'static str, Estimate, f64)> {
     let (f, n) = sensor.measure();
     // The mean response is that of the simulated pixels, not of the population of sensors.
     let response = 1.0 + sensor.response.iter().sum::<f64>() / sensor.response.len() as f64;
@@ -119,12 +119,12 @@ fn compared(sensor: &Sensor) -> Vec<(&'static str, Estimate, f64)> {
 
 #[test]
 fn stated_intervals_cover_the_declared_sensor() {
-    crate::coverage::covers("photon transfer", |seed| compared(&Sensor::new(seed)));
+    crate::coverage::assert_coverage("photon transfer", |seed| compared(&DeclaredSensor::new(seed)));
 }
 
 #[test]
 fn capacity_range_and_linearity_are_those_declared() {
-    let data = TransferData::new(&Sensor::new(1).levels()).expect("levels");
+    let data = TransferData::new(&DeclaredSensor::new(1).levels()).expect("levels");
     assert!(data.saturation_reached());
     let figures = data.figures().expect("figures");
     // The variance is largest at the last level below full well; levels are 825 e⁻ apart.
@@ -150,12 +150,12 @@ fn rows_that_jump_are_no_fixed_pattern() {
     let normal = Normal::new(0.0, 1.0).expect("a width");
     let mut stack = Stack::new(64, 64);
     for frame in 0..16 {
-        let draw = |x: u32, y: u32, draw| normal.sample(&mut NoiseStream::new(7, 0, frame, 0, Pixel { x, y }, draw));
-        let sample = |i: u32| 100.0 + 3.0 * draw(0, i / 64, NoiseDraw::RowRead) + draw(i % 64, i / 64, NoiseDraw::Read);
+        let noise_at = |x: u32, y: u32, purpose| normal.sample(&mut NoiseStream::new(7, 0, frame, 0, Pixel { x, y }, purpose));
+        let sample = |i: u32| 100.0 + 3.0 * noise_at(0, i / 64, NoiseDraw::RowRead) + noise_at(i % 64, i / 64, NoiseDraw::Read);
         let samples = (0..64 * 64).map(|i| sample(i) as f32).collect();
         stack.push(&Image::from_samples(64, 64, samples).expect("a square")).expect("a frame");
     }
-    let pattern = Pattern::of(&stack).expect("a pattern");
+    let pattern = Pattern::from_stack(&stack).expect("a pattern");
     let row = pattern.variances_dn2().row;
     // The standard's subtraction would leave 9/16 DN².
     assert!(row.value.abs() < 3.0 * row.standard_uncertainty && row.standard_uncertainty < 0.2, "{row:?}");
@@ -166,7 +166,7 @@ fn rows_that_jump_are_no_fixed_pattern() {
 
 #[test]
 fn nonsense_is_refused() {
-    let sensor = Sensor::new(3);
+    let sensor = DeclaredSensor::new(3);
     let levels = sensor.levels();
     assert_eq!(TransferData::new(&levels[..2]), Err(TransferError::TooFewLevels { levels: 1 }));
     let bright: Vec<Level> = levels.iter().copied().filter(|l| l.photons > 0.0).collect();
@@ -175,14 +175,14 @@ fn nonsense_is_refused() {
     let stuck: Vec<Level> = levels.iter().map(|l| Level { statistics: levels[1].statistics, ..*l }).collect();
     assert_eq!(TransferData::new(&stuck), Err(TransferError::NoResponse));
     // Averaged frames: the noise does not increase.
-    let quiet = |l: &Level| {
+    let replaced_statistics = |l: &Level| {
         let statistics = LevelStatistics { variance_dn2: Estimate::new(1.0, 0.01), ..l.statistics };
         Level { statistics, ..*l }
     };
-    let averaged = TransferData::new(&levels.iter().map(quiet).collect::<Vec<_>>()).expect("levels");
+    let averaged = TransferData::new(&levels.iter().map(replaced_statistics).collect::<Vec<_>>()).expect("levels");
     assert_eq!(averaged.figures(), Err(TransferError::NoShotNoise));
     let data = TransferData::new(&levels).expect("levels");
-    let pattern = |photons, first| Pattern::of(&sensor.stack(6e-3, photons, first, 4)).expect("a stack");
+    let pattern = |photons, first| Pattern::from_stack(&sensor.stack(6e-3, photons, first, 4)).expect("a stack");
     let (dark, white) = (pattern(0.0, 5000), pattern(1e6, 6000));
     let gain = Estimate::new(GAIN, 0.0);
     assert!(matches!(nonuniformity(&dark, &white, gain, &data), Err(TransferError::SaturatedStack { .. })));
@@ -192,7 +192,7 @@ fn nonsense_is_refused() {
 /// The light is varied, not the time: four dark levels of one exposure are merged, and give no dark current.
 #[test]
 fn dark_levels_of_one_exposure_are_one() {
-    let sensor = Sensor::new(7);
+    let sensor = DeclaredSensor::new(7);
     let exposure_s = 6e-3;
     let bright = (1..=STEPS).map(|i| sensor.level(exposure_s, f64::from(i) * 1.2e-3 * PHOTONS_PER_S, 2 * i));
     let dark = (0..4).map(|i| sensor.level(exposure_s, 0.0, 500 + 2 * i));

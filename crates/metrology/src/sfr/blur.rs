@@ -20,9 +20,9 @@ use super::{Sfr, SfrPoint};
 use crate::Estimate;
 
 /// Maximum fitted frequency, cycles per pixel: above it the aperture leaves little signal.
-const MOST: f64 = 0.8;
+const MAX_FREQUENCY: f64 = 0.8;
 /// Minimum uncertainty of a response.
-const LEAST_U: f64 = 1e-4;
+const MIN_UNCERTAINTY: f64 = 1e-4;
 
 /// Blur of edges of one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +43,8 @@ pub fn blur(edges: &[&Sfr]) -> Option<Blur> {
     if edges.len() < 3 {
         return None;
     }
-    let found: Vec<[f64; 2]> = edges.iter().map(|edge| fitted(edge)).collect::<Option<_>>()?;
-    let [variance_px2, exchange] = [0, 1].map(|k| mean(&found, k));
+    let equations: Vec<[f64; 2]> = edges.iter().map(|edge| fitted(edge)).collect::<Option<_>>()?;
+    let [variance_px2, exchange] = [0, 1].map(|k| mean(&equations, k));
     let mean = [variance_px2.value, exchange.value];
     let off = |edge: &&Sfr| {
         let near = edge.curve.iter().filter(|p| p.frequency <= 0.5);
@@ -58,10 +58,10 @@ pub fn blur(edges: &[&Sfr]) -> Option<Blur> {
 }
 
 /// Mean over several edges.
-fn mean(found: &[[f64; 2]], k: usize) -> Estimate {
-    let moments = Moments::of(found.iter().map(|pair| pair[k]));
+fn mean(samples: &[[f64; 2]], k: usize) -> Estimate {
+    let moments = Moments::from_values(samples.iter().map(|pair| pair[k]));
     let error = moments.variance_of_mean().unwrap_or(f64::INFINITY).sqrt();
-    Estimate::new(moments.mean(), error * widening(found.len() as f64 - 1.0))
+    Estimate::new(moments.mean(), error * widening(samples.len() as f64 - 1.0))
 }
 
 /// Student's t at 95 % relative to the normal quantile.
@@ -100,8 +100,8 @@ fn fitted(edge: &Sfr) -> Option<[f64; 2]> {
 
 fn step(curve: &[SfrPoint], angle_deg: f64, at: [f64; 2]) -> Option<[f64; 2]> {
     let mut normal = crate::linear::Normal::new(2);
-    for p in curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= MOST) {
-        let u = p.response.standard_uncertainty.max(LEAST_U);
+    for p in curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= MAX_FREQUENCY) {
+        let u = p.response.standard_uncertainty.max(MIN_UNCERTAINTY);
         let (response, slopes) = model(p.frequency, angle_deg, at);
         if u.is_finite() {
             normal.add(&slopes, p.response.value - response, 1.0 / (u * u));
@@ -137,15 +137,15 @@ mod tests {
     }
 
     #[test]
-    fn spread_and_exchange_are_told_apart() {
+    fn spread_and_crosstalk_are_separated() {
         for truth in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.026], [0.12, 0.02]] {
             let edges = [0.001, -0.001, 0.002, -0.002, 0.0].map(|off| edge(truth, off));
-            let found = blur(&edges.iter().collect::<Vec<_>>()).expect("five edges");
-            for (e, truth) in [found.variance_px2, found.exchange].into_iter().zip(truth) {
+            let measured = blur(&edges.iter().collect::<Vec<_>>()).expect("five edges");
+            for (e, truth) in [measured.variance_px2, measured.exchange].into_iter().zip(truth) {
                 assert!((e.value - truth).abs() < 3.0 * e.standard_uncertainty + 1e-9, "{e:?} {truth}");
                 assert!(e.standard_uncertainty < 0.01, "{e:?}");
             }
-            assert!(found.misfit < 0.002, "{}", found.misfit);
+            assert!(measured.misfit < 0.002, "{}", measured.misfit);
         }
         let two = [edge([0.0; 2], 0.0), edge([0.0; 2], 0.001)];
         assert_eq!(blur(&two.iter().collect::<Vec<_>>()), None);

@@ -20,8 +20,8 @@ use super::knots::{Row, Sample};
 use crate::{Image, linear::Matrix};
 
 /// Maximum shift, px, and minimum significant correlation, in its own standard deviations for independent noise.
-const FARTHEST: isize = 4;
-const SIGNIFICANT: f64 = 4.0;
+const MAX_SHIFT_PX: isize = 4;
+const MIN_SIGNIFICANCE: f64 = 4.0;
 
 /// Covariance with shared noise, if any, and without.
 pub(super) struct Covariance {
@@ -30,19 +30,19 @@ pub(super) struct Covariance {
 }
 
 /// Minimum accepted fraction of the variance without shared noise.
-const MIN_SHARE: f64 = 0.1;
+const MIN_UNSHARED_FRACTION: f64 = 0.1;
 
 impl Covariance {
     /// Covariance of coefficients fitted to samples with these residuals; `inverse` is B.
     pub(super) fn new(rows: &[Row], samples: &[Sample], residuals: &[f64], image: &Image, inverse: &Matrix) -> Self {
-        let neighbours = Neighbours::new(samples, image);
+        let neighbours = SampleIndex::new(samples, image);
         let shifts = neighbours.correlated(residuals);
         let leverages: Vec<f64> = rows.iter().map(|row| leverage(row, inverse)).collect();
         let free = |i: usize| 1.0 - leverages[i].min(0.9);
         let scaled = |power: fn(f64) -> f64| residuals.iter().enumerate().map(|(i, e)| e / power(free(i))).collect();
         let shared = (!shifts.is_empty()).then(|| {
             let residuals: Vec<f64> = scaled(|f| f);
-            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.of(samples[i].pixel, s.0, s.1)).collect();
+            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.neighbour(samples[i].pixel, s.0, s.1)).collect();
             sandwich(rows, &residuals, near, inverse)
         });
         let residuals: Vec<f64> = scaled(f64::sqrt);
@@ -53,7 +53,7 @@ impl Covariance {
     pub(super) fn variance(&self, weights: &[f64]) -> f64 {
         let own = self.own.form(weights).max(0.0);
         let shared = self.shared.as_ref().map(|c| c.form(weights));
-        shared.filter(|v| *v > MIN_SHARE * own).unwrap_or(own)
+        shared.filter(|v| *v > MIN_UNSHARED_FRACTION * own).unwrap_or(own)
     }
 }
 
@@ -80,19 +80,19 @@ fn sandwich(rows: &[Row], residuals: &[f64], near: impl Fn(usize) -> Vec<usize>,
 }
 
 /// Index of the sample of each pixel.
-struct Neighbours {
+struct SampleIndex {
     width: isize,
     samples: Vec<Option<usize>>,
 }
 
-impl Neighbours {
+impl SampleIndex {
     fn new(samples: &[Sample], image: &Image) -> Self {
         let mut places = vec![None; image.samples().len()];
         samples.iter().enumerate().for_each(|(i, s)| places[s.pixel] = Some(i));
         Self { width: image.width() as isize, samples: places }
     }
 
-    fn of(&self, pixel: usize, dx: isize, dy: isize) -> Option<usize> {
+    fn neighbour(&self, pixel: usize, dx: isize, dy: isize) -> Option<usize> {
         let at = pixel as isize;
         let column = at % self.width + dx;
         let place = usize::try_from(at + dy * self.width + dx).ok()?;
@@ -102,16 +102,16 @@ impl Neighbours {
     /// Shifts within the reach of those with correlated or anticorrelated noise.
     fn correlated(&self, residuals: &[f64]) -> Vec<(isize, isize)> {
         let pixels: Vec<usize> = (0..self.samples.len()).filter(|p| self.samples[*p].is_some()).collect();
-        let range = || -FARTHEST..=FARTHEST;
+        let range = || -MAX_SHIFT_PX..=MAX_SHIFT_PX;
         let shifts = range().flat_map(|dy| range().map(move |dx| (dx, dy))).filter(|shift| *shift != (0, 0));
         let counts = |shift: &(isize, isize)| {
-            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, shift.0, shift.1)?]);
+            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.neighbour(*p, shift.0, shift.1)?]);
             let (mut sum, mut squares) = (0.0, 0.0);
             pixels.iter().filter_map(pair).for_each(|product| {
                 sum += product;
                 squares += product * product;
             });
-            sum * sum > SIGNIFICANT * SIGNIFICANT * squares
+            sum * sum > MIN_SIGNIFICANCE * MIN_SIGNIFICANCE * squares
         };
         let significant = shifts.clone().filter(counts);
         let reach = significant.map(|(dx, dy)| dx.abs().max(dy.abs()) + 1).max();

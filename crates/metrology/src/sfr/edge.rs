@@ -34,7 +34,7 @@ impl Edge {
     /// The edge from the structure tensor of the image gradients (its principal direction is the edge's normal; isotropic noise
     /// does not rotate it) and the centre of the gradients along it.
     pub(super) fn from_gradients(image: &Image) -> Result<Self, SfrError> {
-        let gradients: Vec<Gradient> = gradients(&calmed(image)).collect();
+        let gradients: Vec<Gradient> = gradients(&smoothed(image)).collect();
         let sum = |f: fn(&Gradient) -> f64| gradients.iter().map(f).sum::<f64>();
         let (xx, yy, xy) = (sum(|g| g.x * g.x), sum(|g| g.y * g.y), sum(|g| g.x * g.y));
         // Readings near the largest number have invalid gradients.
@@ -70,7 +70,7 @@ impl Edge {
     }
 
     /// The edge through two points of an image.
-    pub(super) fn through([a, b]: [[f64; 2]; 2], image: &Image) -> Result<Self, SfrError> {
+    pub(super) fn fit_through([a, b]: [[f64; 2]; 2], image: &Image) -> Result<Self, SfrError> {
         let run = [b[0] - a[0], b[1] - a[1]];
         let vertical = run[1].abs() >= run[0].abs();
         let (across, along, length) = if vertical { (0, 1, image.height()) } else { (1, 0, image.width()) };
@@ -145,8 +145,8 @@ impl Edge {
     /// Checks that its angle can be measured.
     pub(super) fn check(&self) -> Result<(), SfrError> {
         let angle_deg = self.angle_deg();
-        let legal = (MIN_ANGLE_DEG..=45.0 - MIN_ANGLE_DEG).contains(&angle_deg);
-        if legal { Ok(()) } else { Err(SfrError::Angle { angle_deg }) }
+        let is_valid = (MIN_ANGLE_DEG..=45.0 - MIN_ANGLE_DEG).contains(&angle_deg);
+        if is_valid { Ok(()) } else { Err(SfrError::Angle { angle_deg }) }
     }
 }
 
@@ -154,7 +154,7 @@ impl Edge {
 const BORDER: f64 = 2.0;
 
 /// 3 × 3 medians, which remove single hot or dead pixels, then 3 × 3 means, which leave a ninth of the noise power.
-fn calmed(image: &Image) -> Image {
+fn smoothed(image: &Image) -> Image {
     let median = |mut near: [f32; 9]| {
         near.sort_unstable_by(f32::total_cmp);
         near[4]
@@ -164,10 +164,10 @@ fn calmed(image: &Image) -> Image {
 }
 
 /// A function of each pixel and its eight neighbours; without the image's border.
-fn neighbourhoods(image: &Image, of: impl Fn([f32; 9]) -> f32) -> Image {
+fn neighbourhoods(image: &Image, reduce: impl Fn([f32; 9]) -> f32) -> Image {
     let (width, height) = (image.width() - 2, image.height() - 2);
     let near = |x: usize, y: usize| core::array::from_fn(|i| image.at(x + i % 3, y + i / 3));
-    let samples = (0..width * height).map(|i| of(near(i % width, i / width))).collect();
+    let samples = (0..width * height).map(|i| reduce(near(i % width, i / width))).collect();
     Image::from_samples(width, height, samples).expect("as many pixels")
 }
 

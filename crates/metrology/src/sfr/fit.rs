@@ -16,54 +16,54 @@ const MIN_MOVE_PX: f64 = 1e-4;
 const NEIGHBOURS: usize = 4;
 const ZONES_PX: [f64; 2] = [1.0, 3.0];
 const OUTLIER_SIGMAS: f64 = 6.0;
-const OUTLIER_SHARE: f64 = 0.05;
+const OUTLIER_FRACTION: f64 = 0.05;
 const MAX_OUTLIERS: f64 = 0.02;
 const REJECTIONS: usize = 8;
 
 /// Fits edge and profile to the pixels marked in `seen`, and again without the defective ones.
-pub(super) fn fitted(
+pub(super) fn fit_edge(
     image: &Image,
-    seen: &[bool],
+    usable: &[bool],
     start: Edge,
     settings: &SfrSettings,
 ) -> Result<(Edge, Profile), SfrError> {
-    let mut kept = seen.to_vec();
-    let mut edge = settled(image, start, &kept, settings)?;
+    let mut inliers = usable.to_vec();
+    let mut edge = converged_edge(image, start, &inliers, settings)?;
     for _ in 0..REJECTIONS {
-        let found = regular(image, seen, &edge, &kept, settings)?;
-        if found == kept {
+        let next_inliers = regular_pixels(image, usable, &edge, &inliers, settings)?;
+        if next_inliers == inliers {
             break;
         }
-        kept = found;
-        edge = settled(image, edge, &kept, settings)?;
+        inliers = next_inliers;
+        edge = converged_edge(image, edge, &inliers, settings)?;
     }
     edge.check()?;
-    let samples = samples(image, &edge, &kept);
+    let samples = samples(image, &edge, &inliers);
     let knots = Knots::new(image, &edge, &samples, settings)?;
-    let profile = Profile::of(knots, &samples, image).ok_or(SfrError::NoEdge("the profile has gaps"))?;
+    let profile = Profile::fit(knots, &samples, image).ok_or(SfrError::NoEdge("the profile has gaps"))?;
     profile.check(&edge)?;
     Ok((edge, profile))
 }
 
-fn samples(image: &Image, edge: &Edge, kept: &[bool]) -> Vec<Sample> {
+fn samples(image: &Image, edge: &Edge, inliers: &[bool]) -> Vec<Sample> {
     let sample = |i: usize| {
         let (x, y) = (i % image.width(), i / image.width());
         let (column, row) = (x as f64 + 0.5, y as f64 + 0.5);
         Sample { pixel: i, distance: edge.distance(column, row), row, reading: f64::from(image.at(x, y)) }
     };
-    (0..kept.len()).filter(|i| kept[*i]).map(sample).collect()
+    (0..inliers.len()).filter(|i| inliers[*i]).map(sample).collect()
 }
 
 /// The best-fitting edge: Gauss–Newton on edge and profile together, so that neither constrains the other.
-fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) -> Result<Edge, SfrError> {
+fn converged_edge(image: &Image, start: Edge, inliers: &[bool], settings: &SfrSettings) -> Result<Edge, SfrError> {
     let mut edge = start;
     let mut best: Option<(f64, Edge, Vec<f64>)> = None;
     for _ in 0..ROUNDS {
-        let samples = samples(image, &edge, kept);
+        let samples = samples(image, &edge, inliers);
         let knots = Knots::new(image, &edge, &samples, settings)?;
         let (squares, mut by) = knots.correction(&samples, &edge, settings.edge_degree)?;
         // A step that increased the residual was too large: half of it.
-        match best.as_mut().filter(|(least, ..)| squares > *least) {
+        match best.as_mut().filter(|(min_squares, ..)| squares > *min_squares) {
             Some((_, from, last)) => {
                 last.iter_mut().for_each(|v| *v *= 0.5);
                 (edge, by) = (from.clone(), last.clone());
@@ -79,47 +79,47 @@ fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) ->
 }
 
 /// Marks pixels that are not defective, by their residuals from the profile of the pixels accepted so far.
-fn regular(
+fn regular_pixels(
     image: &Image,
-    seen: &[bool],
+    usable: &[bool],
     edge: &Edge,
-    kept: &[bool],
+    inliers: &[bool],
     settings: &SfrSettings,
 ) -> Result<Vec<bool>, SfrError> {
-    let believed = samples(image, edge, kept);
-    let knots = Knots::new(image, edge, &believed, settings)?;
-    let normal = knots.normal(&believed, &knots.rows(&believed));
+    let inlier_samples = samples(image, edge, inliers);
+    let knots = Knots::new(image, edge, &inlier_samples, settings)?;
+    let normal = knots.normal(&inlier_samples, &knots.rows(&inlier_samples));
     let levels = normal.solve().ok_or(SfrError::NoEdge("the profile has gaps"))?;
-    let samples = samples(image, edge, seen);
+    let samples = samples(image, edge, usable);
     let residuals: Vec<f64> =
         samples.iter().zip(knots.rows(&samples)).map(|(s, row)| s.reading - row.dot(&levels)).collect();
-    let apart = apart_from_neighbours(&samples, &residuals);
+    let neighbour_deviations = outliers_by_neighbours(&samples, &residuals);
     let [left, right] = knots.plateaus(&levels);
-    let least = OUTLIER_SHARE * (right - left).abs();
+    let min_deviation = OUTLIER_FRACTION * (right - left).abs();
     let zone = |s: &Sample| ZONES_PX.iter().filter(|far| s.distance.abs() > **far).count();
     let limit = |z: usize| {
-        let within = samples.iter().zip(&apart).filter(|(s, _)| zone(s) == z);
-        (OUTLIER_SIGMAS * 1.4826 * upper_median(within.map(|(_, r)| *r)).unwrap_or(0.0)).max(least)
+        let within = samples.iter().zip(&neighbour_deviations).filter(|(s, _)| zone(s) == z);
+        (OUTLIER_SIGMAS * 1.4826 * upper_median(within.map(|(_, r)| *r)).unwrap_or(0.0)).max(min_deviation)
     };
     let limits: Vec<f64> = (0..=ZONES_PX.len()).map(limit).collect();
     let defects: Vec<&Sample> =
-        samples.iter().zip(&apart).filter(|(s, r)| **r > limits[zone(s)]).map(|(s, _)| s).collect();
+        samples.iter().zip(&neighbour_deviations).filter(|(s, r)| **r > limits[zone(s)]).map(|(s, _)| s).collect();
     if defects.len() as f64 > MAX_OUTLIERS * samples.len() as f64 {
         return Err(SfrError::NoEdge("more than 2 % of the pixels do not fit one straight edge"));
     }
-    let mut kept = seen.to_vec();
-    defects.iter().for_each(|s| kept[s.pixel] = false);
-    Ok(kept)
+    let mut next_inliers = usable.to_vec();
+    defects.iter().for_each(|s| next_inliers[s.pixel] = false);
+    Ok(next_inliers)
 }
 
 /// Difference of each residual from the median of those at the nearest distances, which removes the common misfit of the splines.
-fn apart_from_neighbours(samples: &[Sample], residuals: &[f64]) -> Vec<f64> {
+fn outliers_by_neighbours(samples: &[Sample], residuals: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..samples.len()).collect();
     order.sort_by(|a, b| samples[*a].distance.total_cmp(&samples[*b].distance));
-    let mut apart = vec![0.0; samples.len()];
+    let mut deviations = vec![0.0; samples.len()];
     for (place, i) in order.iter().enumerate() {
         let near = &order[place.saturating_sub(NEIGHBOURS)..(place + NEIGHBOURS + 1).min(order.len())];
-        apart[*i] = (residuals[*i] - upper_median(near.iter().map(|k| residuals[*k])).unwrap_or(0.0)).abs();
+        deviations[*i] = (residuals[*i] - upper_median(near.iter().map(|k| residuals[*k])).unwrap_or(0.0)).abs();
     }
-    apart
+    deviations
 }

@@ -6,19 +6,19 @@ use super::{Edge, SfrError, SfrSettings};
 use crate::{Image, linear::Normal};
 
 /// Finest step of the splines, px.
-pub(super) const FINEST_STEP_PX: f64 = 0.25;
+pub(super) const MIN_STEP_PX: f64 = 0.25;
 /// Maximum gap between distances. Steps are wider than gaps, as least squares on uniformly clustered distances requires: 0.58
 /// pixels at this gap, where a fit of degree 5 at 0.5 cycles per pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the
 /// response.
-const WIDEST_GAP_PX: f64 = 0.46;
+const MAX_GAP_PX: f64 = 0.46;
 pub(super) const STEP_OVER_GAP: f64 = 1.25;
 /// Default reach of the fine splines, px.
-pub(super) const USUAL_REACH_PX: f64 = 10.0;
+pub(super) const DEFAULT_REACH_PX: f64 = 10.0;
 /// Step of the splines beyond, px, and their reach.
 const COARSE_STEP_PX: f64 = 2.0;
 pub(super) const MAX_PX: f64 = 100.0;
 /// Part of the image's nearer side in which the profile may change; the rest is plateau, whose mean determines the response at 0.
-const CHANGING: f64 = 0.65;
+const CHANGING_FRACTION: f64 = 0.65;
 /// Maximum change in one refinement step, px.
 const MAX_MOVE_PX: f64 = 2.0;
 
@@ -36,7 +36,7 @@ pub(super) struct Row(pub Vec<(usize, f64)>);
 
 impl Row {
     pub(super) fn dot(&self, values: &[f64]) -> f64 {
-        self.0.iter().map(|(k, share)| values[*k] * share).sum()
+        self.0.iter().map(|(k, weight)| values[*k] * weight).sum()
     }
 }
 
@@ -66,22 +66,22 @@ impl Knots {
     ) -> Result<Self, SfrError> {
         // Both plateaus must be visible beyond the reach, from some row.
         let widest = |sign: f64| samples.iter().map(|s| sign * s.distance).fold(0.0, f64::max) - 1.0;
-        let most = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
-        let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX).min(most);
+        let max_reach = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
+        let reach_px = settings.reach_px.unwrap_or(DEFAULT_REACH_PX).min(max_reach);
         if reach_px < 2.0 {
             return Err(SfrError::NoEdge("the edge is too near the image border"));
         }
         let gap_px = widest_gap(samples, reach_px);
-        if gap_px > WIDEST_GAP_PX {
+        if gap_px > MAX_GAP_PX {
             return Err(SfrError::Gaps { gap_px, angle_deg: edge.angle_deg() });
         }
-        let step_px = (STEP_OVER_GAP * gap_px).max(FINEST_STEP_PX);
+        let step_px = (STEP_OVER_GAP * gap_px).max(MIN_STEP_PX);
         let count = (2.0 * reach_px / step_px).floor() as usize + 1 - SUPPORT;
         if count < 2 * SUPPORT {
             return Err(SfrError::NoEdge("the edge is too near the image border"));
         }
         let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
-        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(MAX_PX)) })
+        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING_FRACTION * max_reach).min(MAX_PX)) })
     }
 
     /// The coefficients of a reading, with their weights. The profile is a sum of levels, each of which extends from one step to
@@ -90,15 +90,15 @@ impl Knots {
     fn row(&self, distance: f64) -> Row {
         let u = (distance + self.reach_px) / self.step_px;
         let first = self.first(u);
-        let climbed = |k: usize| match k {
+        let rise = |k: usize| match k {
             0 => 1.0,
             k if k > self.count => 0.0,
             k => step(u - (k - 1) as f64 - 0.5 * SUPPORT as f64),
         };
         let mut terms = Vec::with_capacity(4 * SUPPORT);
-        let mut above = climbed(first);
+        let mut above = rise(first);
         for k in first..=first + SUPPORT {
-            let next = climbed(k + 1);
+            let next = rise(k + 1);
             terms.push((k, above - next));
             above = next;
         }
@@ -117,17 +117,17 @@ impl Knots {
         if u <= -half {
             return;
         }
-        let climbed = |k: usize| if k < self.coarse.len() { step(u - k as f64) } else { 0.0 };
-        let taken = climbed(0);
+        let height_at = |k: usize| if k < self.coarse.len() { step(u - k as f64) } else { 0.0 };
+        let rise = height_at(0);
         match terms.iter_mut().find(|(k, _)| *k == end) {
-            Some((_, value)) => *value -= taken,
-            None => terms.push((end, -taken)),
+            Some((_, value)) => *value -= rise,
+            None => terms.push((end, -rise)),
         }
         // Steps below this one are complete.
         let from = ((u - half).floor().max(0.0) as usize).min(self.coarse.len() - 1);
-        let mut below = climbed(from);
+        let mut below = height_at(from);
         for k in (from..self.coarse.len()).take(SUPPORT + 2) {
-            let next = climbed(k + 1);
+            let next = height_at(k + 1);
             terms.push((levels + k, below - next));
             below = next;
         }
@@ -236,7 +236,7 @@ impl Knots {
     /// pixel.
     fn middle_px(&self, levels: &[f64]) -> f64 {
         let [left, right] = self.plateaus(levels);
-        let (extent, step) = (self.extent_px(), FINEST_STEP_PX);
+        let (extent, step) = (self.extent_px(), MIN_STEP_PX);
         let count = (2.0 * extent / step).floor() as usize;
         let at = |i: usize| -extent + (i as f64 + 0.5) * step;
         let nearer = |d: &f64| (self.value(*d, levels) - left) / (right - left) < 0.5;
@@ -254,9 +254,9 @@ impl Knots {
 
 /// Positions of the coarse steps beyond the fine splines on either side: those whose support leaves the fine splines' range, so
 /// that no coarse step is a sum of fine ones (Kraft 1997), as far as there are pixels.
-fn coarse(reach_px: f64, most: f64) -> Vec<f64> {
+fn coarse(reach_px: f64, max_px: f64) -> Vec<f64> {
     let first = reach_px - 1.5 * COARSE_STEP_PX;
-    (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= most).collect()
+    (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= max_px).collect()
 }
 
 /// The widest gap between neighbouring distances within the reach.

@@ -16,7 +16,7 @@
 //! diffraction; the surfaces' own uncertainty is ignored.
 
 use super::response::{Sfr, SfrPoint, crossing};
-use super::{Edge, SfrError, SfrSettings, fit, knots::USUAL_REACH_PX, profile::Profile};
+use super::{Edge, SfrError, SfrSettings, fit, knots::DEFAULT_REACH_PX, profile::Profile};
 use crate::{Image, linear::Normal};
 
 /// Maximum degree of a surface.
@@ -34,7 +34,7 @@ fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image,
     if degree == 0 {
         return Ok(image.clone());
     }
-    let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX);
+    let reach_px = settings.reach_px.unwrap_or(DEFAULT_REACH_PX);
     let (width, height) = (image.width(), image.height());
     let [left, right] =
         [-1.0, 1.0].map(|side| Surface::fitted(image, degree, |x, y| side * edge.distance(x, y) > reach_px));
@@ -91,22 +91,22 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
     let by_degree = |shading_degree: usize| {
         let settings = &SfrSettings { shading_degree, ..*settings };
         let image = &levelled(&upright, &start, settings)?;
-        let (edge, profile) = fit::fitted(image, &vec![true; image.samples().len()], start.clone(), settings)?;
-        Ok::<_, SfrError>(told(&edge, &profile, settings))
+        let (edge, profile) = fit::fit_edge(image, &vec![true; image.samples().len()], start.clone(), settings)?;
+        Ok::<_, SfrError>(edge_response(&edge, &profile, settings))
     };
-    let found = by_degree(settings.shading_degree)?;
+    let result = by_degree(settings.shading_degree)?;
     let further = settings.shading_degree + 1;
     let other = (further <= MAX_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
     Ok(match other {
-        Some(other) => found.with_choice_of_shading(&other),
-        None => found,
+        Some(other) => result.with_choice_of_shading(&other),
+        None => result,
     })
 }
 
 /// Points of a curve without the first.
 const POINTS: usize = 100;
 
-pub(super) fn told(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
+pub(super) fn edge_response(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
     let frequency = |i: usize| settings.last_frequency * i as f64 / POINTS as f64;
     let curve: Vec<SfrPoint> = (0..=POINTS).map(frequency).map(|f| profile.response(f)).collect();
     Sfr {
@@ -166,7 +166,7 @@ pub struct Strip {
 
 impl Strip {
     /// True if a point is inside the strip.
-    fn holds(&self, [x, y]: [f64; 2]) -> bool {
+    fn contains_strip(&self, [x, y]: [f64; 2]) -> bool {
         let [a, b] = self.ends_px;
         let (run, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
         let length = (run[0] * run[0] + run[1] * run[1]).sqrt();
@@ -178,11 +178,11 @@ impl Strip {
 
     /// The pixels around it: left column, top row, width, height, clipped to an image.
     fn bounds(&self, image: &Image) -> [usize; 4] {
-        let most = self.half_widths_px[0].max(self.half_widths_px[1]) + 1.0;
+        let max_half_width = self.half_widths_px[0].max(self.half_widths_px[1]) + 1.0;
         let along = |k: usize, length: usize| {
             let (a, b) = (self.ends_px[0][k], self.ends_px[1][k]);
-            let low = ((a.min(b) - most).floor().max(0.0) as usize).min(length);
-            let high = ((a.max(b) + most).ceil().max(0.0) as usize).min(length);
+            let low = ((a.min(b) - max_half_width).floor().max(0.0) as usize).min(length);
+            let high = ((a.max(b) + max_half_width).ceil().max(0.0) as usize).min(length);
             (low, high - low)
         };
         let ((left, width), (top, height)) = (along(0, image.width()), along(1, image.height()));
@@ -202,13 +202,13 @@ pub fn measure_strip(image: &Image, strip: &Strip, settings: &SfrSettings) -> Re
     let part = image.part(left, top, width, height);
     check(&part, settings)?;
     let ends = strip.ends_px.map(|[x, y]| [x - left as f64, y - top as f64]);
-    let start = Edge::through(ends, &part)?;
-    let seen: Vec<f32> = (0..width * height)
+    let start = Edge::fit_through(ends, &part)?;
+    let visible: Vec<f32> = (0..width * height)
         .map(|i| [left + i % width, top + i / width].map(|v| v as f64 + 0.5))
-        .map(|at| if strip.holds(at) { 1.0 } else { 0.0 })
+        .map(|at| if strip.contains_strip(at) { 1.0 } else { 0.0 })
         .collect();
-    let seen = start.upright(&Image::from_samples(width, height, seen).expect("as many pixels"));
-    let seen: Vec<bool> = seen.samples().iter().map(|s| *s > 0.5).collect();
-    let (edge, profile) = fit::fitted(&start.upright(&part), &seen, start, settings)?;
-    Ok(told(&edge, &profile, settings))
+    let visible = start.upright(&Image::from_samples(width, height, visible).expect("as many pixels"));
+    let visible: Vec<bool> = visible.samples().iter().map(|s| *s > 0.5).collect();
+    let (edge, profile) = fit::fit_edge(&start.upright(&part), &visible, start, settings)?;
+    Ok(edge_response(&edge, &profile, settings))
 }

@@ -4,12 +4,12 @@ use core::f64::consts::{PI, TAU};
 
 use etendue_core::maths::f64::{sin, sin_cos};
 
-use super::knots::{FINEST_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step, step};
+use super::knots::{MIN_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step, step};
 use super::{Edge, SfrError, SfrPoint, covariance::Covariance};
 use crate::{Estimate, Image};
 
 /// Maximum response at half the sampling frequency of the profile: higher frequencies alias into the response.
-const MAX_BEYOND: f64 = 0.03;
+const MAX_ALIASED_RESPONSE: f64 = 0.03;
 
 /// A profile fitted to the pixels.
 pub(super) struct Profile {
@@ -27,7 +27,7 @@ pub(super) struct Profile {
 
 impl Profile {
     /// The best-fitting profile of the samples for the knots.
-    pub(super) fn of(knots: Knots, samples: &[Sample], image: &Image) -> Option<Self> {
+    pub(super) fn fit(knots: Knots, samples: &[Sample], image: &Image) -> Option<Self> {
         let rows = knots.rows(samples);
         let normal = knots.normal(samples, &rows);
         let values = normal.solve()?;
@@ -48,8 +48,8 @@ impl Profile {
             return Err(SfrError::NoEdge("the image differs from a straight edge by more than a tenth of its height"));
         }
         let gap_px = self.step_px / STEP_OVER_GAP;
-        let finest = self.step_px <= FINEST_STEP_PX;
-        if !finest && self.response(0.5 / gap_px).response.value > MAX_BEYOND {
+        let finest = self.step_px <= MIN_STEP_PX;
+        if !finest && self.response(0.5 / gap_px).response.value > MAX_ALIASED_RESPONSE {
             return Err(SfrError::Steep { gap_px, angle_deg: edge.angle_deg() });
         }
         Ok(())
@@ -81,8 +81,8 @@ impl Profile {
     }
 
     fn reading(&self, distance: f64) -> f64 {
-        let climbed = |s: &Step| self.height(s) * step((distance - s.at) / s.width);
-        self.values[self.leftmost] + self.steps.iter().map(climbed).sum::<f64>()
+        let rise = |s: &Step| self.height(s) * step((distance - s.at) / s.width);
+        self.values[self.leftmost] + self.steps.iter().map(rise).sum::<f64>()
     }
 
     /// Normalised magnitude |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the
@@ -155,19 +155,19 @@ mod tests {
         for sigmas in [[1.0, 1.0], [1.0, 0.3], [0.5, 1.0]] {
             for truth in [0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0] {
                 let noise = normals(2 * SEEDS);
-                let found = noise.chunks(2).map(|n| {
+                let results = noise.chunks(2).map(|n| {
                     let (re, im) = (truth + sigmas[0] * n[0], sigmas[1] * n[1]);
                     let length = (re * re + im * im).sqrt();
                     let (c, s) = (re / length, im / length);
                     let (v, w) = (sigmas[0] * sigmas[0], sigmas[1] * sigmas[1]);
                     magnitude_of(length, v * c * c + w * s * s, v * s * s + w * c * c)
                 });
-                let found: Vec<Estimate> = found.collect();
-                let inside = found.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
+                let estimates: Vec<Estimate> = results.collect();
+                let inside = estimates.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
                 let covered = inside as f64 / SEEDS as f64;
                 assert!(covered > 0.92, "{sigmas:?} {truth}: {covered}");
                 if truth >= 3.0 {
-                    let mean = found.iter().map(|e| e.value).sum::<f64>() / SEEDS as f64;
+                    let mean = estimates.iter().map(|e| e.value).sum::<f64>() / SEEDS as f64;
                     assert!((mean - truth).abs() < 0.03, "{sigmas:?} {truth}: {mean}");
                 }
             }

@@ -40,8 +40,8 @@ pub fn mean_curve(curves: &[&[SfrPoint]]) -> Vec<SfrPoint> {
         let response = Estimate::new(points().map(|e| e.value).sum::<f64>() / count, squares.sqrt() / count);
         SfrPoint { frequency: curves[0][i].frequency, response }
     };
-    let least = curves.iter().map(|curve| curve.len()).min().unwrap_or(0);
-    (0..least).map(at).collect()
+    let min_length = curves.iter().map(|curve| curve.len()).min().unwrap_or(0);
+    (0..min_length).map(at).collect()
 }
 
 /// Frequency at which the curve falls to a level: midway between the crossings of the curve less its standard uncertainty and of
@@ -54,8 +54,8 @@ pub fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
     let first = |sigmas: f64| {
         let value = |p: &SfrPoint| p.response.value + sigmas * p.response.standard_uncertainty;
         let pair = curve.windows(2).find(|pair| value(&pair[0]) > level && value(&pair[1]) <= level)?;
-        let share = (value(&pair[0]) - level) / (value(&pair[0]) - value(&pair[1]));
-        Some(pair[0].frequency + share * (pair[1].frequency - pair[0].frequency))
+        let fraction = (value(&pair[0]) - level) / (value(&pair[0]) - value(&pair[1]));
+        Some(pair[0].frequency + fraction * (pair[1].frequency - pair[0].frequency))
     };
     let plain = first(0.0)?;
     let (low, high) = (first(-1.0).unwrap_or(plain), first(1.0).unwrap_or(plain));
@@ -133,8 +133,8 @@ impl Sfr {
 /// u² = u_a² + max((a − b)² − u_a², 0)/3: nothing is added for a difference within its own uncertainty.
 pub(super) fn widened(a: Estimate, b: Estimate) -> Estimate {
     let own = a.standard_uncertainty * a.standard_uncertainty;
-    let beyond = ((a.value - b.value) * (a.value - b.value) - own).max(0.0);
-    Estimate::new(a.value, (own + beyond / 3.0).sqrt())
+    let excess = ((a.value - b.value) * (a.value - b.value) - own).max(0.0);
+    Estimate::new(a.value, (own + excess / 3.0).sqrt())
 }
 
 const B: f64 = 0.2;
@@ -155,11 +155,11 @@ pub fn acutance(curve: &[SfrPoint], pixels_per_degree: f64) -> Option<Estimate> 
     if !reaches || !positive {
         return None;
     }
-    let whole = GAMMA / pow(B, 1.0 + C);
+    let normalisation = GAMMA / pow(B, 1.0 + C);
     let parts = curve.windows(2).filter(|pair| pair[0].frequency < LAST - 1e-9);
     let sums = parts.map(|pair| interval([pair[0], pair[1]], pixels_per_degree));
     let [value, u] = sums.fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    Some(Estimate::new(value / whole, u / whole))
+    Some(Estimate::new(value / normalisation, u / normalisation))
 }
 
 /// ∫ SFR CSF dν between two points, and the same for the uncertainty.
@@ -190,15 +190,15 @@ mod tests {
     }
 
     #[test]
-    fn acutance_is_the_share_of_what_the_eye_sees() {
+    fn acutance_is_the_fraction_of_visible_contrast() {
         // exp(−k f) only steepens the CSF's own fall: (b/(b + k/p))^1.8 of the whole, except for the part above 0.5 cycles per pixel,
         // which is at 60 cycles per degree for 120 pixels per degree, exp(−12) of the whole.
-        let found = acutance(&curve(|f| exp(-12.0 * f)), 120.0).expect("it reaches 0.5");
+        let result = acutance(&curve(|f| exp(-12.0 * f)), 120.0).expect("it reaches 0.5");
         let expected = pow(0.2 / (0.2 + 0.1), 1.8);
         // Its chords over 0.01 are too high by (12 · 0.01)²/12 of it: 5.8e-4.
-        assert!((found.value - expected).abs() < 7e-4, "{found:?} {expected}");
+        assert!((result.value - expected).abs() < 7e-4, "{result:?} {expected}");
         // An error of a hundredth of the whole CSF.
-        assert!((found.standard_uncertainty - 0.01).abs() < 1e-4, "{found:?}");
+        assert!((result.standard_uncertainty - 0.01).abs() < 1e-4, "{result:?}");
         // Incomplete gamma: P(1.8, 0.2 · 30) = 0.987395 (its series).
         let sharp = acutance(&curve(|_| 1.0), 60.0).expect("it reaches 0.5");
         assert!((sharp.value - 0.987_395).abs() < 1e-4, "{sharp:?}");

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// A lens by its line spread's integral and its response.
 #[derive(Clone, Copy, Debug)]
-enum Lens {
+enum LineSpreadLens {
     /// Standard deviation, px.
     Gaussian(f64),
     /// Cut-off frequency, cycles per pixel.
@@ -20,7 +20,7 @@ enum Lens {
     Defocus(f64),
 }
 
-impl Lens {
+impl LineSpreadLens {
     fn edge(self, d: f64) -> f64 {
         match self {
             Self::Gaussian(sigma) => 0.5 * erfc(-d / sigma * FRAC_1_SQRT_2),
@@ -68,7 +68,7 @@ const NODES: [(f64, f64); 4] = [
 ];
 
 /// An edge at an angle to the columns, through a point near the centre, sampled by square pixels.
-fn picture(lens: Lens, angle_deg: f64, size: usize) -> Image {
+fn edge_image(lens: LineSpreadLens, angle_deg: f64, size: usize) -> Image {
     let (sine, cosine) = sin_cos(angle_deg.to_radians());
     let centre = 0.5 * size as f64 + 0.137;
     // The edge spread is tabulated: 64 steps per pixel, by parabolas.
@@ -102,10 +102,10 @@ fn aperture(angle_deg: f64, f: f64) -> f64 {
     sinc(f * cosine) * sinc(f * sine)
 }
 
-fn worst(lens: Lens, angle_deg: f64) -> (f64, Sfr) {
+fn worst(lens: LineSpreadLens, angle_deg: f64) -> (f64, Sfr) {
     // Diffraction spreads light with the inverse square of distance: light beyond the image is missing from the response at 0.
-    let size = if matches!(lens, Lens::Diffraction(_)) { 128 } else { 80 };
-    let sfr = measure_edge(&picture(lens, angle_deg, size), &SfrSettings::default());
+    let size = if matches!(lens, LineSpreadLens::Diffraction(_)) { 128 } else { 80 };
+    let sfr = measure_edge(&edge_image(lens, angle_deg, size), &SfrSettings::default());
     let sfr = sfr.unwrap_or_else(|e| panic!("{lens:?} {angle_deg}: {e}"));
     let error = |p: &SfrPoint| {
         let truth = (lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
@@ -120,7 +120,7 @@ const BOUND: f64 = 0.005;
 
 #[test]
 fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
-    let lenses = [Lens::Gaussian(0.3), Lens::Gaussian(0.7), Lens::Diffraction(0.9), Lens::Defocus(1.5)];
+    let lenses = [LineSpreadLens::Gaussian(0.3), LineSpreadLens::Gaussian(0.7), LineSpreadLens::Diffraction(0.9), LineSpreadLens::Defocus(1.5)];
     let angles = [2.0, 3.3, 5.0, 8.0, 11.31, 14.036, 18.435, 22.0, 26.0, 26.565, 30.0, 33.69, 36.87, 40.0, 43.0];
     for (i, angle_deg) in angles.into_iter().enumerate() {
         for lens in [lenses[i % 4], lenses[(i + 1) % 4]] {
@@ -133,11 +133,11 @@ fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
 
 /// Light that decreases by a tenth across the region, on top of a black level.
 #[test]
-fn shading_is_taken_off_on_request() {
-    let (lens, angle_deg, size) = (Lens::Gaussian(0.5), 8.0, 80);
-    let whole = picture(lens, angle_deg, size);
+fn shading_is_removed_on_request() {
+    let (lens, angle_deg, size) = (LineSpreadLens::Gaussian(0.5), 8.0, 80);
+    let unshaded = edge_image(lens, angle_deg, size);
     let shade = |i: usize| 1.0 - 0.1 * (i % size) as f64 / size as f64 - 0.05 * (i / size) as f64 / size as f64;
-    let readings = whole.samples().iter().enumerate().map(|(i, s)| (64.0 + f64::from(*s) * shade(i)) as f32);
+    let readings = unshaded.samples().iter().enumerate().map(|(i, s)| (64.0 + f64::from(*s) * shade(i)) as f32);
     let shaded = Image::from_samples(size, size, readings.collect()).expect("a square");
     let worst = |shading_degree: usize| {
         let settings = SfrSettings { shading_degree, ..SfrSettings::default() };
@@ -150,16 +150,16 @@ fn shading_is_taken_off_on_request() {
     // Without correction this gradient adds a response that the lens does not have; the stated uncertainty covers it.
     assert!(worst(0) > 2.0 * BOUND, "{}", worst(0));
     let plain = measure_edge(&shaded, &SfrSettings::default()).expect("an edge");
-    let apart = |p: &SfrPoint| (p.response.value - lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
-    let low = plain.curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= 0.5 && apart(p) > BOUND);
-    assert!(low.into_iter().all(|p| apart(p) < 2.0 * p.response.standard_uncertainty));
+    let deviation = |p: &SfrPoint| (p.response.value - lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
+    let low = plain.curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= 0.5 && deviation(p) > BOUND);
+    assert!(low.into_iter().all(|p| deviation(p) < 2.0 * p.response.standard_uncertainty));
     assert!(plain.shading > BOUND, "{}", plain.shading);
 }
 
 #[test]
 fn rows_serve_as_columns_and_dark_may_lie_on_either_side() {
-    let lens = Lens::Gaussian(0.5);
-    let image = picture(lens, 6.0, 64);
+    let lens = LineSpreadLens::Gaussian(0.5);
+    let image = edge_image(lens, 6.0, 64);
     let upright = measure_edge(&image, &SfrSettings::default()).expect("an edge");
     let turned = |f: &dyn Fn(usize, usize) -> f32| {
         let samples = (0..64 * 64).map(|i| f(i % 64, i / 64)).collect();
@@ -178,8 +178,8 @@ fn rows_serve_as_columns_and_dark_may_lie_on_either_side() {
 
 #[test]
 fn noise_stays_within_the_stated_uncertainty() {
-    let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
-    let clean = picture(lens, angle_deg, 64);
+    let (lens, angle_deg) = (LineSpreadLens::Gaussian(0.5), 7.0);
+    let clean = edge_image(lens, angle_deg, 64);
     let truth = |f: f64| lens.response(f) * aperture(angle_deg, f);
     let noisy = |seed: u64| {
         let normal = Normal::new(0.0, 1.0).expect("a width");
@@ -194,7 +194,7 @@ fn noise_stays_within_the_stated_uncertainty() {
         measure_edge(&image, &SfrSettings::default()).expect("an edge")
     };
     let half = (0..100_000).map(|i| f64::from(i) * 1e-5).find(|f| truth(*f) <= 0.5).expect("a half");
-    crate::coverage::covers("sfr", |seed| {
+    crate::coverage::assert_coverage("sfr", |seed| {
         let sfr = noisy(seed);
         points(&sfr, truth).into_iter().chain([("MTF50", sfr.mtf50.expect("a half"), half)]).collect()
     });
@@ -204,17 +204,17 @@ fn noise_stays_within_the_stated_uncertainty() {
 /// Each of 60 is measured within 5 σ of the stated uncertainty and within the bound.
 #[test]
 fn noise_unequal_gains_and_defects_do_not_hold_the_edge_back() {
-    let lens = Lens::Gaussian(0.5);
+    let lens = LineSpreadLens::Gaussian(0.5);
     for angle_deg in [3.0, 5.0, 20.0] {
-        let clean = picture(lens, angle_deg, 64);
+        let clean = edge_image(lens, angle_deg, 64);
         let run = |seed: u64| {
             let normal = Normal::new(0.0, 1.0).expect("a width");
             let sample = |i: usize| {
                 let pixel = Pixel { x: (i % 64) as u32, y: (i / 64) as u32 };
-                let draw = |k: u32| normal.sample(&mut NoiseStream::new(seed, k, 0, 0, pixel, NoiseDraw::Read));
-                let mean = f64::from(clean.samples()[i]) * (1.0 + 0.01 * draw(1));
-                let defect: f64 = draw(2);
-                let value = mean + (400.0 + 2.0 * mean).sqrt() * draw(0);
+                let noise_at = |k: u32| normal.sample(&mut NoiseStream::new(seed, k, 0, 0, pixel, NoiseDraw::Read));
+                let mean = f64::from(clean.samples()[i]) * (1.0 + 0.01 * noise_at(1));
+                let defect: f64 = noise_at(2);
+                let value = mean + (400.0 + 2.0 * mean).sqrt() * noise_at(0);
                 (if defect.abs() > 2.935 { if defect > 0.0 { 4000.0 } else { 0.0 } } else { value }) as f32
             };
             let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
@@ -226,8 +226,8 @@ fn noise_unequal_gains_and_defects_do_not_hold_the_edge_back() {
             assert!((sfr.angle_deg - angle_deg).abs() < 0.2, "{angle_deg}°, seed {seed}: {}", sfr.angle_deg);
             for p in sfr.curve.iter().filter(|p| p.frequency <= 0.5) {
                 let truth = lens.response(p.frequency) * aperture(angle_deg, p.frequency);
-                let most = BOUND + 5.0 * p.response.standard_uncertainty;
-                assert!((p.response.value - truth).abs() < most, "{angle_deg}°, seed {seed}: {p:?}, {truth}");
+                let tolerance = BOUND + 5.0 * p.response.standard_uncertainty;
+                assert!((p.response.value - truth).abs() < tolerance, "{angle_deg}°, seed {seed}: {p:?}, {truth}");
             }
         }
     }
@@ -235,26 +235,26 @@ fn noise_unequal_gains_and_defects_do_not_hold_the_edge_back() {
 
 #[test]
 fn what_is_no_slanted_edge_is_refused() {
-    let lens = Lens::Gaussian(0.5);
+    let lens = LineSpreadLens::Gaussian(0.5);
     let measure = |image: &Image| measure_edge(image, &SfrSettings::default());
     for angle_deg in [0.0, 1.0, 44.0, 45.0] {
-        assert!(matches!(measure(&picture(lens, angle_deg, 64)), Err(SfrError::Angle { .. })), "{angle_deg}°");
+        assert!(matches!(measure(&edge_image(lens, angle_deg, 64)), Err(SfrError::Angle { .. })), "{angle_deg}°");
     }
-    let of = |f: fn(usize, usize) -> f32| {
+    let test_image = |f: fn(usize, usize) -> f32| {
         Image::from_samples(64, 64, (0..64 * 64).map(|i| f(i % 64, i / 64)).collect()).expect("a square")
     };
-    assert!(matches!(measure(&of(|_, _| 5.0)), Err(SfrError::NoEdge(_))));
+    assert!(matches!(measure(&test_image(|_, _| 5.0)), Err(SfrError::NoEdge(_))));
     assert!(matches!(
-        measure(&of(|x, y| ((x * 7919 + y * 104_729) % 97) as f32)),
+        measure(&test_image(|x, y| ((x * 7919 + y * 104_729) % 97) as f32)),
         Err(SfrError::NoEdge(_) | SfrError::Angle { .. })
     ));
-    assert!(matches!(measure(&of(|x, y| if (x + y / 9) % 20 < 10 { 1.0 } else { 0.0 })), Err(SfrError::NoEdge(_))));
-    let edge = picture(lens, 5.0, 64);
+    assert!(matches!(measure(&test_image(|x, y| if (x + y / 9) % 20 < 10 { 1.0 } else { 0.0 })), Err(SfrError::NoEdge(_))));
+    let edge = edge_image(lens, 5.0, 64);
     let clipped = SfrSettings { full_scale: Some(850.0), ..SfrSettings::default() };
     assert!(matches!(measure_edge(&edge, &clipped), Err(SfrError::Saturated { .. })));
     assert!(matches!(measure(&edge.part(0, 0, 12, 64)), Err(SfrError::TooSmall { .. })));
     // Two degrees over so few rows leave gaps in the samples of the profile.
-    assert!(matches!(measure(&picture(lens, 2.0, 64).part(8, 24, 48, 16)), Err(SfrError::Gaps { .. })));
+    assert!(matches!(measure(&edge_image(lens, 2.0, 64).part(8, 24, 48, 16)), Err(SfrError::Gaps { .. })));
 }
 
 /// Every other pixel in each direction, as for one colour of a mosaic: the pixel aperture is half of the sampling. In cycles per
@@ -262,13 +262,13 @@ fn what_is_no_slanted_edge_is_refused() {
 #[test]
 fn one_colour_of_a_mosaic_gives_its_response() {
     for (lens, angle_deg) in [
-        (Lens::Gaussian(0.4), 2.2),
-        (Lens::Defocus(1.8), 5.0),
-        (Lens::Gaussian(0.8), 14.036),
-        (Lens::Gaussian(1.2), 26.565),
-        (Lens::Defocus(1.3), 42.0),
+        (LineSpreadLens::Gaussian(0.4), 2.2),
+        (LineSpreadLens::Defocus(1.8), 5.0),
+        (LineSpreadLens::Gaussian(0.8), 14.036),
+        (LineSpreadLens::Gaussian(1.2), 26.565),
+        (LineSpreadLens::Defocus(1.3), 42.0),
     ] {
-        let full = picture(lens, angle_deg, 160);
+        let full = edge_image(lens, angle_deg, 160);
         let sites = (0..80 * 80).map(|i| full.at(2 * (i % 80), 2 * (i / 80) + 1)).collect();
         let mosaic = Image::from_samples(80, 80, sites).expect("a square");
         let sfr = measure_edge(&mosaic, &SfrSettings::default()).expect("an edge");
@@ -283,8 +283,8 @@ fn one_colour_of_a_mosaic_gives_its_response() {
 /// Noise that bilinear demosaicing has spread from every other pixel to its neighbours, on a sharp edge.
 #[test]
 fn the_stated_uncertainty_knows_noise_that_pixels_share() {
-    let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
-    let clean = picture(lens, angle_deg, 64);
+    let (lens, angle_deg) = (LineSpreadLens::Gaussian(0.5), 7.0);
+    let clean = edge_image(lens, angle_deg, 64);
     let truth = |f: f64| lens.response(f) * aperture(angle_deg, f);
     let noisy = |seed: u64| {
         let normal = Normal::new(0.0, 12.0).expect("a width");
@@ -301,31 +301,31 @@ fn the_stated_uncertainty_knows_noise_that_pixels_share() {
         let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
         measure_edge(&image, &SfrSettings::default()).expect("an edge")
     };
-    crate::coverage::covers("sfr, developed pictures", |seed| points(&noisy(seed), truth));
+    crate::coverage::assert_coverage("sfr, developed pictures", |seed| points(&noisy(seed), truth));
 }
 
 /// Row noise of a raw image, a third of the pixel noise: it shifts every row's edge spread up or down. (If it is as large as the
 /// pixel noise, its uncertainty is too small by a quarter at some frequencies.)
 #[test]
 fn the_stated_uncertainty_knows_noise_that_rows_share() {
-    let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
-    let clean = picture(lens, angle_deg, 48);
+    let (lens, angle_deg) = (LineSpreadLens::Gaussian(0.5), 7.0);
+    let clean = edge_image(lens, angle_deg, 48);
     let truth = |f: f64| lens.response(f) * aperture(angle_deg, f);
-    crate::coverage::covers("sfr, noise of rows", |seed| {
+    crate::coverage::assert_coverage("sfr, noise of rows", |seed| {
         let normal = Normal::new(0.0, 8.0).expect("a width");
-        let draw = |x: usize, y: usize, k: u32| {
+        let noise_at = |x: usize, y: usize, k: u32| {
             let pixel = Pixel { x: x as u32, y: y as u32 };
             normal.sample(&mut NoiseStream::new(seed, k, 0, 0, pixel, NoiseDraw::Read))
         };
-        let rows: Vec<f64> = (0..48).map(|y| draw(0, y, 1) / 3.0).collect();
-        let sample = |i: usize| (f64::from(clean.samples()[i]) + draw(i % 48, i / 48, 0) + rows[i / 48]) as f32;
+        let rows: Vec<f64> = (0..48).map(|y| noise_at(0, y, 1) / 3.0).collect();
+        let sample = |i: usize| (f64::from(clean.samples()[i]) + noise_at(i % 48, i / 48, 0) + rows[i / 48]) as f32;
         let image = Image::from_samples(48, 48, (0..48 * 48).map(sample).collect()).expect("a square");
         points(&measure_edge(&image, &SfrSettings::default()).expect("an edge"), truth)
     });
 }
 
 /// Responses of an edge, with the true values.
-fn points(sfr: &Sfr, truth: impl Fn(f64) -> f64) -> crate::coverage::Run {
+fn points(sfr: &Sfr, truth: impl Fn(f64) -> f64) -> crate::coverage::CoverageRun {
     let names = ["response at 0.1 cycles/px", "response at 0.25", "response at 0.4", "response at 0.5"];
     let point = |name, k: usize| (name, sfr.curve[k].response, truth(sfr.curve[k].frequency));
     [10, 25, 40, 50].into_iter().zip(names).map(|(k, name)| point(name, k)).collect()
@@ -352,8 +352,8 @@ fn hard_steps_are_measured_or_refused_for_their_steepness() {
             let sfr = sfr.unwrap_or_else(|error| panic!("{angle_deg}° {phase}: {error}"));
             assert!((sfr.angle_deg - angle_deg).abs() < 0.15, "{angle_deg}° {phase}: {}", sfr.angle_deg);
             for p in sfr.curve.iter().filter(|p| p.frequency <= 0.5) {
-                let most = BOUND + 2.0 * p.response.standard_uncertainty;
-                assert!((p.response.value - 1.0).abs() < most, "{angle_deg}° {phase}: {p:?}");
+                let tolerance = BOUND + 2.0 * p.response.standard_uncertainty;
+                assert!((p.response.value - 1.0).abs() < tolerance, "{angle_deg}° {phase}: {p:?}");
             }
         }
     }

@@ -16,12 +16,12 @@
 
 /// Reach of shared noise, and of the subtracted terms, px.
 const REACH: isize = 3;
-const FAR: isize = 6;
+const REFERENCE_PX: isize = 6;
 /// Side of the evaluated part, px.
-const ENOUGH: usize = 256;
+const MAX_SIDE_PX: usize = 256;
 /// Error of the ratio from white noise, times the square root of the number of pixels; and its multiple that is significant.
-const ERROR: f64 = 13.0;
-const SIGNIFICANT: f64 = 3.0;
+const WHITE_NOISE_ERROR: f64 = 13.0;
+const MIN_SIGNIFICANCE: f64 = 3.0;
 
 /// Noise shared by neighbours, of readings relative to the fall-off.
 pub(super) struct Correlation {
@@ -31,8 +31,8 @@ pub(super) struct Correlation {
 
 impl Correlation {
     /// Estimates it from readings relative to their fall-off; `None` if neighbours show no significant correlation.
-    pub(super) fn of(relative: &[f64], width: usize) -> Option<Self> {
-        let part = Part::middle(relative, width);
+    pub(super) fn from_relative(relative: &[f64], width: usize) -> Option<Self> {
+        let part = CentralDeviations::middle(relative, width);
         let far = |on_axis: [bool; 2]| part.mean_far(on_axis);
         let uneven = far([false, false]);
         let (columns, rows) = (far([true, false]) - uneven, far([false, true]) - uneven);
@@ -41,10 +41,10 @@ impl Correlation {
             part.product(dx, dy) - uneven - lines
         };
         let near = (0..=REACH).flat_map(|dx| (-REACH..=REACH).map(move |dy| (dx, dy))).map(|(dx, dy)| at(dx, dy));
-        let found = Self { near: near.collect() };
-        let error = ERROR / (part.width as f64 * part.height as f64).sqrt();
-        let ratio = found.mean_over_differences();
-        (ratio > 0.0 && (ratio - 1.0).abs() > SIGNIFICANT * error).then_some(found)
+        let correlation = Self { near: near.collect() };
+        let error = WHITE_NOISE_ERROR / (part.width as f64 * part.height as f64).sqrt();
+        let ratio = correlation.mean_over_differences();
+        (ratio > 0.0 && (ratio - 1.0).abs() > MIN_SIGNIFICANCE * error).then_some(correlation)
     }
 
     fn at(&self, dx: isize, dy: isize) -> f64 {
@@ -54,47 +54,47 @@ impl Correlation {
     }
 
     /// The variance of a mean of many pixels, times the number of pixels.
-    fn of_means(&self) -> f64 {
-        (-REACH..=REACH).map(|dx| self.of_columns_at(dx)).sum()
+    fn mean_variance(&self) -> f64 {
+        (-REACH..=REACH).map(|dx| self.column_covariance(dx)).sum()
     }
 
     /// Covariance of the means of columns dx apart, times their length.
-    fn of_columns_at(&self, dx: isize) -> f64 {
+    fn column_covariance(&self, dx: isize) -> f64 {
         (-REACH..=REACH).map(|dy| self.at(dx, dy)).sum()
     }
 
-    fn of_rows_at(&self, dy: isize) -> f64 {
+    fn row_covariance(&self, dy: isize) -> f64 {
         (-REACH..=REACH).map(|dx| self.at(dx, dy)).sum()
     }
 
     /// Factor from the variance by second differences of a row's neighbours to that of means.
     pub(super) fn mean_over_differences(&self) -> f64 {
-        self.of_means() / seen_by_differences([self.at(0, 0), self.at(1, 0), self.at(2, 0)])
+        self.mean_variance() / second_difference_variance([self.at(0, 0), self.at(1, 0), self.at(2, 0)])
     }
 
     /// Its contribution to second differences of the means of neighbouring lines, times their length.
-    pub(super) fn of_lines(&self, columns: bool) -> f64 {
-        let apart = |d: isize| if columns { self.of_columns_at(d) } else { self.of_rows_at(d) };
-        seen_by_differences([apart(0), apart(1), apart(2)])
+    pub(super) fn line_differences(&self, columns: bool) -> f64 {
+        let covariance = |d: isize| if columns { self.column_covariance(d) } else { self.row_covariance(d) };
+        second_difference_variance([covariance(0), covariance(1), covariance(2)])
     }
 }
 
 /// A sixth of the mean square of second differences, from the covariances at 0, 1 and 2.
-fn seen_by_differences([own, next, second]: [f64; 3]) -> f64 {
+fn second_difference_variance([own, next, second]: [f64; 3]) -> f64 {
     own - 4.0 / 3.0 * next + second / 3.0
 }
 
 /// Deviations from the mean in the centre of an image.
-struct Part {
+struct CentralDeviations {
     width: usize,
     height: usize,
     deviations: Vec<f64>,
 }
 
-impl Part {
+impl CentralDeviations {
     fn middle(relative: &[f64], width: usize) -> Self {
         let height = relative.len() / width;
-        let along = |length: usize| (length.saturating_sub(ENOUGH) / 2, length.min(ENOUGH));
+        let along = |length: usize| (length.saturating_sub(MAX_SIDE_PX) / 2, length.min(MAX_SIDE_PX));
         let ((left, columns), (top, rows)) = (along(width), along(height));
         let row = |y: usize| &relative[(top + y) * width + left..][..columns];
         let mean = (0..rows).map(|y| row(y).iter().sum::<f64>()).sum::<f64>() / (columns * rows) as f64;
@@ -117,7 +117,7 @@ impl Part {
 
     /// Mean of C(d) beyond the reach, along a column (d_x = 0), along a row (d_y = 0), or off both.
     fn mean_far(&self, [column, row]: [bool; 2]) -> f64 {
-        let all = (0..=FAR).flat_map(|dx| (-FAR..=FAR).map(move |dy| (dx, dy)));
+        let all = (0..=REFERENCE_PX).flat_map(|dx| (-REFERENCE_PX..=REFERENCE_PX).map(move |dy| (dx, dy)));
         let far = all.filter(|(dx, dy)| dx.abs().max(dy.abs()) > REACH && (*dx == 0) == column && (*dy == 0) == row);
         let (sum, count) = far.fold((0.0, 0.0), |(sum, count), (dx, dy)| (sum + self.product(dx, dy), count + 1.0));
         sum / count

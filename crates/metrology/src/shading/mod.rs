@@ -28,12 +28,12 @@ mod sums;
 #[cfg(test)]
 mod tests;
 
-use crate::patch_statistics::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
+use crate::patch_statistics::{MAX_SATURATED_FRACTION, neighbour_variances, saturated_fraction};
 use crate::{Estimate, Image, linear::Matrix};
 use correlation::Correlation;
 use falloff::Falloff;
 use report::Basis;
-use sums::{Sums, readings, square_position};
+use sums::{RegionSums, readings, square_position};
 
 pub use colour::{ColourShading, colour_shading};
 pub use report::{Ring, Shading, ShadingError, ShadingSettings};
@@ -44,14 +44,14 @@ pub use report::{Ring, Shading, ShadingError, ShadingSettings};
 /// If it is saturated, dark, not flat, or too small.
 pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shading, ShadingError> {
     check(image, settings)?;
-    let none = |rings: &[Sums]| Matrix::zeros(rings.len(), rings.len());
-    let rings = Sums::rings(image, settings, Basis::default());
+    let none = |rings: &[RegionSums]| Matrix::zeros(rings.len(), rings.len());
+    let rings = RegionSums::rings(image, settings, Basis::default());
     let polynomial = Falloff::fitted(&rings, Basis::default(), &none(&rings))?;
-    let basis = Basis::of_corner(polynomial.corner().value);
-    let mut rings = Sums::rings(image, settings, basis);
+    let basis = Basis::from_corner(polynomial.corner().value);
+    let mut rings = RegionSums::rings(image, settings, basis);
     let first = Falloff::fitted(&rings, basis, &none(&rings))?;
     let relative = sums::relative(image, settings, |square| first.at(square));
-    let correlation = Correlation::of(&relative, image.width());
+    let correlation = Correlation::from_relative(&relative, image.width());
     let spread = correlation.as_ref().map_or(1.0, Correlation::mean_over_differences);
     rings.iter_mut().for_each(|ring| ring.variance *= spread);
     let shared = sums::shared(image, settings, &rings, &relative, correlation.as_ref());
@@ -80,20 +80,20 @@ fn check(image: &Image, settings: &ShadingSettings) -> Result<(), ShadingError> 
     if image.samples().iter().any(|s| !s.is_finite()) {
         return Err(ShadingError::NotFinite);
     }
-    let share = saturated_fraction(image.samples(), settings.full_scale);
-    if share > SATURATED_SHARE {
-        return Err(ShadingError::Saturated { percent: 100.0 * share });
+    let fraction = saturated_fraction(image.samples(), settings.full_scale);
+    if fraction > MAX_SATURATED_FRACTION {
+        return Err(ShadingError::Saturated { percent: 100.0 * fraction });
     }
     let reading = image.samples().iter().map(|s| f64::from(*s)).sum::<f64>() / image.samples().len() as f64;
     if reading > settings.black { Ok(()) } else { Err(ShadingError::Dark { reading, black: settings.black }) }
 }
 
 /// Sums of the map's blocks, row by row.
-fn block_sums(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<Sums> {
+fn block_sums(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<RegionSums> {
     let (n, width, height) = (settings.blocks, image.width(), image.height());
     let block = |x: usize, y: usize| (y * n / height) * n + x * n / width;
     let square = square_position(image, settings);
-    let mut blocks = vec![Sums::default(); n * n];
+    let mut blocks = vec![RegionSums::default(); n * n];
     readings(image, settings).for_each(|(x, y, reading)| blocks[block(x, y)].add(reading, square(x, y), basis));
     for (x, y, variance) in neighbour_variances(image) {
         let block = &mut blocks[block(x, y)];
@@ -103,13 +103,13 @@ fn block_sums(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<Su
     blocks
 }
 
-fn relative_map(blocks: &[Sums], settings: &ShadingSettings) -> Result<Vec<Vec<Estimate>>, ShadingError> {
+fn relative_map(blocks: &[RegionSums], settings: &ShadingSettings) -> Result<Vec<Vec<Estimate>>, ShadingError> {
     let middle = blocks[blocks.len() / 2];
     let (centre, u_centre) = (middle.mean(), middle.standard_uncertainty());
     if centre <= 0.0 {
         return Err(ShadingError::Dark { reading: centre + settings.black, black: settings.black });
     }
-    let relative = |(i, block): (usize, &Sums)| {
+    let relative = |(i, block): (usize, &RegionSums)| {
         let value = block.mean() / centre;
         let own = block.standard_uncertainty() / centre;
         let shared = value * u_centre / centre;
@@ -124,8 +124,8 @@ fn relative_map(blocks: &[Sums], settings: &ShadingSettings) -> Result<Vec<Vec<E
 /// Maximum deviation of blocks from the fall-off in a flat field: lights and lenses that are not centred.
 const MAX_DEVIATION: f64 = 0.15;
 
-fn flatness(blocks: &[Sums], fit: &Falloff, settings: &ShadingSettings) -> Result<(), ShadingError> {
-    let deviation = |block: &Sums| {
+fn flatness(blocks: &[RegionSums], fit: &Falloff, settings: &ShadingSettings) -> Result<(), ShadingError> {
+    let deviation = |block: &RegionSums| {
         let noise = block.standard_uncertainty();
         let difference = block.mean() - fit.mean(block);
         (difference * difference - noise * noise).max(0.0) / (fit.b[0] * fit.b[0])

@@ -137,7 +137,7 @@ pub(super) struct Basis {
 
 impl Basis {
     /// The terms for which the square of 1 + c s alone gives a corner its light relative to the centre.
-    pub(super) fn of_corner(relative: f64) -> Self {
+    pub(super) fn from_corner(relative: f64) -> Self {
         let steepness = if relative > 0.0 { 1.0 / relative.sqrt() - 1.0 } else { MAX_STEEPNESS };
         Self { steepness: steepness.clamp(0.0, MAX_STEEPNESS) }
     }
@@ -207,7 +207,7 @@ mod tests {
     /// 1/(1 + c s)² and the polynomial nearest to it, for a corner of 37 %.
     #[test]
     fn the_nearest_polynomial_is_near() {
-        let basis = Basis::of_corner(0.37);
+        let basis = Basis::from_corner(0.37);
         assert!((basis.at(1.0)[0] - 0.37).abs() < 1e-12);
         let a = basis.nearest_polynomial().map(|(form, constant)| form[0] - constant);
         for i in 0..=20 {

@@ -22,7 +22,7 @@ use crate::{Image, patch_statistics::neighbour_variances};
 
 /// Sums over the pixels of a ring or block.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sums {
+pub(super) struct RegionSums {
     pub(super) count: f64,
     pub(super) reading: f64,
     /// Σ r².
@@ -35,7 +35,7 @@ pub(super) struct Sums {
     pub(super) number: usize,
 }
 
-impl Sums {
+impl RegionSums {
     pub(super) fn add(&mut self, reading: f64, square_position: f64, basis: Basis) {
         self.count += 1.0;
         self.reading += reading;
@@ -95,10 +95,10 @@ pub(super) fn square_position(image: &Image, settings: &ShadingSettings) -> impl
     let (width, height) = (image.width() as f64, image.height() as f64);
     let (cx, cy) = settings.centre_px.unwrap_or((0.5 * width, 0.5 * height));
     let farthest = |c: f64, size: f64| c.max(size - c) * c.max(size - c);
-    let whole = farthest(cx, width) + farthest(cy, height);
+    let corner_square = farthest(cx, width) + farthest(cy, height);
     move |x, y| {
         let (x, y) = (x as f64 + 0.5 - cx, y as f64 + 0.5 - cy);
-        (x * x + y * y) / whole
+        (x * x + y * y) / corner_square
     }
 }
 
@@ -112,7 +112,7 @@ pub(super) fn relative(image: &Image, settings: &ShadingSettings, falloff: impl 
 pub(super) fn shared(
     image: &Image,
     settings: &ShadingSettings,
-    rings: &[Sums],
+    rings: &[RegionSums],
     relative: &[f64],
     correlation: Option<&Correlation>,
 ) -> Matrix {
@@ -121,10 +121,10 @@ pub(super) fn shared(
     let mut covariance = Matrix::zeros(rings.len(), rings.len());
     for (columns, lines, length) in [(true, width, height), (false, height, width)] {
         let line = |i: usize| if columns { i % width } else { i / width };
-        let own = correlation.map_or(white, |c| c.of_lines(columns));
+        let own = correlation.map_or(white, |c| c.line_differences(columns));
         let variance = line_variance(&means(relative, lines, line)) - own / length as f64;
         if variance > 0.0 {
-            add(&mut covariance, variance, &shares(image, settings, rings, lines, line));
+            add(&mut covariance, variance, &line_weights(image, settings, rings, lines, line));
         }
     }
     covariance
@@ -153,26 +153,26 @@ fn line_variance(means: &[f64]) -> f64 {
 }
 
 /// Contribution of each line to the mean of each ring.
-fn shares(
+fn line_weights(
     image: &Image,
     settings: &ShadingSettings,
-    rings: &[Sums],
+    rings: &[RegionSums],
     lines: usize,
     line: impl Fn(usize) -> usize,
 ) -> Vec<Vec<f64>> {
-    let mut shares = vec![vec![0.0; lines]; settings.rings];
+    let mut weights = vec![vec![0.0; lines]; settings.rings];
     let square = square_position(image, settings);
     let width = image.width();
     for i in 0..image.samples().len() {
-        shares[ring_at(square(i % width, i / width), settings)][line(i)] += 1.0;
+        weights[ring_at(square(i % width, i / width), settings)][line(i)] += 1.0;
     }
-    let scaled = |ring: &Sums| shares[ring.number].iter().map(|n| n * ring.mean() / ring.count).collect();
+    let scaled = |ring: &RegionSums| weights[ring.number].iter().map(|n| n * ring.mean() / ring.count).collect();
     rings.iter().map(scaled).collect()
 }
 
-fn add(covariance: &mut Matrix, variance: f64, shares: &[Vec<f64>]) {
-    for (i, a) in shares.iter().enumerate() {
-        for (j, b) in shares.iter().enumerate() {
+fn add(covariance: &mut Matrix, variance: f64, weights: &[Vec<f64>]) {
+    for (i, a) in weights.iter().enumerate() {
+        for (j, b) in weights.iter().enumerate() {
             *covariance.at_mut(i, j) += variance * dot(a, b);
         }
     }

@@ -13,12 +13,12 @@ fn falloff(position: f64) -> f64 {
 }
 
 /// Measured and true values of an image, at five rings and the corner.
-fn rings_of(image: &Image) -> crate::coverage::Run {
-    let found = measure_shading(image, &settings()).expect("a flat field");
-    let ring = |name, k: usize| (name, found.profile[k].relative, falloff(found.profile[k].position));
+fn rings_of(image: &Image) -> crate::coverage::CoverageRun {
+    let shading = measure_shading(image, &settings()).expect("a flat field");
+    let ring = |name, k: usize| (name, shading.profile[k].relative, falloff(shading.profile[k].position));
     let names = ["ring 5 of 20", "ring 9", "ring 13", "ring 17", "ring 20"];
     let rings = [4, 8, 12, 16, 19].into_iter().zip(names).map(|(k, name)| ring(name, k));
-    rings.chain([("corner", found.corner, falloff(1.0))]).collect()
+    rings.chain([("corner", shading.corner, falloff(1.0))]).collect()
 }
 
 fn field(seed: u64, noise: f64) -> Image {
@@ -55,14 +55,14 @@ fn a_fall_off_without_noise_comes_back() {
 
 #[test]
 fn stated_intervals_cover_the_fall_off() {
-    crate::coverage::covers("vignetting", |seed| rings_of(&field(seed, 16.0)));
+    crate::coverage::assert_coverage("vignetting", |seed| rings_of(&field(seed, 16.0)));
 }
 
 /// Column amplifiers whose gains differ by 0.3 %, row gains by 0.1 %, in addition to noise of 2 %: the light is uniform, the
 /// rings share errors.
 #[test]
 fn stated_intervals_cover_the_fall_off_under_patterns_of_columns_and_rows() {
-    crate::coverage::covers("vignetting, patterns of columns and rows", |seed| {
+    crate::coverage::assert_coverage("vignetting, patterns of columns and rows", |seed| {
         let gain = |line: usize, purpose: u32, size: f64| {
             let pixel = Pixel { x: line as u32, y: 0 };
             let normal = Normal::new(0.0, size).expect("a width");
@@ -84,7 +84,7 @@ fn stated_intervals_cover_the_fall_off_under_patterns_of_columns_and_rows() {
 /// Green of a developed image: noise that bilinear demosaicing has spread from every other pixel to its neighbours.
 #[test]
 fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
-    crate::coverage::covers("vignetting, developed pictures", |seed| {
+    crate::coverage::assert_coverage("vignetting, developed pictures", |seed| {
         let (clean, noisy) = (field(seed, 0.0), field(seed, 16.0));
         let (width, height) = SIZE;
         let at = |x: usize, y: usize| f64::from(noisy.at(x, y) - clean.at(x, y));
@@ -114,13 +114,13 @@ fn the_corner_of_a_wide_lens_is_that_of_the_lens() {
     let light = |square: f64| 1000.0 * wide(square) * (1.0 - 0.1 * square);
     let samples = (0..width * height).map(|i| light(square(i % width, i / width)) as f32).collect();
     let image = Image::from_samples(width, height, samples).expect("a rectangle");
-    let found = measure_shading(&image, &settings).expect("a flat field");
-    assert!((found.corner.value - 0.9 * wide(1.0)).abs() < 1e-4, "{:?}", found.corner);
-    assert!((found.centre.value / 1000.0 - 1.0).abs() < 1e-4, "{:?}", found.centre);
-    for ring in &found.profile {
+    let shading = measure_shading(&image, &settings).expect("a flat field");
+    assert!((shading.corner.value - 0.9 * wide(1.0)).abs() < 1e-4, "{:?}", shading.corner);
+    assert!((shading.centre.value / 1000.0 - 1.0).abs() < 1e-4, "{:?}", shading.centre);
+    for ring in &shading.profile {
         let square = ring.position * ring.position;
         assert!((ring.relative.value - light(square) / 1000.0).abs() < 1e-4, "{ring:?}");
-        assert!((found.falloff(ring.position) - light(square) / 1000.0).abs() < 1e-4, "{ring:?}");
+        assert!((shading.falloff(ring.position) - light(square) / 1000.0).abs() < 1e-4, "{ring:?}");
     }
 }
 
@@ -133,11 +133,11 @@ fn what_the_fit_misses_is_in_its_uncertainty() {
     let bent = |square: f64| 1.0 - 0.05 * square - 0.3 * (square.sqrt() - 0.55).max(0.0);
     let samples = (0..width * height).map(|i| (1000.0 * bent(square(i % width, i / width))) as f32).collect();
     let image = Image::from_samples(width, height, samples).expect("a rectangle");
-    let found = measure_shading(&image, &ShadingSettings::default()).expect("a flat field");
-    let corner = found.corner;
+    let shading = measure_shading(&image, &ShadingSettings::default()).expect("a flat field");
+    let corner = shading.corner;
     let error = (corner.value - bent(1.0)).abs();
     assert!(error < 2.5 * corner.standard_uncertainty && error > 2e-4, "{corner:?} {}", bent(1.0));
-    let centre = found.centre;
+    let centre = shading.centre;
     assert!((centre.value - 1000.0).abs() < 2.5 * centre.standard_uncertainty, "{centre:?}");
 }
 

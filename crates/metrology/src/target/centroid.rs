@@ -55,7 +55,7 @@ pub(super) struct Centroid {
     /// Equivalent area at the contrast of the dot's centre, px².
     pub(super) area: f64,
     pub(super) uncertainty_px: f64,
-    pub(super) rim: Rim,
+    pub(super) outline: EllipseOutline,
 }
 
 /// Weighted sums over pixels.
@@ -98,38 +98,38 @@ const BACKGROUND_PX: f64 = 1.5;
 const CORE_PX: u64 = 9;
 
 /// Measures the dot of a region; its ellipse may be enlarged `room` times at most. `None` if there is no background or no dot.
-pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> Option<Centroid> {
-    let half_trace = 0.5 * (blob.covariance.x_axis.x + blob.covariance.y_axis.y);
+pub(super) fn measure_dot(image: &Image, blob: &Blob, room: f64, bright: bool) -> Option<Centroid> {
+    let half_variance = 0.5 * (blob.covariance.x_axis.x + blob.covariance.y_axis.y);
     let determinant = blob.covariance.determinant();
-    let spread = (half_trace * half_trace - determinant).max(0.0).sqrt();
-    let (major, minor) = (2.0 * (half_trace + spread).sqrt(), 2.0 * (half_trace - spread).max(0.0).sqrt());
+    let spread = (half_variance * half_variance - determinant).max(0.0).sqrt();
+    let (major, minor) = (2.0 * (half_variance + spread).sqrt(), 2.0 * (half_variance - spread).max(0.0).sqrt());
     let outer = (1.0 + (EDGE_PX + BACKGROUND_PX) / minor).min(room);
     let inner = (outer - BACKGROUND_PX / minor).max(1.0 + 0.5 * (outer - 1.0));
     let inverse = blob.covariance.inverse();
     // In units of the dot's own ellipse.
     let distance = |p: DVec2| 0.5 * (inverse * (p - blob.at)).dot(p - blob.at).max(0.0).sqrt();
-    let pixels = around(image, blob.at, outer * major, |p| distance(p) <= outer)?;
+    let pixels = pixels_around(image, blob.at, outer * major, |p| distance(p) <= outer)?;
     let ring: Vec<(DVec2, f64)> = pixels.iter().filter(|(p, _)| distance(*p) > inner).copied().collect();
     let (plane, noise) = background(&ring, blob)?;
-    let taken = |(p, value): &(DVec2, f64)| {
+    let weighted = |(p, value): &(DVec2, f64)| {
         let level = plane[0] + plane[1] * (p.x - blob.at.x) + plane[2] * (p.y - blob.at.y);
         if bright { level - value } else { 1.0 - value / level }
     };
     let mut moments = Moments::default();
-    pixels.iter().for_each(|p| moments.add(p.0, taken(p)));
+    pixels.iter().for_each(|p| moments.add(p.0, weighted(p)));
     let at = moments.mean()?;
     let relative = if bright { noise } else { noise / plane[0] };
-    let middle = etendue_stats::Moments::of(pixels.iter().filter(|(p, _)| distance(*p) < 0.5).map(taken));
+    let middle = etendue_stats::Moments::from_values(pixels.iter().filter(|(p, _)| distance(*p) < 0.5).map(weighted));
     let core = middle.mean();
     let around = relative * relative;
     let within = middle.variance().filter(|_| middle.count() >= CORE_PX).unwrap_or(around);
-    let variance = |p: &(DVec2, f64)| around + (within - around) * (taken(p) / core).clamp(0.0, 1.0);
-    let levers: f64 = pixels.iter().map(|p| (p.0 - at).length_squared() * variance(p)).sum();
+    let variance = |p: &(DVec2, f64)| around + (within - around) * (weighted(p) / core).clamp(0.0, 1.0);
+    let moment_sum: f64 = pixels.iter().map(|p| (p.0 - at).length_squared() * variance(p)).sum();
     let area = moments.sum / core;
-    let uncertainty_px = (0.5 * levers).sqrt() / moments.sum;
+    let uncertainty_px = (0.5 * moment_sum).sqrt() / moments.sum;
     let noise: f64 = pixels.iter().map(variance).sum();
     // Noise adds its variance to the expectation of w².
-    let partial = pixels.iter().map(|p| taken(p) / core).map(|w| w * (1.0 - w)).sum::<f64>() + noise / (core * core);
+    let partial = pixels.iter().map(|p| weighted(p) / core).map(|w| w * (1.0 - w)).sum::<f64>() + noise / (core * core);
     // The shape from the contrast of every pixel, less the pixel's own variance; moments of a thresholded region are off by a tenth
     // of a pixel.
     let moved = moments.blob()?.covariance - DMat2::from_diagonal(DVec2::splat(2.0 / 12.0));
@@ -141,12 +141,12 @@ pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> O
         at,
         area,
         uncertainty_px,
-        rim: Rim { half, softness_px },
+        outline: EllipseOutline { half, softness_px },
     })
 }
 
 /// Centres and values of the pixels that `wanted` selects; `None` if the image does not contain them all.
-fn around(image: &Image, at: DVec2, reach: f64, wanted: impl Fn(DVec2) -> bool) -> Option<Vec<(DVec2, f64)>> {
+fn pixels_around(image: &Image, at: DVec2, reach: f64, includes: impl Fn(DVec2) -> bool) -> Option<Vec<(DVec2, f64)>> {
     let inside = |size: usize, c: f64| c - reach >= 0.0 && c + reach <= size as f64;
     if !(inside(image.width(), at.x) && inside(image.height(), at.y)) {
         return None;
@@ -154,14 +154,14 @@ fn around(image: &Image, at: DVec2, reach: f64, wanted: impl Fn(DVec2) -> bool) 
     let range = |c: f64, size: usize| ((c - reach) as usize)..((c + reach).ceil() as usize).min(size);
     let all = range(at.y, image.height()).flat_map(|y| range(at.x, image.width()).map(move |x| (x, y)));
     let placed = all.map(|(x, y)| (DVec2::new(x as f64 + 0.5, y as f64 + 0.5), f64::from(image.at(x, y))));
-    Some(placed.filter(|(p, _)| wanted(*p)).collect())
+    Some(placed.filter(|(p, _)| includes(*p)).collect())
 }
 
 /// A plane through the brighter part of the ring (a neighbouring dot's blur may extend into it): level at the dot and slopes,
 /// with the standard deviation of a pixel about it.
 fn background(ring: &[(DVec2, f64)], blob: &Blob) -> Option<([f64; 3], f64)> {
-    const LEAST: usize = 8;
-    if ring.len() < LEAST {
+    const MIN_RING_PIXELS: usize = 8;
+    if ring.len() < MIN_RING_PIXELS {
         return None;
     }
     let mut levels: Vec<f64> = ring.iter().map(|(_, v)| *v).collect();
@@ -170,7 +170,7 @@ fn background(ring: &[(DVec2, f64)], blob: &Blob) -> Option<([f64; 3], f64)> {
     let free: Vec<_> = ring.iter().filter(|(_, v)| *v > typical - 0.2 * (typical - blob.darkest)).collect();
     let design = Matrix::from_rows(3, free.iter().map(|(p, _)| [1.0, p.x - blob.at.x, p.y - blob.at.y]));
     let values: Vec<f64> = free.iter().map(|(_, v)| *v).collect();
-    let plane = Orthogonal::of(&design, 1e-9)?.solve(&values);
+    let plane = Orthogonal::factor(&design, 1e-9)?.solve(&values);
     let variance = plane.residual_squares / (values.len() - 3).max(1) as f64;
     Some(([plane.parameters[0], plane.parameters[1], plane.parameters[2]], variance.sqrt()))
 }
@@ -184,7 +184,7 @@ const SHARP_PX: f64 = 1.0 / 6.0;
 
 /// An ellipse from its edge.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rim {
+pub(super) struct EllipseOutline {
     /// Half the width and half the height of the upright rectangle around it, px.
     pub(super) half: DVec2,
     /// Q of this one, px: off by a tenth depending on the sub-pixel phase.
@@ -192,16 +192,16 @@ pub(super) struct Rim {
 }
 
 /// The variance of the blur before the pixels, s², from edges with random sub-pixel phases: by their mean Q.
-pub(super) fn blur_px2(rims: impl Iterator<Item = Rim>) -> f64 {
-    let (sum, count) = rims.fold((0.0, 0.0), |(sum, count), rim| (sum + rim.softness_px, count + 1.0));
+pub(super) fn blur_px2(outlines: impl Iterator<Item = EllipseOutline>) -> f64 {
+    let (sum, count) = outlines.fold((0.0, 0.0), |(sum, count), outline| (sum + outline.softness_px, count + 1.0));
     let softness: f64 = if count > 0.0 { sum / count } else { SHARP_PX };
     PI * (softness * softness - SHARP_PX * SHARP_PX).max(0.0)
 }
 
 /// The centre of an ellipse from its centroid.
-pub(super) fn centre(centroid: DVec2, rim: &Rim, blur_px2: f64) -> DVec2 {
+pub(super) fn centre(centroid: DVec2, outline: &EllipseOutline, blur_px2: f64) -> DVec2 {
     const ROUNDS: usize = 3;
-    (0..ROUNDS).fold(centroid, |at, _| centroid - shift(at, rim.half, blur_px2))
+    (0..ROUNDS).fold(centroid, |at, _| centroid - shift(at, outline.half, blur_px2))
 }
 
 fn shift(centre: DVec2, half: DVec2, blur_px2: f64) -> DVec2 {
@@ -211,8 +211,8 @@ fn shift(centre: DVec2, half: DVec2, blur_px2: f64) -> DVec2 {
             disc(TAU * k * a) * blur * sin_cos(TAU * k * c).0 / (PI * k)
         };
         // A shape that is corrupted by noise, or too small for the expansion, is not corrected.
-        let told = a.is_finite() && a >= MIN_PX;
-        if told { (1..=HARMONICS).map(|k| harmonic(f64::from(k))).sum() } else { 0.0 }
+        let is_valid = a.is_finite() && a >= MIN_PX;
+        if is_valid { (1..=HARMONICS).map(|k| harmonic(f64::from(k))).sum() } else { 0.0 }
     };
     DVec2::new(along(half.x, centre.x), along(half.y, centre.y))
 }

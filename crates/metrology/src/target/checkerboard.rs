@@ -10,8 +10,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::crossing::{self, Corner};
-use super::lattice::{self, Neighbours, Places};
-use super::{Grid, LEAST, chess};
+use super::lattice::{self, PointCells, PointMap};
+use super::{Grid, MIN_GRID_POINTS, chess};
 use crate::Image;
 
 /// Radius of the window, relative to the distance to the nearest neighbour, and its limits, px.
@@ -21,7 +21,7 @@ const WINDOW_PX: [f64; 2] = [3.0, 12.0];
 /// The largest board of an image, of any size, and the number of points of the second largest.
 pub(super) fn find(image: &Image) -> (Grid, usize) {
     const COPIES: usize = 4;
-    let mut best = ((Places::new(), 0), Vec::new());
+    let mut best = ((PointMap::new(), 0), Vec::new());
     let mut copy = image.clone();
     for level in 0..COPIES {
         let scale = f64::from(1_u32 << level);
@@ -31,52 +31,52 @@ pub(super) fn find(image: &Image) -> (Grid, usize) {
         }
         copy = halved(&copy);
     }
-    let ((places, beside), mut points) = best;
+    let ((places, outside), mut points) = best;
     let refined = refine(image, &places, &points);
-    let kept = without_stragglers(places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect());
+    let connected = without_stragglers(places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect());
     points.iter_mut().zip(&refined).for_each(|(p, r)| *p = r.map_or(*p, |r| r.at));
     let uncertainties: Vec<f64> = refined.iter().map(|r| r.map_or(f64::INFINITY, |r| r.uncertainty_px)).collect();
-    (Grid::of(&kept, &points, &uncertainties), beside)
+    (Grid::from_places(&connected, &points, &uncertainties), outside)
 }
 
 /// Removes outer rows and columns with one point, or less than a fifth of the longest: false corners beyond the board, where its
 /// border meets the surroundings.
-fn without_stragglers(mut places: Places) -> Places {
-    const SHARE: usize = 5;
+fn without_stragglers(mut places: PointMap) -> PointMap {
+    const MAX_LENGTH_RATIO: usize = 5;
     loop {
-        let stray = (0..2).find_map(|axis| {
+        let sparse_line = (0..2).find_map(|axis| {
             let count = |line: i32| places.keys().filter(|p| p[axis] == line).count();
             let lines = || places.keys().map(|p| p[axis]);
             let (low, high) = (lines().min()?, lines().max()?);
             let longest = (low..=high).map(count).max()?;
-            let few = |line: &i32| count(*line) < 2.max(longest.div_ceil(SHARE));
+            let few = |line: &i32| count(*line) < 2.max(longest.div_ceil(MAX_LENGTH_RATIO));
             [low, high].into_iter().find(|line| longest > 1 && few(line)).map(|line| (axis, line))
         });
-        match stray {
+        match sparse_line {
             Some((axis, line)) => places.retain(|p, _| p[axis] != line),
             None => return places,
         }
     }
 }
 
-fn board(image: &Image) -> ((Places, usize), Vec<DVec2>) {
+fn board(image: &Image) -> ((PointMap, usize), Vec<DVec2>) {
     // Less contrast than a twentieth of the image's is not a square of a board.
-    let least = 0.05 * contrast(image);
-    let rough = chess::candidates(image, least);
+    let min_response = 0.05 * contrast(image);
+    let rough = chess::candidates(image, min_response);
     let radius = chess::RING_PX as f64;
     let points: Vec<DVec2> = rough
         .iter()
-        .filter_map(|[x, y]| chess::refined(image, DVec2::new(*x as f64 + 0.5, *y as f64 + 0.5), radius, 3.0))
+        .filter_map(|[x, y]| chess::refine_corner(image, DVec2::new(*x as f64 + 0.5, *y as f64 + 0.5), radius, 3.0))
         .collect();
     let points = single(points);
-    let linked = |a: usize, b: usize| is_edge(image, points[a], points[b], least);
-    let places = lattice::largest(&points, LEAST, &linked);
+    let linked = |a: usize, b: usize| is_edge(image, points[a], points[b], min_response);
+    let places = lattice::largest(&points, MIN_GRID_POINTS, &linked);
     (places, points)
 }
 
 /// Removes duplicate points.
 fn single(points: Vec<DVec2>) -> Vec<DVec2> {
-    let neighbours = Neighbours::of(&points);
+    let neighbours = PointCells::new(&points);
     let first = |i: &usize| neighbours.within(points[*i], 1.5).iter().all(|j| j >= i);
     (0..points.len()).filter(first).map(|i| points[i]).collect()
 }
@@ -94,12 +94,12 @@ fn contrast(image: &Image) -> f32 {
 }
 
 /// True if the line from a to b has a bright and a dark side, the same along its whole length.
-fn is_edge(image: &Image, a: DVec2, b: DVec2, least: f32) -> bool {
+fn is_edge(image: &Image, a: DVec2, b: DVec2, min_response: f32) -> bool {
     let along = b - a;
-    let aside = along.perp() * 0.15;
-    let difference = |t: f64| Some(sample(image, a + along * t + aside)? - sample(image, a + along * t - aside)?);
+    let side_offset = along.perp() * 0.15;
+    let difference = |t: f64| Some(sample(image, a + along * t + side_offset)? - sample(image, a + along * t - side_offset)?);
     let all: Option<Vec<f32>> = [0.25, 0.5, 0.75].into_iter().map(difference).collect();
-    all.is_some_and(|d| d.iter().all(|d| *d > 0.5 * least) || d.iter().all(|d| *d < -0.5 * least))
+    all.is_some_and(|d| d.iter().all(|d| *d > 0.5 * min_response) || d.iter().all(|d| *d < -0.5 * min_response))
 }
 
 /// The pixel at a position; `None` outside.
@@ -110,28 +110,28 @@ fn sample(image: &Image, at: DVec2) -> Option<f32> {
 
 /// Refines each placed point in the image itself; `None` if that fails. If the disc extends beyond a narrow outer square, or
 /// there is no corner, the uncertainty is an outlier: half the radius is tried, and remaining outliers are dropped.
-fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner>> {
-    const OUTSTANDING: f64 = 3.0;
+fn refine(image: &Image, places: &PointMap, points: &[DVec2]) -> Vec<Option<Corner>> {
+    const OUTLIER_FACTOR: f64 = 3.0;
     const GOOD_PX: f64 = 0.05;
     let placed: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (*place, *i)).collect();
-    let found = |window: f64| {
+    let corners = |window: f64| {
         let find = |(place, i): &([i32; 2], usize)| corner(image, places, points, *place, *i, window);
         placed.par_iter().map(find).collect::<Vec<_>>()
     };
-    let wide = found(WINDOW);
+    let wide = corners(WINDOW);
     let typical = upper_median(wide.iter().flatten().map(|c| c.uncertainty_px)).unwrap_or(0.0);
-    let stands_out = |c: &Option<Corner>, factor: f64| {
-        c.is_none_or(|c| c.uncertainty_px > factor * (OUTSTANDING * typical).max(GOOD_PX))
+    let is_outlier = |c: &Option<Corner>, factor: f64| {
+        c.is_none_or(|c| c.uncertainty_px > factor * (OUTLIER_FACTOR * typical).max(GOOD_PX))
     };
     let mut refined = vec![None; points.len()];
     for ((place, i), wide) in placed.iter().zip(wide) {
-        let narrow = || corner(image, places, points, *place, *i, 0.5 * WINDOW).filter(|c| !stands_out(&Some(*c), 2.0));
-        refined[*i] = if stands_out(&wide, 1.0) { narrow() } else { wide };
+        let narrow = || corner(image, places, points, *place, *i, 0.5 * WINDOW).filter(|c| !is_outlier(&Some(*c), 2.0));
+        refined[*i] = if is_outlier(&wide, 1.0) { narrow() } else { wide };
     }
     refined
 }
 
-fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: usize, window: f64) -> Option<Corner> {
+fn corner(image: &Image, places: &PointMap, points: &[DVec2], place: [i32; 2], i: usize, window: f64) -> Option<Corner> {
     let step = |x: i32, y: i32| {
         let other = places.get(&[place[0] + x, place[1] + y])?;
         Some((points[*other] - points[i]) * f64::from(x + y))
@@ -145,8 +145,8 @@ fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: 
         [Some(a), Some(b)] => Some(0.5 * (a + b)),
         [a, b] => a.or(b),
     };
-    let rough = chess::refined(image, points[i], radius, radius)?;
-    crossing::fitted(image, rough, [mean(across)?, mean(down)?], radius)
+    let rough = chess::refine_corner(image, points[i], radius, radius)?;
+    crossing::fit_corner(image, rough, [mean(across)?, mean(down)?], radius)
 }
 
 /// Half the size, by means of four pixels; an odd last row or column is omitted.

@@ -41,13 +41,13 @@ const RING: [[isize; 2]; 16] = [
 ];
 
 /// Candidates: column and row, in the order of the pixels. `least` is the minimum contrast of a candidate.
-pub(super) fn candidates(image: &Image, least: f32) -> Vec<[usize; 2]> {
+pub(super) fn candidates(image: &Image, min_response: f32) -> Vec<[usize; 2]> {
     let (width, height) = (image.width(), image.height());
     if width <= 2 * RING_PX || height <= 2 * RING_PX {
         return Vec::new();
     }
     let rows: Vec<Vec<f32>> = (RING_PX..height - RING_PX).into_par_iter().map(|y| responses(image, y)).collect();
-    (0..rows.len()).into_par_iter().flat_map_iter(|r| row_peaks(image, &rows, r, least)).collect()
+    (0..rows.len()).into_par_iter().flat_map_iter(|r| row_peaks(image, &rows, r, min_response)).collect()
 }
 
 /// R of row y, columns from the ring's radius on.
@@ -78,14 +78,14 @@ fn responses(image: &Image, y: usize) -> Vec<f32> {
     out
 }
 
-fn row_peaks(image: &Image, rows: &[Vec<f32>], r: usize, least: f32) -> Vec<[usize; 2]> {
-    const SHARE: f32 = 2.0;
-    const APART: usize = 3;
+fn row_peaks(image: &Image, rows: &[Vec<f32>], r: usize, min_response: f32) -> Vec<[usize; 2]> {
+    const MIN_RESPONSE_RATIO: f32 = 2.0;
+    const MIN_DISTANCE: usize = 3;
     let row = &rows[r];
     let is_peak = |x: usize| {
         let value = row[x];
-        (r.saturating_sub(APART)..(r + APART + 1).min(rows.len())).all(|s| {
-            let (from, to) = (x.saturating_sub(APART), (x + APART + 1).min(row.len()));
+        (r.saturating_sub(MIN_DISTANCE)..(r + MIN_DISTANCE + 1).min(rows.len())).all(|s| {
+            let (from, to) = (x.saturating_sub(MIN_DISTANCE), (x + MIN_DISTANCE + 1).min(row.len()));
             // The first of equal ones is used.
             (from..to).all(|t| rows[s][t] < value || (rows[s][t] == value && (s, t) >= (r, x)))
         })
@@ -98,21 +98,21 @@ fn row_peaks(image: &Image, rows: &[Vec<f32>], r: usize, least: f32) -> Vec<[usi
             RING.iter().map(|d| at(*d)).fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         high - low
     };
-    let found = (0..row.len()).filter(|x| {
-        row[*x] > SHARE * least && {
+    let peaks = (0..row.len()).filter(|x| {
+        row[*x] > MIN_RESPONSE_RATIO * min_response && {
             let contrast = contrast(*x);
-            contrast > least && row[*x] > SHARE * contrast && is_peak(*x)
+            contrast > min_response && row[*x] > MIN_RESPONSE_RATIO * contrast && is_peak(*x)
         }
     });
-    found.map(|x| [x + RING_PX, r + RING_PX]).collect()
+    peaks.map(|x| [x + RING_PX, r + RING_PX]).collect()
 }
 
 /// Refines the corner near `start` (raster coordinates) with the pixels within `radius` px; `None` if there is none within
 /// `reach` px, or the window leaves the image.
-pub(super) fn refined(image: &Image, start: DVec2, radius: f64, reach: f64) -> Option<DVec2> {
+pub(super) fn refine_corner(image: &Image, start: DVec2, radius: f64, reach: f64) -> Option<DVec2> {
     const STEPS: usize = 30;
-    const STILL_PX: f64 = 1e-4;
-    let patch = Patch::around(image, start, radius + reach)?;
+    const CONVERGED_PX: f64 = 1e-4;
+    let patch = GradientPatch::around(image, start, radius + reach)?;
     let mut at = start;
     for _ in 0..STEPS {
         let next = patch.step(at, radius)?;
@@ -121,7 +121,7 @@ pub(super) fn refined(image: &Image, start: DVec2, radius: f64, reach: f64) -> O
         }
         let moved = (next - at).length();
         at = next;
-        if moved < STILL_PX {
+        if moved < CONVERGED_PX {
             return Some(at);
         }
     }
@@ -135,27 +135,27 @@ const TAPS: usize = 3;
 const GAUSSIAN: [f64; TAPS + 1] = [0.399_050_28, 0.242_036_23, 0.054_005_58, 0.004_433_05];
 
 /// The gradient of a square of the image.
-struct Patch {
+struct GradientPatch {
     left: usize,
     top: usize,
     side: usize,
     gradients: Vec<DVec2>,
 }
 
-impl Patch {
+impl GradientPatch {
     /// The pixels within `reach` of a position; `None` if their gradients need pixels outside the image.
     fn around(image: &Image, place: DVec2, reach: f64) -> Option<Self> {
         let margin = TAPS + 1;
         let half = reach.ceil() as usize;
         let first = |c: f64| (c.floor() as usize).checked_sub(half + margin);
         let (left, top) = (first(place.x)?, first(place.y)?);
-        let whole = 2 * (half + margin) + 1;
-        if left + whole > image.width() || top + whole > image.height() {
+        let window = 2 * (half + margin) + 1;
+        if left + window > image.width() || top + window > image.height() {
             return None;
         }
         let pixel = |x: usize, y: usize| f64::from(image.samples()[(top + y) * image.width() + left + x]);
-        let side = whole - 2 * TAPS;
-        let rows: Vec<f64> = (0..whole)
+        let side = window - 2 * TAPS;
+        let rows: Vec<f64> = (0..window)
             .flat_map(|y| (0..side).map(move |x| (x, y)))
             .map(|(x, y)| blurred(|n| pixel(x + n, y)))
             .collect();

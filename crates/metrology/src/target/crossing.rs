@@ -39,7 +39,7 @@ const SOFTNESS_PX: [f64; 2] = [0.05, 6.0];
 
 /// Fits the corner near `start`, whose edges have the directions of `steps`, to the pixels within `radius` px; `None` if the
 /// model does not converge within half of that.
-pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64) -> Option<Corner> {
+pub(super) fn fit_corner(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64) -> Option<Corner> {
     const STEPS: usize = 40;
     let pixels = pixels(image, start, radius)?;
     let mut at = first_guess(&pixels, start, steps);
@@ -67,12 +67,12 @@ pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64
             break;
         }
     }
-    let found = DVec2::new(at[0], at[1]);
+    let corner = DVec2::new(at[0], at[1]);
     let variance = squares / (pixels.len() - COUNT) as f64;
     let covariance = Cholesky::of(&normal.0, 1e-14)?.inverse();
     let white = variance * (covariance.at(0, 0) + covariance.at(1, 1));
     let uncertainty_px = (0.5 * white.max(correlated(&pixels, &at, &covariance))).sqrt();
-    ((found - start).length() < 0.5 * radius).then_some(Corner { at: found, uncertainty_px })
+    ((corner - start).length() < 0.5 * radius).then_some(Corner { at: corner, uncertainty_px })
 }
 
 /// The variance of q, both coordinates together, from correlated residuals.
@@ -80,25 +80,25 @@ fn correlated(pixels: &[(DVec2, f64)], at: &Numbers, covariance: &Matrix) -> f64
     const REACH: isize = 4;
     let corner = pixels.iter().fold(DVec2::INFINITY, |low, (p, _)| low.min(*p));
     let side = pixels.iter().fold(0.0, |side: f64, (p, _)| side.max((*p - corner).max_element())) as isize + 1;
-    let mut pulls = vec![DVec2::ZERO; (side * side) as usize];
+    let mut gradient_sums = vec![DVec2::ZERO; (side * side) as usize];
     let place = |p: DVec2| ((p.y - corner.y) as isize, (p.x - corner.x) as isize);
     for (p, value) in pixels {
         let (model, by) = model(at, *p);
         let lever = |row: usize| by.iter().enumerate().map(|(i, b)| covariance.at(row, i) * b).sum::<f64>();
         let (y, x) = place(*p);
-        pulls[(y * side + x) as usize] = (model - value) * DVec2::new(lever(0), lever(1));
+        gradient_sums[(y * side + x) as usize] = (model - value) * DVec2::new(lever(0), lever(1));
     }
     let near = |y: isize, x: isize, by: [isize; 2]| {
         let (v, u) = (y + by[0], x + by[1]);
         let inside = (0..side).contains(&v) && (0..side).contains(&u);
-        if inside { pulls[(v * side + u) as usize] } else { DVec2::ZERO }
+        if inside { gradient_sums[(v * side + u) as usize] } else { DVec2::ZERO }
     };
-    let share = |by: isize| 1.0 - by.abs() as f64 / REACH as f64;
+    let weight = |by: isize| 1.0 - by.abs() as f64 / REACH as f64;
     let offsets = || (1 - REACH..REACH).flat_map(|v| (1 - REACH..REACH).map(move |u| [v, u]));
     let shared = |p: DVec2| {
         let (y, x) = place(p);
-        let around: DVec2 = offsets().map(|by| share(by[0]) * share(by[1]) * near(y, x, by)).sum();
-        pulls[(y * side + x) as usize].dot(around)
+        let around: DVec2 = offsets().map(|by| weight(by[0]) * weight(by[1]) * near(y, x, by)).sum();
+        gradient_sums[(y * side + x) as usize].dot(around)
     };
     pixels.iter().map(|(p, _)| shared(*p)).sum()
 }
@@ -133,14 +133,14 @@ fn first_guess(pixels: &[(DVec2, f64)], start: DVec2, steps: [DVec2; 2]) -> Numb
 }
 
 /// −ln of the deviation of a profile from its limit that counts as zero.
-const FLAT: f64 = 20.0;
+const FLAT_LEVEL: f64 = 20.0;
 
 /// S, dS/dl and dS/ds.
 fn profile(l: f64, s: f64) -> [f64; 3] {
     // s ln(2 cosh(x/s)) = |x| + s ln(1 + e), e = exp(−2 |x|/s).
     let end = |x: f64| {
         let ratio = 2.0 * x.abs() / s;
-        if ratio > FLAT {
+        if ratio > FLAT_LEVEL {
             return [x.abs(), x.signum(), 0.0];
         }
         let e = exp(-ratio);
@@ -153,7 +153,7 @@ fn profile(l: f64, s: f64) -> [f64; 3] {
 
 /// The model at a pixel and its derivatives.
 fn model(n: &Numbers, pixel: DVec2) -> (f64, Numbers) {
-    let [x, y, angle_1, angle_2, bend_1, bend_2, s, m, c, slope_x, slope_y, rim] = *n;
+    let [x, y, angle_1, angle_2, bend_1, bend_2, s, m, c, slope_x, slope_y, falloff] = *n;
     let d = pixel - DVec2::new(x, y);
     let edge = |angle: f64, bend: f64| {
         let (sin, cos) = sin_cos(angle);
@@ -165,9 +165,9 @@ fn model(n: &Numbers, pixel: DVec2) -> (f64, Numbers) {
     let ([s1, d1, e1], q1, a1, b1) = edge(angle_1, bend_1);
     let ([s2, d2, e2], q2, a2, b2) = edge(angle_2, bend_2);
     let product = s1 * s2;
-    let value = m + slope_x * d.x + slope_y * d.y + c * product + rim * (1.0 - product * product);
+    let value = m + slope_x * d.x + slope_y * d.y + c * product + falloff * (1.0 - product * product);
     // dI/dP.
-    let c = c - 2.0 * rim * product;
+    let c = c - 2.0 * falloff * product;
     let q = c * (d1 * s2 * q1 + s1 * d2 * q2) - DVec2::new(slope_x, slope_y);
     let by = [
         q.x,

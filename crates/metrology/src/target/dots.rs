@@ -9,9 +9,9 @@ use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
 use super::centroid::{self, Blob, Centroid, Moments};
-use super::lattice::{self, Places};
-use super::threshold::{self, Run, Threshold};
-use super::{Grid, LEAST};
+use super::lattice::{self, PointMap};
+use super::threshold::{self, RowRun, Threshold};
+use super::{Grid, MIN_GRID_POINTS};
 use crate::Image;
 
 /// The largest grid of dots of an image, of any size, and the number of points of the second largest.
@@ -19,9 +19,9 @@ pub(super) fn find(image: &Image) -> (Grid, usize) {
     // Fractions of the image's shorter side: from dots of a few pixels to dots of a tenth of the image.
     const BLOCKS: [usize; 3] = [48, 20, 8];
     let turned = image.map(|v| -v);
-    let mut best = ((Places::new(), 0), Vec::new(), false);
-    for share in BLOCKS {
-        let block = (image.width().min(image.height()) / share).max(8);
+    let mut best = ((PointMap::new(), 0), Vec::new(), false);
+    for divisor in BLOCKS {
+        let block = (image.width().min(image.height()) / divisor).max(8);
         for (image, bright) in [(image, false), (&turned, true)] {
             let blobs = blobs(image, block);
             let places = places(&blobs);
@@ -30,20 +30,20 @@ pub(super) fn find(image: &Image) -> (Grid, usize) {
             }
         }
     }
-    let ((places, beside), blobs, bright) = best;
-    (measured(if bright { &turned } else { image }, &places, &blobs, bright), beside)
+    let ((places, outside), blobs, bright) = best;
+    (measure_dots(if bright { &turned } else { image }, &places, &blobs, bright), outside)
 }
 
 fn blobs(image: &Image, block: usize) -> Vec<Blob> {
-    let regions = threshold::dark(image, &Threshold::of(image, block));
+    let regions = threshold::dark(image, &Threshold::from_image(image, block));
     regions.iter().filter_map(|runs| blob(image, runs)).collect()
 }
 
 /// A region that is complete, large enough and elliptical.
-fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
+fn blob(image: &Image, runs: &[RowRun]) -> Option<Blob> {
     const MIN_PX: f64 = 12.0;
     const SMALL_PX: usize = 200;
-    let inside = |r: &Run| r.row > 0 && r.row + 1 < image.height() && r.from > 0 && r.to < image.width();
+    let inside = |r: &RowRun| r.row > 0 && r.row + 1 < image.height() && r.from > 0 && r.to < image.width();
     let pixels: usize = runs.iter().map(|r| r.to - r.from).sum();
     if (pixels as f64) < MIN_PX || pixels > image.samples().len() / 10 || !runs.iter().all(inside) {
         return None;
@@ -62,34 +62,34 @@ fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
     ((blob.area / ellipse - 1.0).abs() < tolerance).then_some(blob)
 }
 
-fn places(blobs: &[Blob]) -> (Places, usize) {
+fn places(blobs: &[Blob]) -> (PointMap, usize) {
     let points: Vec<DVec2> = blobs.iter().map(|b| b.at).collect();
-    let alike = |a: usize, b: usize| (0.4..2.5).contains(&(blobs[a].area / blobs[b].area));
-    let (places, beside) = lattice::largest(&points, LEAST, &alike);
-    (lattice::straight(places), beside)
+    let similar = |a: usize, b: usize| (0.4..2.5).contains(&(blobs[a].area / blobs[b].area));
+    let (places, outside) = lattice::largest(&points, MIN_GRID_POINTS, &similar);
+    (lattice::straight(places), outside)
 }
 
 /// The grid of the dots' centroids; those that cannot be measured are omitted.
-fn measured(image: &Image, places: &Places, blobs: &[Blob], bright: bool) -> Grid {
+fn measure_dots(image: &Image, places: &PointMap, blobs: &[Blob], bright: bool) -> Grid {
     let rough = radius_steps(places, |i| (blobs[i].at, blobs[i].area));
     // An ellipse larger by this factor touches that of the next dot.
     let room = rough.map_or(1.5, |r| 0.5 / r);
     let placed: Vec<usize> = places.values().copied().collect();
-    let found: Vec<Option<Centroid>> =
-        placed.par_iter().map(|i| centroid::measured(image, &blobs[*i], room, bright)).collect();
-    let blur_px2 = centroid::blur_px2(found.iter().flatten().map(|c| c.rim));
-    let centre = |c: Centroid| Centroid { at: centroid::centre(c.at, &c.rim, blur_px2), ..c };
+    let dots: Vec<Option<Centroid>> =
+        placed.par_iter().map(|i| centroid::measure_dot(image, &blobs[*i], room, bright)).collect();
+    let blur_px2 = centroid::blur_px2(dots.iter().flatten().map(|c| c.outline));
+    let centre = |c: Centroid| Centroid { at: centroid::centre(c.at, &c.outline, blur_px2), ..c };
     let mut centroids = vec![None; blobs.len()];
-    placed.iter().zip(found).for_each(|(i, c)| centroids[*i] = c.map(centre));
-    let places: Places = places.iter().filter(|(_, i)| centroids[**i].is_some()).map(|(p, i)| (*p, *i)).collect();
+    placed.iter().zip(dots).for_each(|(i, c)| centroids[*i] = c.map(centre));
+    let places: PointMap = places.iter().filter(|(_, i)| centroids[**i].is_some()).map(|(p, i)| (*p, *i)).collect();
     let points: Vec<DVec2> = (0..blobs.len()).map(|i| centroids[i].map_or(blobs[i].at, |c| c.at)).collect();
     let uncertainties: Vec<f64> = centroids.iter().map(|c| c.map_or(f64::INFINITY, |c| c.uncertainty_px)).collect();
     let disc_radius_steps = radius_steps(&places, |i| (points[i], centroids[i].map_or(blobs[i].area, |c| c.area)));
-    Grid { disc_radius_steps, ..Grid::of(&places, &points, &uncertainties) }
+    Grid { disc_radius_steps, ..Grid::from_places(&places, &points, &uncertainties) }
 }
 
 /// Radius of the discs in steps, from the areas of dots and of the cells between their neighbours: the mean over all dots.
-fn radius_steps(places: &Places, dot: impl Fn(usize) -> (DVec2, f64)) -> Option<f64> {
+fn radius_steps(places: &PointMap, dot: impl Fn(usize) -> (DVec2, f64)) -> Option<f64> {
     let radius = |(place, i): (&[i32; 2], &usize)| {
         let step = |axis: usize| {
             let at = |by: i32| {

@@ -54,4 +54,4 @@ pub enum TargetError {
 }
 
 /// Minimum number of points of a grid whose size is not stated.
-pub(super) const LEAST: usize = 16;
+pub(super) const MIN_GRID_POINTS: usize = 16;

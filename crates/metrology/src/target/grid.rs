@@ -9,7 +9,7 @@
 
 use glam::DVec2;
 
-use super::lattice::Places;
+use super::lattice::PointMap;
 
 /// A point of a chart: its column and row, and its position in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,11 +45,11 @@ impl Grid {
     /// The median distance of neighbours in a row or a column, px; 0 if there are none.
     #[must_use]
     pub fn step_px(&self) -> f64 {
-        let beside = |n: &Node| {
+        let step_lengths = |n: &Node| {
             let [i, j] = n.index;
             [[i + 1, j], [i, j + 1]].map(|index| self.node(index).map(|other| (other.at - n.at).length()))
         };
-        let mut steps: Vec<f64> = self.nodes.iter().flat_map(beside).flatten().collect();
+        let mut steps: Vec<f64> = self.nodes.iter().flat_map(step_lengths).flatten().collect();
         steps.sort_by(f64::total_cmp);
         steps.get(steps.len() / 2).copied().unwrap_or(0.0)
     }
@@ -99,24 +99,24 @@ impl Grid {
     }
 
     /// The grid of a lattice of points, rotated so that columns run to the right and rows down.
-    pub(super) fn of(places: &Places, points: &[DVec2], uncertainties_px: &[f64]) -> Self {
-        let turn = upright(places, points);
-        let turned: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (turn(*place), *i)).collect();
-        let low = [0, 1].map(|a| turned.iter().map(|(p, _)| p[a]).min().unwrap_or(0));
-        let high = [0, 1].map(|a| turned.iter().map(|(p, _)| p[a]).max().unwrap_or(0));
+    pub(super) fn from_places(places: &PointMap, points: &[DVec2], uncertainties_px: &[f64]) -> Self {
+        let to_upright = upright(places, points);
+        let upright_places: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (to_upright(*place), *i)).collect();
+        let low = [0, 1].map(|a| upright_places.iter().map(|(p, _)| p[a]).min().unwrap_or(0));
+        let high = [0, 1].map(|a| upright_places.iter().map(|(p, _)| p[a]).max().unwrap_or(0));
         let node = |(place, i): &([i32; 2], usize)| Node {
             index: [0, 1].map(|a| (place[a] - low[a]) as usize),
             at: points[*i],
             uncertainty_px: uncertainties_px[*i],
         };
-        let mut nodes: Vec<Node> = turned.iter().map(node).collect();
+        let mut nodes: Vec<Node> = upright_places.iter().map(node).collect();
         nodes.sort_by_key(|n| [n.index[1], n.index[0]]);
         Self { nodes, size: [0, 1].map(|a| (high[a] - low[a] + 1) as usize), disc_radius_steps: None }
     }
 }
 
 /// The exchange of axes and signs after which columns run most to the right, and rows down.
-fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
+fn upright(places: &PointMap, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
     let mean_step = |axis: usize| {
         let steps = places.iter().filter_map(|(place, i)| {
             let mut next = *place;
@@ -126,8 +126,8 @@ fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
         steps.sum::<DVec2>()
     };
     let [a, b] = [mean_step(0), mean_step(1)];
-    let share = |v: DVec2| v.x.abs() / v.length().max(f64::MIN_POSITIVE);
-    let (column, right, row, down) = if share(a) >= share(b) { (0, a, 1, b) } else { (1, b, 0, a) };
+    let fraction = |v: DVec2| v.x.abs() / v.length().max(f64::MIN_POSITIVE);
+    let (column, right, row, down) = if fraction(a) >= fraction(b) { (0, a, 1, b) } else { (1, b, 0, a) };
     let right_sign = if right.x < 0.0 { -1 } else { 1 };
     // A captured image is not mirrored: rows run in the direction of the columns, turned clockwise as seen.
     let down_sign = if (f64::from(right_sign) * right).perp_dot(down) < 0.0 { -1 } else { 1 };
@@ -167,7 +167,7 @@ impl Grid {
         let mirrored = hand < 0;
         // To the right as printed, to the left if mirrored; then clockwise with y down.
         let turned = if mirrored { [-long[0], -long[1]] } else { long };
-        let quarters = [[1, 0], [0, 1], [-1, 0], [0, -1]].iter().position(|way| *way == turned)? as u8;
+        let quarters = [[1, 0], [0, 1], [-1, 0], [0, -1]].iter().position(|direction| *direction == turned)? as u8;
         Some(Orientation { quarters, mirrored })
     }
 
@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     /// A grid of 12 × 10 without the marks, with each position mapped to another.
-    fn seen(size: [usize; 2], gaps: &[[usize; 2]], moved: impl Fn([usize; 2]) -> [usize; 2]) -> Grid {
+    fn chart_with_gaps(size: [usize; 2], gaps: &[[usize; 2]], moved: impl Fn([usize; 2]) -> [usize; 2]) -> Grid {
         let mut nodes: Vec<Node> = (0..120)
             .map(|i| [i % 12, i / 12])
             .filter(|at| !gaps.contains(at))
@@ -201,26 +201,26 @@ mod tests {
     }
 
     #[test]
-    fn marks_tell_how_a_chart_is_seen() {
+    fn marks_determine_the_orientation_of_a_chart() {
         let marks = [[3, 4], [6, 4], [3, 6]];
-        let of = |size, moved: fn([usize; 2]) -> [usize; 2]| seen(size, &marks, moved).orientation();
-        let told = |quarters, mirrored| Some(Orientation { quarters, mirrored });
-        assert_eq!(of([12, 10], |at| at), told(0, false));
-        assert_eq!(of([10, 12], |[x, y]| [9 - y, x]), told(1, false));
-        assert_eq!(of([12, 10], |[x, y]| [11 - x, 9 - y]), told(2, false));
-        assert_eq!(of([10, 12], |[x, y]| [y, 11 - x]), told(3, false));
-        assert_eq!(of([12, 10], |[x, y]| [11 - x, y]), told(0, true));
-        assert_eq!(of([12, 10], |[x, y]| [x, 9 - y]), told(2, true));
-        assert!(of([10, 12], |[x, y]| [y, x]).is_some_and(|o| o.mirrored));
+        let orientation_of = |size, moved: fn([usize; 2]) -> [usize; 2]| chart_with_gaps(size, &marks, moved).orientation();
+        let orientation = |quarters, mirrored| Some(Orientation { quarters, mirrored });
+        assert_eq!(orientation_of([12, 10], |at| at), orientation(0, false));
+        assert_eq!(orientation_of([10, 12], |[x, y]| [9 - y, x]), orientation(1, false));
+        assert_eq!(orientation_of([12, 10], |[x, y]| [11 - x, 9 - y]), orientation(2, false));
+        assert_eq!(orientation_of([10, 12], |[x, y]| [y, 11 - x]), orientation(3, false));
+        assert_eq!(orientation_of([12, 10], |[x, y]| [11 - x, y]), orientation(0, true));
+        assert_eq!(orientation_of([12, 10], |[x, y]| [x, 9 - y]), orientation(2, true));
+        assert!(orientation_of([10, 12], |[x, y]| [y, x]).is_some_and(|o| o.mirrored));
     }
 
     #[test]
     fn other_gaps_are_no_marks() {
-        let of = |gaps: &[[usize; 2]]| seen([12, 10], gaps, |at| at).orientation();
-        assert_eq!(of(&[]), None);
-        assert_eq!(of(&[[3, 4], [6, 4]]), None);
-        assert_eq!(of(&[[3, 4], [6, 4], [3, 7]]), None);
-        assert_eq!(of(&[[3, 4], [6, 4], [3, 6], [8, 8]]), None);
-        assert_eq!(of(&[[3, 4], [6, 4], [1, 4]]), None);
+        let orientation = |gaps: &[[usize; 2]]| chart_with_gaps([12, 10], gaps, |at| at).orientation();
+        assert_eq!(orientation(&[]), None);
+        assert_eq!(orientation(&[[3, 4], [6, 4]]), None);
+        assert_eq!(orientation(&[[3, 4], [6, 4], [3, 7]]), None);
+        assert_eq!(orientation(&[[3, 4], [6, 4], [3, 6], [8, 8]]), None);
+        assert_eq!(orientation(&[[3, 4], [6, 4], [1, 4]]), None);
     }
 }

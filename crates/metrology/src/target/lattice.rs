@@ -14,54 +14,54 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use glam::DVec2;
 
 /// Map from positions (column and row) to points.
-pub(super) type Places = BTreeMap<[i32; 2], usize>;
+pub(super) type PointMap = BTreeMap<[i32; 2], usize>;
 
 /// Maximum distance of a point from its expected position, in steps.
 const TOLERANCE: f64 = 0.3;
 
 /// Minimum number of points of a lattice.
-const LEAST: usize = 4;
+const MIN_POINTS: usize = 4;
 
 /// The largest lattice of the points, and the number of points of the second largest; `linked` is true if two points are
 /// neighbours in a row or column. Further lattices are searched among more points than `least`.
-pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, usize) -> bool) -> (Places, usize) {
-    let search = Search { points, neighbours: Neighbours::of(points), linked };
-    let mut found: Vec<Places> = Vec::new();
-    let mut seen = vec![false; points.len()];
+pub(super) fn largest(points: &[DVec2], min_points: usize, linked: &impl Fn(usize, usize) -> bool) -> (PointMap, usize) {
+    let search = Search { points, neighbours: PointCells::new(points), linked };
+    let mut lattices: Vec<PointMap> = Vec::new();
+    let mut visited = vec![false; points.len()];
     let mut left = points.len();
     for seed in search.seeds() {
-        if seen[seed] {
+        if visited[seed] {
             continue;
         }
-        if left < least.max(LEAST) && !found.is_empty() {
+        if left < min_points.max(MIN_POINTS) && !lattices.is_empty() {
             break;
         }
         let lattice = search.around_seed(seed);
-        seen[seed] = true;
+        visited[seed] = true;
         left -= 1;
-        if lattice.len() >= LEAST {
+        if lattice.len() >= MIN_POINTS {
             for point in lattice.values().filter(|p| **p != seed) {
-                left -= usize::from(!seen[*point]);
-                seen[*point] = true;
+                left -= usize::from(!visited[*point]);
+                visited[*point] = true;
             }
-            found.push(lattice);
+            lattices.push(lattice);
         }
     }
     // The first of equal ones.
-    found.sort_by_key(|lattice| std::cmp::Reverse(lattice.len()));
-    let mut found = found.into_iter();
-    let best = found.next().unwrap_or_default();
+    lattices.sort_by_key(|lattice| std::cmp::Reverse(lattice.len()));
+    let mut lattices = lattices.into_iter();
+    let best = lattices.next().unwrap_or_default();
     let own: BTreeSet<usize> = best.values().copied().collect();
-    let beside = found.map(|other| other.values().filter(|p| !own.contains(p)).count()).max().unwrap_or(0);
-    (best, beside)
+    let outside = lattices.map(|other| other.values().filter(|p| !own.contains(p)).count()).max().unwrap_or(0);
+    (best, outside)
 }
 
 /// For points whose links do not distinguish steps from diagonals (dots): the lattice with its lines shifted so that it is a full
 /// rectangle, if it is one only then.
-pub(super) fn straight(places: Places) -> Places {
-    const FULL: f64 = 0.9;
-    const ASKEW: f64 = 0.8;
-    if fullness(&places) > ASKEW {
+pub(super) fn straight(places: PointMap) -> PointMap {
+    const MIN_FULLNESS: f64 = 0.9;
+    const MAX_SKEWED_FULLNESS: f64 = 0.8;
+    if fullness(&places) > MAX_SKEWED_FULLNESS {
         return places;
     }
     let shifts = [1, -1, 2, -2].into_iter().flat_map(|by| [(0, by), (1, by)]);
@@ -70,14 +70,14 @@ pub(super) fn straight(places: Places) -> Places {
             place[axis] += by * place[1 - axis];
             place
         };
-        places.iter().map(|(place, i)| (shifted(*place), *i)).collect::<Places>()
+        places.iter().map(|(place, i)| (shifted(*place), *i)).collect::<PointMap>()
     });
     let best = sheared.max_by(|a, b| fullness(a).total_cmp(&fullness(b)));
-    best.filter(|best| fullness(best) > FULL).unwrap_or(places)
+    best.filter(|best| fullness(best) > MIN_FULLNESS).unwrap_or(places)
 }
 
 /// Points divided by the positions of their bounding rectangle.
-fn fullness(places: &Places) -> f64 {
+fn fullness(places: &PointMap) -> f64 {
     let span = |axis: usize| {
         let lines = || places.keys().map(|p| p[axis]);
         lines().max().zip(lines().min()).map_or(1.0, |(high, low)| f64::from(high - low + 1))
@@ -87,7 +87,7 @@ fn fullness(places: &Places) -> f64 {
 
 struct Search<'a, L> {
     points: &'a [DVec2],
-    neighbours: Neighbours<'a>,
+    neighbours: PointCells<'a>,
     linked: &'a L,
 }
 
@@ -98,30 +98,30 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
     /// All points; first those whose two steps are nearest to a square's, among equal ones those in the middle of the others.
     fn seeds(&self) -> Vec<usize> {
         /// Maximum difference of equal skews.
-        const ALIKE: f64 = 0.1;
+        const MAX_SKEW_DIFFERENCE: f64 = 0.1;
         let centre = self.points.iter().sum::<DVec2>() / self.points.len().max(1) as f64;
         let rank = |i: usize| {
             let skew = self.first_steps(i).map_or(f64::INFINITY, skew);
-            ((skew / ALIKE).floor(), (self.points[i] - centre).length_squared())
+            ((skew / MAX_SKEW_DIFFERENCE).floor(), (self.points[i] - centre).length_squared())
         };
         let mut order: Vec<((f64, f64), usize)> = (0..self.points.len()).map(|i| (rank(i), i)).collect();
         order.sort_by(|(a, i), (b, j)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(i.cmp(j)));
         order.into_iter().map(|(_, i)| i).collect()
     }
 
-    fn around_seed(&self, seed: usize) -> Places {
+    fn around_seed(&self, seed: usize) -> PointMap {
         match self.first_steps(seed) {
             Some(steps) => self.grown(seed, steps),
-            None => Places::new(),
+            None => PointMap::new(),
         }
     }
 
     /// Two steps from a point: to the nearest linked one, and to the nearest linked one in another direction.
     fn first_steps(&self, seed: usize) -> Option<Steps> {
-        const AROUND: usize = 12;
+        const NEIGHBOUR_COUNT: usize = 12;
         let steps: Vec<DVec2> = self
             .neighbours
-            .nearest(seed, AROUND)
+            .nearest(seed, NEIGHBOUR_COUNT)
             .into_iter()
             .filter(|i| (self.linked)(seed, *i))
             .map(|i| self.points[i] - self.points[seed])
@@ -133,8 +133,8 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         Some([first, second])
     }
 
-    fn grown(&self, seed: usize, steps: Steps) -> Places {
-        let mut places = Places::from([([0, 0], seed)]);
+    fn grown(&self, seed: usize, steps: Steps) -> PointMap {
+        let mut places = PointMap::from([([0, 0], seed)]);
         let mut used = BTreeMap::from([(seed, steps)]);
         let mut queue = VecDeque::from([[0, 0]]);
         while let Some(place) = queue.pop_front() {
@@ -145,12 +145,12 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
                     continue;
                 }
                 let step = self.expected_step(&places, place, axis, sign, used[&point][axis]);
-                let free = |i: &usize| !used.contains_key(i) && self.fits_beside(&places, place, next, *i);
-                let Some(found) = self.found(point, step).filter(free) else { continue };
+                let free = |i: &usize| !used.contains_key(i) && self.fits_neighbours(&places, place, next, *i);
+                let Some(neighbour) = self.find_point(point, step).filter(free) else { continue };
                 let mut steps = used[&point];
-                steps[axis] = f64::from(sign) * (self.points[found] - self.points[point]);
-                used.insert(found, steps);
-                places.insert(next, found);
+                steps[axis] = f64::from(sign) * (self.points[neighbour] - self.points[point]);
+                used.insert(neighbour, steps);
+                places.insert(next, neighbour);
                 queue.push_back(next);
             }
         }
@@ -158,7 +158,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
     }
 
     /// The step from a position, extrapolated from the two before it in the same line if they are known.
-    fn expected_step(&self, places: &Places, place: [i32; 2], axis: usize, sign: i32, known: DVec2) -> DVec2 {
+    fn expected_step(&self, places: &PointMap, place: [i32; 2], axis: usize, sign: i32, known: DVec2) -> DVec2 {
         let at = |back: i32| places.get(&moved(place, axis, -sign * back)).map(|i| self.points[*i]);
         match (at(0), at(1), at(2)) {
             (Some(p), Some(q), Some(r)) => 2.0 * (p - q) - (q - r),
@@ -168,27 +168,27 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
     }
 
     /// True if the step from a position to the next is similar to the same step in the adjacent lines, where these are known.
-    fn fits_beside(&self, places: &Places, place: [i32; 2], next: [i32; 2], point: usize) -> bool {
+    fn fits_neighbours(&self, places: &PointMap, place: [i32; 2], next: [i32; 2], point: usize) -> bool {
         let at = |place| places.get(&place).map(|i| self.points[*i]);
         let Some(from) = at(place) else { return false };
         let step = self.points[point] - from;
         let axis = usize::from(place[0] == next[0]);
         [1, -1].iter().all(|side| {
-            let beside = [place, next].map(|p| at(moved(p, 1 - axis, *side)));
-            let [Some(a), Some(b)] = beside else { return true };
+            let adjacent = [place, next].map(|p| at(moved(p, 1 - axis, *side)));
+            let [Some(a), Some(b)] = adjacent else { return true };
             (b - a - step).length() < TOLERANCE * step.length()
         })
     }
 
-    fn found(&self, from: usize, step: DVec2) -> Option<usize> {
+    fn find_point(&self, from: usize, step: DVec2) -> Option<usize> {
         let near = self.neighbours.within(self.points[from] + step, TOLERANCE * step.length());
         near.into_iter().find(|i| *i != from && (self.linked)(from, *i))
     }
 
     /// Removes points that are off the middle of their neighbours on both sides by more than a quarter of a step.
-    fn smooth(&self, mut places: Places) -> Places {
-        let at = |places: &Places, place| places.get(&place).map(|i| self.points[*i]);
-        let off = |places: &Places, place: [i32; 2]| {
+    fn smooth(&self, mut places: PointMap) -> PointMap {
+        let at = |places: &PointMap, place| places.get(&place).map(|i| self.points[*i]);
+        let off = |places: &PointMap, place: [i32; 2]| {
             (0..2).any(|axis| {
                 let (before, after) = (at(places, moved(place, axis, -1)), at(places, moved(place, axis, 1)));
                 let (Some(a), Some(p), Some(b)) = (before, at(places, place), after) else { return false };
@@ -216,7 +216,7 @@ fn moved(mut place: [i32; 2], axis: usize, by: i32) -> [i32; 2] {
 
 /// Points sorted into square cells.
 #[derive(Debug)]
-pub(super) struct Neighbours<'a> {
+pub(super) struct PointCells<'a> {
     points: &'a [DVec2],
     low: DVec2,
     cell: f64,
@@ -225,9 +225,9 @@ pub(super) struct Neighbours<'a> {
     cells: Vec<Vec<usize>>,
 }
 
-impl<'a> Neighbours<'a> {
+impl<'a> PointCells<'a> {
     /// Cells of about two points each.
-    pub(super) fn of(points: &'a [DVec2]) -> Self {
+    pub(super) fn new(points: &'a [DVec2]) -> Self {
         let (low, high) =
             points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
         let (low, size) = if points.is_empty() { (DVec2::ZERO, DVec2::ONE) } else { (low, high - low + 1.0) };
@@ -248,15 +248,15 @@ impl<'a> Neighbours<'a> {
             cell(c - radius)..=cell(c + radius)
         };
         let from = place - self.low;
-        let mut found: Vec<(f64, usize)> = Vec::new();
+        let mut neighbours: Vec<(f64, usize)> = Vec::new();
         for y in span(from.y, self.rows) {
             for x in span(from.x, self.columns) {
                 let cell = self.cells[y * self.columns + x].iter();
-                found.extend(cell.map(|i| ((self.points[*i] - place).length(), *i)).filter(|(d, _)| *d <= radius));
+                neighbours.extend(cell.map(|i| ((self.points[*i] - place).length(), *i)).filter(|(d, _)| *d <= radius));
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.into_iter().map(|(_, i)| i).collect()
+        neighbours.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        neighbours.into_iter().map(|(_, i)| i).collect()
     }
 
     /// The `count` points nearest to a point, excluding itself, nearest first.
@@ -264,11 +264,11 @@ impl<'a> Neighbours<'a> {
         let mut radius = self.cell;
         let all = self.cell * (self.columns + self.rows) as f64;
         loop {
-            let mut found = self.within(self.points[point], radius);
-            found.retain(|i| *i != point);
-            if found.len() >= count || radius > all {
-                found.truncate(count);
-                return found;
+            let mut candidates = self.within(self.points[point], radius);
+            candidates.retain(|i| *i != point);
+            if candidates.len() >= count || radius > all {
+                candidates.truncate(count);
+                return candidates;
             }
             radius *= 2.0;
         }
@@ -281,12 +281,12 @@ mod tests {
 
     /// A long board that the image borders cut obliquely: each row begins one position after the row before it.
     #[test]
-    fn links_that_tell_steps_from_diagonals_are_kept() {
+    fn links_that_exclude_diagonals_are_followed() {
         let points: Vec<DVec2> = (0..10)
             .flat_map(|row| (0..12).map(move |column| DVec2::new(f64::from(column + row), f64::from(row))))
             .collect();
         let linked = |a: usize, b: usize| (points[a] - points[b]).length() < 1.2;
-        let (places, _) = largest(&points, LEAST, &linked);
+        let (places, _) = largest(&points, MIN_POINTS, &linked);
         assert_eq!(places.len(), 120);
         for (place, point) in &places {
             let right = places.get(&moved(*place, 0, 1)).map(|next| (points[*next] - points[*point]).length());

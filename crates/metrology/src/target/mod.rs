@@ -27,7 +27,7 @@ mod lattice;
 mod threshold;
 
 use crate::Image;
-use error::LEAST;
+use error::MIN_GRID_POINTS;
 
 pub use error::TargetError;
 pub use grid::{Grid, Node, Orientation};
@@ -43,7 +43,7 @@ pub enum Target {
 
 /// Description of the chart to detect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sought {
+pub struct TargetQuery {
     /// The kind; `None` for the one with more points.
     pub target: Option<Target>,
     /// Columns and rows of points of the chart, in either order; an image may show fewer, not more.
@@ -58,28 +58,28 @@ const MIN_STEP_PX: f64 = 10.0;
 ///
 /// # Errors
 /// If there is no such chart.
-pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
-    let ((grid, beside), name) = match sought.target {
+pub fn find(image: &Image, query: TargetQuery) -> Result<Grid, TargetError> {
+    let ((grid, outside), name) = match query.target {
         Some(Target::Checkerboard) => (checkerboard::find(image), "checkerboard"),
         Some(Target::Dots) => (dots::find(image), "grid of dots"),
         None => (either(image), "checkerboard or grid of dots"),
     };
-    let grid = checked(grid, sought.size, name)?;
+    let grid = checked(grid, query.size, name)?;
     // A third of a chart that its rows do not reach is not a separate chart; nor is a smaller grid next to a complete chart of the
     // stated size.
-    let whole =
-        sought.size.is_some_and(|[columns, rows]| grid.nodes.len() == columns * rows && beside < grid.nodes.len());
-    let several = beside >= LEAST && 3 * beside > grid.nodes.len() && !whole;
-    if several { Err(TargetError::Several { points: [grid.nodes.len(), beside] }) } else { Ok(grid) }
+    let complete =
+        query.size.is_some_and(|[columns, rows]| grid.nodes.len() == columns * rows && outside < grid.nodes.len());
+    let is_second_chart = outside >= MIN_GRID_POINTS && 3 * outside > grid.nodes.len() && !complete;
+    if is_second_chart { Err(TargetError::Several { points: [grid.nodes.len(), outside] }) } else { Ok(grid) }
 }
 
 /// The chart with more points; the other is the second one if it is a chart of its own, elsewhere in the image.
 fn either(image: &Image) -> (Grid, usize) {
     let (board, dots) = (checkerboard::find(image), dots::find(image));
     let board_first = board.0.nodes.len() >= dots.0.nodes.len();
-    let ((grid, beside), (other, _)) = if board_first { (board, dots) } else { (dots, board) };
-    let apart = !overlap(&grid, &other) && checked(other.clone(), None, "").is_ok();
-    (grid, beside.max(if apart { other.nodes.len() } else { 0 }))
+    let ((grid, outside), (other, _)) = if board_first { (board, dots) } else { (dots, board) };
+    let is_separate = !overlap(&grid, &other) && checked(other.clone(), None, "").is_ok();
+    (grid, outside.max(if is_separate { other.nodes.len() } else { 0 }))
 }
 
 /// True if the bounding rectangles of two grids overlap.
@@ -92,11 +92,11 @@ fn overlap(a: &Grid, b: &Grid) -> bool {
     low.cmple(other_high).all() && other_low.cmple(high).all()
 }
 
-fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Result<Grid, TargetError> {
-    let least = stated.map_or(LEAST, |[a, b]| LEAST.min(a * b / 2).max(4));
+fn checked(grid: Grid, stated: Option<[usize; 2]>, target_name: &'static str) -> Result<Grid, TargetError> {
+    let min_points = stated.map_or(MIN_GRID_POINTS, |[a, b]| MIN_GRID_POINTS.min(a * b / 2).max(4));
     let best = grid.nodes.len();
-    if best < least || grid.size.iter().any(|n| *n < 2) {
-        return Err(TargetError::None { sought, best, least });
+    if best < min_points || grid.size.iter().any(|n| *n < 2) {
+        return Err(TargetError::None { sought: target_name, best, least: min_points });
     }
     if grid.filled() < 0.9 {
         return Err(TargetError::Gaps { points: best, size: grid.size });

@@ -23,7 +23,7 @@ pub(super) struct Threshold {
 
 impl Threshold {
     /// Thresholds of an image, by blocks of `block` px.
-    pub(super) fn of(image: &Image, block: usize) -> Self {
+    pub(super) fn from_image(image: &Image, block: usize) -> Self {
         let (columns, rows) = (image.width().div_ceil(block), image.height().div_ceil(block));
         let mut ranges = vec![[f32::INFINITY, f32::NEG_INFINITY]; columns * rows];
         for (y, row) in image.samples().chunks_exact(image.width().max(1)).enumerate() {
@@ -86,15 +86,15 @@ fn blend(a: f32, b: f32, t: f32) -> f32 {
 
 /// Pixels `from..to` of a row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct RowRun {
     pub(super) row: usize,
     pub(super) from: usize,
     pub(super) to: usize,
 }
 
 /// Regions, each as its runs, in the order of their first pixel.
-pub(super) fn dark(image: &Image, threshold: &Threshold) -> Vec<Vec<Run>> {
-    let mut runs: Vec<Run> = Vec::new();
+pub(super) fn dark(image: &Image, threshold: &Threshold) -> Vec<Vec<RowRun>> {
+    let mut runs: Vec<RowRun> = Vec::new();
     let mut parents: Vec<usize> = Vec::new();
     let mut above = 0..0;
     for (row, samples) in image.samples().chunks_exact(image.width().max(1)).enumerate() {
@@ -117,19 +117,19 @@ pub(super) fn dark(image: &Image, threshold: &Threshold) -> Vec<Vec<Run>> {
     gathered(&runs, &mut parents)
 }
 
-fn add_runs(runs: &mut Vec<Run>, row: usize, samples: &[f32], thresholds: &[f32]) {
+fn add_runs(runs: &mut Vec<RowRun>, row: usize, samples: &[f32], thresholds: &[f32]) {
     let mut start = None;
     for (x, (value, threshold)) in samples.iter().zip(thresholds).enumerate() {
         match (value < threshold, start) {
             (true, None) => start = Some(x),
             (false, Some(from)) => {
-                runs.push(Run { row, from, to: x });
+                runs.push(RowRun { row, from, to: x });
                 start = None;
             }
             _ => {}
         }
     }
-    runs.extend(start.map(|from| Run { row, from, to: samples.len() }));
+    runs.extend(start.map(|from| RowRun { row, from, to: samples.len() }));
 }
 
 fn root(parents: &mut [usize], mut run: usize) -> usize {
@@ -145,8 +145,8 @@ fn join(parents: &mut [usize], a: usize, b: usize) {
     parents[a.max(b)] = a.min(b);
 }
 
-fn gathered(runs: &[Run], parents: &mut [usize]) -> Vec<Vec<Run>> {
-    let mut regions: Vec<Vec<Run>> = Vec::new();
+fn gathered(runs: &[RowRun], parents: &mut [usize]) -> Vec<Vec<RowRun>> {
+    let mut regions: Vec<Vec<RowRun>> = Vec::new();
     let mut numbers = vec![usize::MAX; runs.len()];
     for (i, run) in runs.iter().enumerate() {
         let root = root(parents, i);
@@ -165,10 +165,10 @@ mod tests {
 
     #[test]
     fn shapes_that_close_below_are_one() {
-        let picture = ["#.#..#", "#.#...", "###.##", "......", ".#.##."];
-        let samples = picture.concat().bytes().map(|b| if b == b'#' { 0.0 } else { 1.0 }).collect();
+        let rows_of_pixels = ["#.#..#", "#.#...", "###.##", "......", ".#.##."];
+        let samples = rows_of_pixels.concat().bytes().map(|b| if b == b'#' { 0.0 } else { 1.0 }).collect();
         let image = Image::from_samples(6, 5, samples).expect("30 pixels");
-        let regions = dark(&image, &Threshold::of(&image, 8));
+        let regions = dark(&image, &Threshold::from_image(&image, 8));
         let areas: Vec<usize> = regions.iter().map(|r| r.iter().map(|run| run.to - run.from).sum()).collect();
         assert_eq!(areas, [7, 1, 2, 1, 2]);
     }

@@ -34,7 +34,7 @@ const BLOCK: usize = 64;
 /// Bands of frequency from 0 to 0.5 cycles per pixel.
 const BANDS: usize = 32;
 /// Overlapping blocks and neighbouring bins under a Hann window are correlated: this fraction is independent.
-const INDEPENDENT: f64 = 0.25;
+const INDEPENDENT_FRACTION: f64 = 0.25;
 
 /// A band of frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,26 +64,26 @@ pub struct TextureResponse {
 /// # Errors
 /// If sizes differ or are too small, or image and reference have nothing in common.
 pub fn measure_texture(
-    picture: &Image,
+    measured_image: &Image,
     reference: &Image,
     noise: Option<&Image>,
     full_scale: Option<f64>,
 ) -> Result<TextureResponse, TextureError> {
     let size = |image: &Image| (image.width(), image.height());
-    if size(picture) != size(reference) || picture.width().min(picture.height()) < BLOCK {
-        return Err(TextureError::Size { least: BLOCK, picture: size(picture), reference: size(reference) });
+    if size(measured_image) != size(reference) || measured_image.width().min(measured_image.height()) < BLOCK {
+        return Err(TextureError::Size { least: BLOCK, picture: size(measured_image), reference: size(reference) });
     }
-    if picture.samples().iter().chain(reference.samples()).any(|s| !s.is_finite()) {
+    if measured_image.samples().iter().chain(reference.samples()).any(|s| !s.is_finite()) {
         return Err(TextureError::NotFinite);
     }
-    if let Some(percent) = saturated_percent([picture], full_scale) {
+    if let Some(percent) = saturated_percent([measured_image], full_scale) {
         return Err(TextureError::Saturated { percent });
     }
     if let Some(small) = noise.filter(|n| n.width().min(n.height()) < BLOCK) {
         return Err(TextureError::Even { least: BLOCK, size: size(small) });
     }
-    let sums = Spectra::of(reference, picture);
-    let floor = noise.map(|n| Spectra::of(n, n));
+    let sums = SpectrumSums::from_images(reference, measured_image);
+    let floor = noise.map(|n| SpectrumSums::from_images(n, n));
     let shift_px = sums.shift_px();
     let points: Vec<TexturePoint> = (1..BANDS).map(|k| sums.point(k, shift_px, floor.as_ref())).collect();
     let first = points[0];
@@ -94,7 +94,7 @@ pub fn measure_texture(
         return Err(TextureError::Shifted { shift_px });
     }
     let scaled = |p: TexturePoint| TexturePoint {
-        response: over(p.response, first.response),
+        response: ratio_over(p.response, first.response),
         direct: p.direct / first.direct,
         ..p
     };
@@ -102,7 +102,7 @@ pub fn measure_texture(
 }
 
 /// A response relative to that of the lowest band, which shares no frequency with it: relative variances add.
-fn over(own: Estimate, first: Estimate) -> Estimate {
+fn ratio_over(own: Estimate, first: Estimate) -> Estimate {
     let value = own.value / first.value;
     Estimate::new(value, hypot(own.standard_uncertainty, value * first.standard_uncertainty) / first.value)
 }
@@ -119,7 +119,7 @@ fn band(i: usize) -> usize {
 }
 
 /// Sums over blocks and bins: of both images by band, of their product by bin.
-struct Spectra {
+struct SpectrumSums {
     xx: Vec<f64>,
     yy: Vec<f64>,
     xy: Vec<Complex>,
@@ -127,8 +127,8 @@ struct Spectra {
     blocks: f64,
 }
 
-impl Spectra {
-    fn of(x: &Image, y: &Image) -> Self {
+impl SpectrumSums {
+    fn from_images(x: &Image, y: &Image) -> Self {
         let none = || vec![0.0; BANDS];
         let xy = vec![[0.0; 2]; BLOCK * BLOCK];
         let mut sums = Self { xx: none(), yy: none(), xy, bins: none(), blocks: 0.0 };
@@ -186,7 +186,7 @@ impl Spectra {
         let value = cross / self.xx[k];
         let coherence = cross * cross / (self.xx[k] * self.yy[k]);
         // Half of the bins are redundant: images are real.
-        let count = 0.5 * INDEPENDENT * self.bins[k];
+        let count = 0.5 * INDEPENDENT_FRACTION * self.bins[k];
         let u = value * ((1.0 - coherence).max(0.0) / (2.0 * coherence * count)).sqrt();
         let noise = floor.map_or(0.0, |f| f.yy[k] / f.blocks * self.blocks);
         TexturePoint {
@@ -219,11 +219,11 @@ mod tests {
     use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 
     fn texture(seed: u64, amplitude: f64) -> Image {
-        let draw = |i: usize| {
+        let sample = |i: usize| {
             let pixel = Pixel { x: (i % 192) as u32, y: (i / 192) as u32 };
             (500.0 + amplitude * (NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read).unit_f64() - 0.5)) as f32
         };
-        Image::from_samples(192, 192, (0..192 * 192).map(draw).collect()).expect("a square")
+        Image::from_samples(192, 192, (0..192 * 192).map(sample).collect()).expect("a square")
     }
 
     /// Blurred by a Gaussian with samples that sum to 1, with noise added.
@@ -253,10 +253,10 @@ mod tests {
         let points = points.expect("a texture").points;
         let truth = |f: f64| exp(-2.0 * PI * PI * sigma * sigma * f * f);
         for point in points.iter().filter(|p| p.frequency <= 0.45) {
-            let want = truth(point.frequency) / truth(points[0].frequency);
+            let expected = truth(point.frequency) / truth(points[0].frequency);
             let tolerance = 4.0 * point.response.standard_uncertainty + 0.02;
-            assert!((point.response.value - want).abs() < tolerance, "{point:?} {want}");
-            assert!((point.direct - want).abs() < 0.08, "{point:?} {want}");
+            assert!((point.response.value - expected).abs() < tolerance, "{point:?} {expected}");
+            assert!((point.direct - expected).abs() < 0.08, "{point:?} {expected}");
         }
         // Noise invents structure: coherence falls with the signal.
         assert!(points[0].coherence > 0.95 && points[28].coherence < 0.8, "{points:?}");
@@ -264,9 +264,9 @@ mod tests {
         // One pixel to the right and one up, on a torus: an integer shift, which affects only the blocks' borders.
         let moved = (0..192 * 192).map(|i| reference.at((i % 192 + 191) % 192, (i / 192 + 1) % 192)).collect();
         let moved = Image::from_samples(192, 192, moved).expect("a square");
-        let found = measure_texture(&moved, &reference, None, None).expect("a texture");
-        assert!(hypot(found.shift_px[0] - 1.0, found.shift_px[1] + 1.0) < 0.05, "{:?}", found.shift_px);
-        for point in &found.points {
+        let response = measure_texture(&moved, &reference, None, None).expect("a texture");
+        assert!(hypot(response.shift_px[0] - 1.0, response.shift_px[1] + 1.0) < 0.05, "{:?}", response.shift_px);
+        for point in &response.points {
             assert!((point.response.value - 1.0).abs() < 0.05 + 4.0 * point.response.standard_uncertainty, "{point:?}");
         }
         let small = measure_texture(&reference, &reference, Some(&noise.part(0, 0, 60, 100)), None);

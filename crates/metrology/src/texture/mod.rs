@@ -130,7 +130,7 @@ pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64,
     }
     // For n pixels, a wave of amplitude A in noise σ has u² = 2 σ²/(n a²) and contains A²/2 of A²/2 + σ².
     let (squared, u) = (outer.value * outer.value, outer.standard_uncertainty);
-    if squared < MIN_HELD * (squared + u * u * TAU * star.outer_px) {
+    if squared < MIN_EXPLAINED * (squared + u * u * TAU * star.outer_px) {
         return Err(TextureError::Star(
             "a wave of that number of cycles around a centre within two pixels of the given one",
         ));
@@ -152,8 +152,8 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
     let (x, y) = star.centre_px;
     let (width, height) = (image.width() as f64, image.height() as f64);
     let room = x.min(y).min(width - x).min(height - y);
-    let whole = star.cycles >= 4 && star.inner_px >= 1.0 && star.outer_px >= star.inner_px + 2.0;
-    if !whole {
+    let is_valid = star.cycles >= 4 && star.inner_px >= 1.0 && star.outer_px >= star.inner_px + 2.0;
+    if !is_valid {
         return Err(TextureError::Star("an inner radius of one pixel or more"));
     }
     // The refined centre may be two pixels off.
@@ -161,15 +161,15 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
         return Err(TextureError::Star("2.5 pixels between its outer circle and the border"));
     }
     let side = (2.0 * star.outer_px).ceil() as usize;
-    let whole = image.part((x - star.outer_px) as usize, (y - star.outer_px) as usize, side, side);
-    match saturated_percent([&whole], star.full_scale) {
+    let region = image.part((x - star.outer_px) as usize, (y - star.outer_px) as usize, side, side);
+    match saturated_percent([&region], star.full_scale) {
         Some(percent) => Err(TextureError::Saturated { percent }),
         None => Ok(()),
     }
 }
 
 /// Minimum fraction of the outer circle's variance in the wave: hard sectors leave 8/π² of it, a wrong centre next to none.
-const MIN_HELD: f64 = 0.5;
+const MIN_EXPLAINED: f64 = 0.5;
 /// Maximum distance of the refined centre from the given one, px.
 const MAX_PX: f64 = 2.0;
 
@@ -209,7 +209,7 @@ fn modulation(image: &Image, star: &Star, radius: f64) -> Option<Estimate> {
 
 /// The centre of maximum modulation on the inner half of the circles, where it is most sensitive: by halving steps.
 fn refined(image: &Image, star: &Star) -> (f64, f64) {
-    let radii = [0.3, 0.4, 0.5, 0.6].map(|share| star.inner_px + share * (star.outer_px - star.inner_px));
+    let radii = [0.3, 0.4, 0.5, 0.6].map(|fraction| star.inner_px + fraction * (star.outer_px - star.inner_px));
     let merit = |centre_px: (f64, f64)| {
         let star = Star { centre_px, ..*star };
         radii.iter().filter_map(|r| modulation(image, &star, *r)).map(|m| m.value).sum::<f64>()
@@ -265,8 +265,8 @@ mod tests {
             black: 100.0,
             full_scale: None,
         };
-        let (points, found) = measure_star(&image, &star).expect("a star");
-        assert!(hypot(found.0 - centre.0, found.1 - centre.1) < 0.05, "{found:?}");
+        let (points, fitted_star) = measure_star(&image, &star).expect("a star");
+        assert!(hypot(fitted_star.0 - centre.0, fitted_star.1 - centre.1) < 0.05, "{fitted_star:?}");
         // The square pixel, averaged over the directions of the tangent.
         let sinc = |x: f64| if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) };
         let aperture = |f: f64| {
@@ -285,13 +285,13 @@ mod tests {
     fn what_is_no_star_is_refused() {
         let star =
             Star { centre_px: (80.0, 80.0), cycles: 48, inner_px: 20.0, outer_px: 75.0, black: 0.0, full_scale: None };
-        let even = Image::filled(160, 160, 7.0);
-        assert!(matches!(measure_star(&even, &star), Err(TextureError::NoStar { .. } | TextureError::Star(_))));
+        let uniform = Image::filled(160, 160, 7.0);
+        assert!(matches!(measure_star(&uniform, &star), Err(TextureError::NoStar { .. } | TextureError::Star(_))));
         let large = Star { outer_px: 79.0, ..star };
-        assert!(matches!(measure_star(&even, &large), Err(TextureError::Star(_))));
+        assert!(matches!(measure_star(&uniform, &large), Err(TextureError::Star(_))));
         let image = star_image(82.9, 79.3, 48.0, 0.5);
-        let beside = measure_star(&image, &Star { outer_px: 70.0, ..star });
-        assert!(matches!(beside, Err(TextureError::NoStar { .. } | TextureError::Star(_))), "{beside:?}");
+        let outside = measure_star(&image, &Star { outer_px: 70.0, ..star });
+        assert!(matches!(outside, Err(TextureError::NoStar { .. } | TextureError::Star(_))), "{outside:?}");
         let clipped = Star { full_scale: Some(1500.0), ..star };
         let bright = star_image(star.centre_px.0, star.centre_px.1, 48.0, 0.5);
         assert!(matches!(measure_star(&bright, &clipped), Err(TextureError::Saturated { .. })));

@@ -63,11 +63,11 @@ impl FastBlend {
 
     /// Reach of the blur, px.
     pub(super) fn reach_px(&self) -> usize {
-        PASSES * (Mean::new(self.parameters.blur_px).radius + 1)
+        PASSES * (RunningMean::new(self.parameters.blur_px).radius + 1)
     }
 
     /// The fraction of the blurred copy at a distance.
-    fn share(&self, distance_m: f64) -> f64 {
+    fn blurred_fraction(&self, distance_m: f64) -> f64 {
         let p = &self.parameters;
         if distance_m < p.sharp_near_m {
             ((p.sharp_near_m - distance_m) / (p.sharp_near_m - p.blurred_near_m)).min(1.0)
@@ -78,19 +78,19 @@ impl FastBlend {
         }
     }
 
-    pub(super) fn picture(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
-        let mean = Mean::new(self.parameters.blur_px);
+    pub(super) fn image(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
+        let mean = RunningMean::new(self.parameters.blur_px);
         let size = [view.width(), view.height()];
-        let seen: Vec<f64> =
+        let visible: Vec<f64> =
             (0..size[0] * size[1]).map(|i| f64::from(u8::from(view.inverse_per_m(i).is_some()))).collect();
-        let coverage = mean.blurred(seen.clone(), size);
-        let mut picture = view.cropped();
-        for (from, to) in view.radiance.planes().iter().zip(picture.planes_mut()) {
-            let light = from.samples().iter().zip(&seen);
+        let coverage = mean.blurred(visible.clone(), size);
+        let mut image = view.cropped();
+        for (from, to) in view.radiance.planes().iter().zip(image.planes_mut()) {
+            let light = from.samples().iter().zip(&visible);
             let light = light.map(|(l, s)| if *s > 0.0 { f64::from(*l) } else { 0.0 }).collect();
             self.blend(view, &mean.blurred(light, size), &coverage, to);
         }
-        picture
+        image
     }
 
     fn blend(&self, view: &PinholeView<'_>, blurred: &[f64], coverage: &[f64], to: &mut Plane<Radiance>) {
@@ -98,9 +98,9 @@ impl FastBlend {
         for (i, light) in to.samples_mut().iter_mut().enumerate() {
             let pixel = (i / width + view.margin_px) * view.width() + i % width + view.margin_px;
             let distance = f64::from(view.distance.samples()[pixel]);
-            let share = if distance > 0.0 { self.share(distance) } else { 0.0 };
-            if share > 0.0 {
-                *light = ((1.0 - share) * f64::from(*light) + share * blurred[pixel] / coverage[pixel]) as f32;
+            let fraction = if distance > 0.0 { self.blurred_fraction(distance) } else { 0.0 };
+            if fraction > 0.0 {
+                *light = ((1.0 - fraction) * f64::from(*light) + fraction * blurred[pixel] / coverage[pixel]) as f32;
             }
         }
     }
@@ -108,14 +108,14 @@ impl FastBlend {
 
 /// A running mean with fractional ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Mean {
+struct RunningMean {
     /// Whole pixels on each side.
     radius: usize,
     /// Weight of the next pixel.
     end: f64,
 }
 
-impl Mean {
+impl RunningMean {
     /// The mean for which three passes have the variance of a disc, a sixteenth of its diameter squared.
     fn new(diameter_px: f64) -> Self {
         let variance = diameter_px * diameter_px / 16.0 / PASSES as f64;
@@ -126,31 +126,31 @@ impl Mean {
     }
 
     /// An image after all passes along rows and columns; zero beyond its edges.
-    fn blurred(&self, mut picture: Vec<f64>, [width, height]: [usize; 2]) -> Vec<f64> {
+    fn blurred(&self, mut image: Vec<f64>, [width, height]: [usize; 2]) -> Vec<f64> {
         let mut line = Vec::new();
         for _ in 0..PASSES {
-            for row in picture.chunks_exact_mut(width) {
+            for row in image.chunks_exact_mut(width) {
                 line.clear();
                 line.extend_from_slice(row);
                 self.line(&line, |x, value| row[x] = value);
             }
             for x in 0..width {
                 line.clear();
-                line.extend((0..height).map(|y| picture[y * width + x]));
-                self.line(&line, |y, value| picture[y * width + x] = value);
+                line.extend((0..height).map(|y| image[y * width + x]));
+                self.line(&line, |y, value| image[y * width + x] = value);
             }
         }
-        picture
+        image
     }
 
     fn line(&self, line: &[f64], mut set: impl FnMut(usize, f64)) {
         let at = |i: i64| usize::try_from(i).ok().and_then(|i| line.get(i)).copied().unwrap_or(0.0);
         let radius = self.radius as i64;
-        let whole = 2.0 * (self.radius as f64 + self.end) + 1.0;
+        let area = 2.0 * (self.radius as f64 + self.end) + 1.0;
         let mut sum: f64 = (0..radius).map(at).sum();
         for i in 0..line.len() as i64 {
             sum += at(i + radius) - at(i - radius - 1);
-            set(i as usize, (sum + self.end * (at(i - radius - 1) + at(i + radius + 1))) / whole);
+            set(i as usize, (sum + self.end * (at(i - radius - 1) + at(i + radius + 1))) / area);
         }
     }
 }
@@ -168,7 +168,7 @@ mod tests {
         for diameter in [0.5, 1.0, 3.7, 8.0, 21.0] {
             let mut line = vec![0.0; 101];
             line[50] = 1.0;
-            let blurred = Mean::new(diameter).blurred(line, [101, 1]);
+            let blurred = RunningMean::new(diameter).blurred(line, [101, 1]);
             // One row high: columns lose light beyond the edges, equally for all.
             let sum: f64 = blurred.iter().sum();
             let variance: f64 =
@@ -180,10 +180,10 @@ mod tests {
     #[test]
     fn the_share_rises_linearly_on_both_sides_of_the_sharp_range() {
         let blend = FastBlend::new(parameters()).expect("legal");
-        let shares = [1.0, 2.0, 3.0, 4.0, 7.0, 10.0, 20.0, 30.0, f64::INFINITY].map(|d| blend.share(d));
-        assert_eq!(shares, [1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0]);
+        let fractions = [1.0, 2.0, 3.0, 4.0, 7.0, 10.0, 20.0, 30.0, f64::INFINITY].map(|d| blend.blurred_fraction(d));
+        assert_eq!(fractions, [1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0]);
         let far = FastParameters { sharp_far_m: f64::INFINITY, ..parameters() };
-        assert_eq!(FastBlend::new(far).expect("legal").share(f64::INFINITY), 0.0);
+        assert_eq!(FastBlend::new(far).expect("legal").blurred_fraction(f64::INFINITY), 0.0);
     }
 
     #[test]

@@ -75,10 +75,10 @@ impl Footprints {
         let tracer = Tracer { view, focus_per_m, other_per_m };
         let node = |i: usize| tracer.outline(DVec2::new((i % NODES) as f64, (i / NODES) as f64) * step_px);
         let nodes = filled(&(0..NODES * NODES).map(node).collect::<Vec<_>>())?;
-        Some(Self::of(nodes, step_px, focus_per_m, inverse_range_per_m))
+        Some(Self::from_nodes(nodes, step_px, focus_per_m, inverse_range_per_m))
     }
 
-    fn of(nodes: Vec<Outline>, step_px: DVec2, focus_per_m: f64, range_per_m: [f64; 2]) -> Self {
+    fn from_nodes(nodes: Vec<Outline>, step_px: DVec2, focus_per_m: f64, range_per_m: [f64; 2]) -> Self {
         let longest = |of: fn(&Outline) -> &Polygon| {
             nodes.iter().flat_map(of).fold(0.0, |longest: f64, v| longest.max(v.length()))
         };
@@ -112,7 +112,7 @@ impl Footprints {
     }
 
     /// The pixel offsets from a scene point seen at `px` to where its light lands.
-    pub(super) fn landing(&self, px: DVec2, inverse_per_m: f64) -> Polygon {
+    pub(super) fn outline_at(&self, px: DVec2, inverse_per_m: f64) -> Polygon {
         let place = (px / self.step_px).clamp(DVec2::ZERO, DVec2::splat((NODES - 1) as f64 - 1e-9));
         let cell = place.floor();
         let t = place - cell;
@@ -173,7 +173,7 @@ impl Tracer<'_> {
         for (k, pupil) in edge.into_iter().enumerate() {
             (anchor[k], slope[k]) = self.line(sensor_mm, pupil)?;
         }
-        Some(Outline { anchor: whole(anchor), slope: whole(slope) })
+        Some(Outline { anchor: unclipped(anchor), slope: unclipped(slope) })
     }
 
     /// The in-focus offset of the ray of a pupil sample, and the change per 1/m. Offsets are linear in 1/d, so a nearer plane serves where the most
@@ -193,16 +193,16 @@ impl Tracer<'_> {
     fn edge(&self, sensor_mm: DVec2) -> Option<[DVec2; VERTICES]> {
         let open = |pupil: DVec2| self.view.lens.ray(sensor_mm, pupil, PRINCIPAL_NM).is_some();
         let cell = |i: usize| (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5) / GRID as f64;
-        let seen: Vec<DVec2> = (0..GRID * GRID).map(cell).filter(|pupil| open(*pupil)).collect();
-        let mean = seen.iter().copied().sum::<DVec2>() / seen.len() as f64;
+        let open_points: Vec<DVec2> = (0..GRID * GRID).map(cell).filter(|pupil| open(*pupil)).collect();
+        let mean = open_points.iter().copied().sum::<DVec2>() / open_points.len() as f64;
         let apart = |p: &DVec2| p.distance_squared(mean);
-        let centre = seen.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        let centre = open_points.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
         let turn = self.turn(sensor_mm);
         Some(core::array::from_fn(|k| {
-            let rim = around((k as f64 / VERTICES as f64 - turn).rem_euclid(1.0));
-            let on_way = |t: f64| centre + (rim - centre) * t;
-            if open(rim) {
-                return rim;
+            let edge_place = around((k as f64 / VERTICES as f64 - turn).rem_euclid(1.0));
+            let on_way = |t: f64| centre + (edge_place - centre) * t;
+            if open(edge_place) {
+                return edge_place;
             }
             let halved = (0..HALVINGS).fold([0.0, 1.0], |[inside, outside], _| {
                 let half = 0.5 * (inside + outside);
@@ -253,7 +253,7 @@ fn around(turn: f64) -> DVec2 {
 }
 
 /// Scales the polygon to the area of the round outline whose points are its vertices.
-fn whole(polygon: Polygon) -> Polygon {
+fn unclipped(polygon: Polygon) -> Polygon {
     let turn = 2.0 * PI / VERTICES as f64;
     let growth = (turn / sin(turn)).sqrt();
     let centre = polygon.iter().copied().sum::<DVec2>() / VERTICES as f64;
@@ -263,7 +263,7 @@ fn whole(polygon: Polygon) -> Polygon {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lens::Prescribed;
+    use crate::lens::PrescriptionLens;
     use crate::prescription::{Focus, Prescription, PrescriptionParameters, published};
     use etendue_core::plane::{Plane, SpectralCube};
     use etendue_core::wavelength::Bands;
@@ -278,7 +278,7 @@ mod tests {
             f_number: Some(8.0),
             ..PrescriptionParameters::new(surfaces, focus)
         });
-        let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), None, radius_mm).expect("lit"));
+        let lens = Lens::prescription(PrescriptionLens::new(lens.expect("a lens"), None, radius_mm).expect("lit"));
         let raster = Raster::centred(72, 48, radius_mm / 43.3).expect("a raster");
         let radiance = SpectralCube::new(72, 48, Bands::covering(500.0, 600.0, 100.0).expect("a band"));
         let distance = Plane::filled(72, 48, distance_m);
@@ -288,20 +288,20 @@ mod tests {
         let step = |i: i32| DVec2::new(36.0, 24.0) + DVec2::new(0.9, 0.7) * f64::from(i);
         let circle_px = lens.circle_of_confusion_mm(f64::from(distance_m)) / raster.pitch_mm().x;
         let disc = 0.25 * PI * circle_px * circle_px;
-        (-10..=10).map(|i| area(&footprints.landing(step(i), inverse)) / disc).collect()
+        (-10..=10).map(|i| area(&footprints.outline_at(step(i), inverse)) / disc).collect()
     }
 
     /// The meridian turns quickly about the axis; the blur does not. Aberrations at f/8 change it by less than a tenth.
     #[test]
     fn the_blur_of_a_prescription_does_not_shrink_beside_the_axis() {
-        let found = areas("double-gauss", 21.6, 0.5);
-        assert!(found.iter().all(|a| (a - 1.0).abs() < 0.1 && (a / found[10] - 1.0).abs() < 0.03), "{found:?}");
+        let actual = areas("double-gauss", 21.6, 0.5);
+        assert!(actual.iter().all(|a| (a - 1.0).abs() < 0.1 && (a / actual[10] - 1.0).abs() < 0.03), "{actual:?}");
     }
 
     /// Rays to a very near object lead beyond the field of the lens; the blur is limited to that.
     #[test]
     fn a_near_thing_does_not_switch_the_blur_off() {
-        let found = areas("telephoto", 6.3, 0.12);
-        assert!(found.iter().all(|a| (a - 1.0).abs() < 0.1), "{found:?}");
+        let actual = areas("telephoto", 6.3, 0.12);
+        assert!(actual.iter().all(|a| (a - 1.0).abs() < 0.1), "{actual:?}");
     }
 }

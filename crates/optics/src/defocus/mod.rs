@@ -52,8 +52,8 @@ impl DepthOfField {
     pub fn apply(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         match self {
             Self::None => view.cropped(),
-            Self::Physical => Physical::new(*view).picture(),
-            Self::Fast(blend) => blend.picture(view),
+            Self::Physical => Physical::new(*view).image(),
+            Self::Fast(blend) => blend.image(view),
         }
     }
 

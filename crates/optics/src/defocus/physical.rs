@@ -18,15 +18,15 @@ use core::ops::Range;
 use etendue_core::{plane::SpectralCube, quantity::Radiance};
 use glam::DVec2;
 
-use super::scan::{Scan, Step, Window};
+use super::scan::{Scan, CoverageStep, Window};
 use super::strip::{Layer, Layers, Strip};
-use super::{PinholeView, footprint::Footprints, hidden::Fill};
+use super::{PinholeView, footprint::Footprints, hidden::HiddenSurface};
 
 /// Rows per strip.
 const ROWS: usize = 32;
 
 /// The steps of a pixel that keeps its light.
-const KEPT: [Step; 2] = [Step { column: 0, share: 1.0 }, Step { column: 1, share: -1.0 }];
+const UNSPREAD_STEPS: [CoverageStep; 2] = [CoverageStep { column: 0, fraction: 1.0 }, CoverageStep { column: 1, fraction: -1.0 }];
 
 /// A view with known footprints and layers: rows of its image can be computed on any number of threads.
 #[derive(Clone, Debug)]
@@ -80,30 +80,30 @@ impl<'a> Physical<'a> {
 
     /// The image, on the caller's thread.
     #[must_use]
-    pub fn picture(&self) -> SpectralCube<Radiance> {
+    pub fn image(&self) -> SpectralCube<Radiance> {
         let strips: Vec<_> = self.strips().map(|rows| self.rows(rows)).collect();
-        self.joined(&strips)
+        self.join(&strips)
     }
 
     /// The image assembled from the cubes of all strips, in their order.
     #[must_use]
-    pub fn joined(&self, strips: &[SpectralCube<Radiance>]) -> SpectralCube<Radiance> {
+    pub fn join(&self, strips: &[SpectralCube<Radiance>]) -> SpectralCube<Radiance> {
         let (width, height) = (self.view.raster.width(), self.view.raster.height());
-        let mut picture = SpectralCube::new(width, height, self.view.radiance.bands());
-        for (band, to) in picture.planes_mut().iter_mut().enumerate() {
+        let mut image = SpectralCube::new(width, height, self.view.radiance.bands());
+        for (band, to) in image.planes_mut().iter_mut().enumerate() {
             let from = strips.iter().flat_map(|strip| strip.planes()[band].samples());
             to.samples_mut().iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         }
-        picture
+        image
     }
 
     fn strip(&self, footprints: &Footprints, layers: &Layers, rows: Range<usize>) -> Strip {
         let mut strip = Strip::new(rows.clone(), self.view.raster.width(), self.view.radiance.bands().count());
-        let mut splat = Splat { view: &self.view, footprints, fills: &layers.fills, scan: Scan::default() };
+        let mut splat = StripSplatter { view: &self.view, footprints, fills: &layers.fills, scan: Scan::default() };
         let mut light = vec![0.0; self.view.radiance.bands().count() + 1];
         for (number, layer) in layers.layers.iter().enumerate() {
             splat.layer(layer, &rows, &mut light, &mut strip);
-            strip.lay(number);
+            strip.composite_layer(number);
         }
         strip
     }
@@ -117,14 +117,14 @@ fn inverse_range_per_m(view: &PinholeView<'_>) -> Option<[f64; 2]> {
 }
 
 /// Spreads sources over strips.
-struct Splat<'a> {
+struct StripSplatter<'a> {
     view: &'a PinholeView<'a>,
     footprints: &'a Footprints,
-    fills: &'a [Fill],
+    fills: &'a [HiddenSurface],
     scan: Scan,
 }
 
-impl Splat<'_> {
+impl StripSplatter<'_> {
     /// Spreads the sources of a layer that reach some rows of the image.
     fn layer(&mut self, layer: &Layer, rows: &Range<usize>, light: &mut [f64], strip: &mut Strip) {
         let (margin, width) = (self.view.margin_px, self.view.width());
@@ -137,11 +137,11 @@ impl Splat<'_> {
             self.light(source.pixel as usize, source.fill, light);
             let inverse = f64::from(source.inverse_per_m);
             if self.footprints.within_pixel(inverse) {
-                strip.add(row, column, &KEPT, light);
+                strip.add(row, column, &UNSPREAD_STEPS, light);
                 continue;
             }
             let px = DVec2::new(place[0] as f64, place[1] as f64) + 0.5;
-            let polygon = self.footprints.landing(px, inverse);
+            let polygon = self.footprints.outline_at(px, inverse);
             let window = Window {
                 columns: -column..self.view.raster.width() as i64 - column,
                 rows: rows.start as i64 - row..rows.end as i64 - row,
@@ -158,9 +158,9 @@ impl Splat<'_> {
             None => planes.for_each(|(plane, to)| *to = f64::from(plane.samples()[pixel])),
             Some(i) => {
                 let taps = self.fills[i as usize].taps;
-                let used = move || taps.into_iter().filter(|(_, share)| *share > 0.0);
+                let used = move || taps.into_iter().filter(|(_, fraction)| *fraction > 0.0);
                 let mean = |samples: &[f32]| {
-                    used().map(|(from, share)| f64::from(samples[from as usize]) * f64::from(share)).sum()
+                    used().map(|(from, fraction)| f64::from(samples[from as usize]) * f64::from(fraction)).sum()
                 };
                 planes.for_each(|(plane, to)| *to = mean(plane.samples()));
             }

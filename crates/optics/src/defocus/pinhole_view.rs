@@ -56,10 +56,10 @@ impl<'a> PinholeView<'a> {
     }
 
     fn check_finite(&self) -> Result<(), OpticsError> {
-        let seen = |pixel: &usize| self.distance.samples()[*pixel] > 0.0;
+        let visible = |pixel: &usize| self.distance.samples()[*pixel] > 0.0;
         for plane in self.radiance.planes() {
             let wrong = |pixel: &usize| !plane.samples()[*pixel].is_finite();
-            if let Some(pixel) = (0..plane.samples().len()).find(|p| wrong(p) && seen(p)) {
+            if let Some(pixel) = (0..plane.samples().len()).find(|p| wrong(p) && visible(p)) {
                 return Err(OpticsError::RadianceNotFinite { x: pixel % self.width(), y: pixel / self.width() });
             }
         }
@@ -68,13 +68,13 @@ impl<'a> PinholeView<'a> {
 
     /// The unblurred image without its margin.
     pub(super) fn cropped(&self) -> SpectralCube<Radiance> {
-        let mut picture = SpectralCube::new(self.raster.width(), self.raster.height(), self.radiance.bands());
-        for (from, to) in self.radiance.planes().iter().zip(picture.planes_mut()) {
+        let mut image = SpectralCube::new(self.raster.width(), self.raster.height(), self.radiance.bands());
+        for (from, to) in self.radiance.planes().iter().zip(image.planes_mut()) {
             for (y, row) in to.samples_mut().chunks_exact_mut(self.raster.width()).enumerate() {
                 let start = (y + self.margin_px) * self.width() + self.margin_px;
                 row.copy_from_slice(&from.samples()[start..start + self.raster.width()]);
             }
         }
-        picture
+        image
     }
 }

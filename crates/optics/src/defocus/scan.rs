@@ -23,10 +23,10 @@ const MIN_PX: f64 = 1e-3;
 
 /// A change of the coverage in a row, as a fraction of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct CoverageStep {
     /// Column relative to the pixel.
     pub(super) column: i64,
-    pub(super) share: f64,
+    pub(super) fraction: f64,
 }
 
 /// The requested pixels, relative to the pixel that spreads its light.
@@ -55,13 +55,13 @@ pub(super) struct Scan {
     lines: Vec<[f64; 2]>,
     /// Differences of one row.
     row: Vec<f64>,
-    steps: Vec<Step>,
+    steps: Vec<CoverageStep>,
 }
 
 impl Scan {
     /// Calls `emit` with each row (relative to the pixel's) of a window and the coverage steps of a pixel spread over `polygon` (px, from the pixel's
     /// centre). Fractions over all rows sum to one.
-    pub(super) fn spread(&mut self, polygon: &Polygon, window: &Window, mut emit: impl FnMut(i64, &[Step])) {
+    pub(super) fn spread(&mut self, polygon: &Polygon, window: &Window, mut emit: impl FnMut(i64, &[CoverageStep])) {
         let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
         if !window.is_reached(low, high) {
@@ -78,8 +78,8 @@ impl Scan {
         let first = ((centre.y + 0.5 - half) * rows).floor() as i64;
         let last = ((centre.y + 0.5 + half) * rows).floor() as i64;
         if last - first < MANY_LINES {
-            let whole = self.cut(&grown, rows, first, last);
-            self.rows(rows as i64, first, whole, window, &mut emit);
+            let full_coverage = self.cut(&grown, rows, first, last);
+            self.rows(rows as i64, first, full_coverage, window, &mut emit);
         } else {
             let first = first.max(window.rows.start);
             self.cut(&grown, 1.0, first, last.min(window.rows.end - 1));
@@ -88,12 +88,12 @@ impl Scan {
     }
 
     /// Emits a pixel's square shifted by less than a footprint.
-    fn shift(&mut self, by: DVec2, mut emit: impl FnMut(i64, &[Step])) {
+    fn shift(&mut self, by: DVec2, mut emit: impl FnMut(i64, &[CoverageStep])) {
         let top = by.y.floor();
-        for (row, share) in [(top, 1.0 - (by.y - top)), (top + 1.0, by.y - top)] {
-            if share > 0.0 {
+        for (row, fraction) in [(top, 1.0 - (by.y - top)), (top + 1.0, by.y - top)] {
+            if fraction > 0.0 {
                 let first = self.clear(by.x, by.x + 1.0);
-                self.add(first, [by.x, by.x + 1.0], share);
+                self.add(first, [by.x, by.x + 1.0], fraction);
                 emit(row as i64, self.stepped(first));
             }
         }
@@ -120,7 +120,7 @@ impl Scan {
     }
 
     /// Emits the rows of a window from the cut lines.
-    fn rows(&mut self, a_row: i64, first: i64, whole: f64, window: &Window, emit: &mut impl FnMut(i64, &[Step])) {
+    fn rows(&mut self, a_row: i64, first: i64, full_coverage: f64, window: &Window, emit: &mut impl FnMut(i64, &[CoverageStep])) {
         let last = first + self.lines.len() as i64 - 1;
         let (top, bottom) = (first.div_euclid(a_row), last.div_euclid(a_row));
         for row in top.max(window.rows.start)..(bottom + 1).min(window.rows.end) {
@@ -134,14 +134,14 @@ impl Scan {
                 continue;
             }
             if a_row == 1 {
-                emit(row, &ends([left, right], 1.0 / whole));
+                emit(row, &ends([left, right], 1.0 / full_coverage));
                 continue;
             }
             let column = self.clear(left, right);
             for j in lines {
                 let line = of(&self.lines, j);
                 if line[0] < line[1] {
-                    self.add(column, line, 1.0 / whole);
+                    self.add(column, line, 1.0 / full_coverage);
                 }
             }
             emit(row, self.stepped(column));
@@ -157,28 +157,28 @@ impl Scan {
     }
 
     /// Adds an interval with `share` per unit of pixel length.
-    fn add(&mut self, first: i64, line: [f64; 2], share: f64) {
-        for step in ends(line, share) {
-            self.row[(step.column - first) as usize] += step.share;
+    fn add(&mut self, first: i64, line: [f64; 2], fraction: f64) {
+        for step in ends(line, fraction) {
+            self.row[(step.column - first) as usize] += step.fraction;
         }
     }
 
     /// The steps of the accumulated row.
-    fn stepped(&mut self, first: i64) -> &[Step] {
-        let steps = self.row.iter().enumerate().filter(|(_, share)| **share != 0.0);
+    fn stepped(&mut self, first: i64) -> &[CoverageStep] {
+        let steps = self.row.iter().enumerate().filter(|(_, fraction)| **fraction != 0.0);
         self.steps.clear();
-        self.steps.extend(steps.map(|(i, share)| Step { column: first + i as i64, share: *share }));
+        self.steps.extend(steps.map(|(i, fraction)| CoverageStep { column: first + i as i64, fraction: *fraction }));
         &self.steps
     }
 }
 
 /// The steps of an interval with `share` per unit of pixel length.
-fn ends(line: [f64; 2], share: f64) -> [Step; 4] {
-    let end = |at: f64, share: f64| {
+fn ends(line: [f64; 2], fraction: f64) -> [CoverageStep; 4] {
+    let end = |at: f64, fraction: f64| {
         let (column, part) = (at.floor() as i64, at - at.floor());
-        [Step { column, share: share * (1.0 - part) }, Step { column: column + 1, share: share * part }]
+        [CoverageStep { column, fraction: fraction * (1.0 - part) }, CoverageStep { column: column + 1, fraction: fraction * part }]
     };
-    let ([a, b], [c, d]) = (end(line[0], share), end(line[1], -share));
+    let ([a, b], [c, d]) = (end(line[0], fraction), end(line[1], -fraction));
     [a, b, c, d]
 }
 
@@ -193,9 +193,9 @@ mod tests {
         let side = 2 * reach + 1;
         let mut steps = vec![0.0; (side * side) as usize];
         let window = Window { columns: -reach..reach + 1, rows: -reach..reach + 1 };
-        Scan::default().spread(polygon, &window, |row, found| {
-            for step in found.iter().filter(|s| s.column <= reach) {
-                steps[((row + reach) * side + step.column.max(-reach) + reach) as usize] += step.share;
+        Scan::default().spread(polygon, &window, |row, row_steps| {
+            for step in row_steps.iter().filter(|s| s.column <= reach) {
+                steps[((row + reach) * side + step.column.max(-reach) + reach) as usize] += step.fraction;
             }
         });
         for row in steps.chunks_exact_mut(side as usize) {
@@ -231,7 +231,7 @@ mod tests {
             assert!((sum - 1.0).abs() < 1e-12, "{sum}");
             // Lines are placed to within a 48th of the height, and pixels count at their centres.
             assert!((mean - DVec2::new(x, y)).length() < 0.05, "{mean}");
-            assert!(c.iter().all(|share| *share > -1e-15));
+            assert!(c.iter().all(|coverage| *coverage > -1e-15));
         }
     }
 
@@ -248,12 +248,12 @@ mod tests {
 
     #[test]
     fn what_is_smaller_than_a_pixel_stays_in_it() {
-        let mut seen = Vec::new();
+        let mut scanned = Vec::new();
         let window = Window { columns: -1..2, rows: -1..2 };
         Scan::default()
-            .spread(&disc(DVec2::ZERO, DVec2::splat(0.49)), &window, |row, steps| seen.push((row, steps.to_vec())));
-        let one = |column, share| Step { column, share };
-        assert_eq!(seen, [(0, vec![one(0, 1.0), one(1, -1.0)])]);
+            .spread(&disc(DVec2::ZERO, DVec2::splat(0.49)), &window, |row, steps| scanned.push((row, steps.to_vec())));
+        let one = |column, fraction| CoverageStep { column, fraction: share: fraction };
+        assert_eq!(scanned, [(0, vec![one(0, 1.0), one(1, -1.0)])]);
     }
 
     /// The centre of a disc of thousands of pixels, cut out of the whole: uniform, by the polygon's own area.
@@ -263,7 +263,7 @@ mod tests {
             let c = coverage(&disc(DVec2::new(0.3, -7.2), DVec2::splat(radius)), 20);
             // 48 vertices leave 0.3 % of the circle's area.
             let even = 1.0 / (PI * radius * radius);
-            assert!(c.iter().all(|share| (share / even - 1.0).abs() < 4e-3), "{radius}: {:?} {even}", &c[..3]);
+            assert!(c.iter().all(|coverage| (coverage / even - 1.0).abs() < 4e-3), "{radius}: {:?} {even}", &c[..3]);
         }
     }
 

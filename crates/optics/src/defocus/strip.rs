@@ -12,13 +12,13 @@
 
 use core::ops::Range;
 
-use super::hidden::{Fill, fills};
-use super::{PinholeView, footprint::Footprints, scan::Step};
+use super::hidden::{HiddenSurface, fills};
+use super::{PinholeView, footprint::Footprints, scan::CoverageStep};
 
 /// Coverage below this is rounding.
-const NOTHING: f64 = 1e-9;
+const MIN_COVERAGE: f64 = 1e-9;
 /// Empty layers that separate two surfaces.
-const GAP: usize = 2;
+const EMPTY_LAYERS: usize = 2;
 
 /// Rows of the image.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub(super) struct Strip {
     /// The layer that last touched the current surface.
     last: Vec<usize>,
     /// Columns of each row touched by the current layer: the first, and one beyond the last.
-    touched: Vec<[usize; 2]>,
+    changed: Vec<[usize; 2]>,
     running: Vec<f64>,
 }
 
@@ -53,14 +53,14 @@ impl Strip {
             front: empty(),
             left: vec![1.0; pixels],
             last: vec![0; pixels],
-            touched: vec![UNTOUCHED; rows.len()],
+            changed: vec![UNTOUCHED; rows.len()],
             running: vec![0.0; depth],
             rows,
         }
     }
 
     /// Adds a source's steps in a row: `light` holds 1 and the radiance of each band, `column` is the source's.
-    pub(super) fn add(&mut self, row: i64, column: i64, steps: &[Step], light: &[f64]) {
+    pub(super) fn add(&mut self, row: i64, column: i64, steps: &[CoverageStep], light: &[f64]) {
         let Some(row) = usize::try_from(row).ok().filter(|row| self.rows.contains(row)) else { return };
         let row = row - self.rows.start;
         for step in steps {
@@ -68,25 +68,25 @@ impl Strip {
             if x < self.width {
                 let at = (row * self.width + x) * self.depth;
                 for (sum, light) in self.layer[at..at + self.depth].iter_mut().zip(light) {
-                    *sum += step.share * light;
+                    *sum += step.fraction * light;
                 }
             }
-            let [first, end] = &mut self.touched[row];
+            let [first, end] = &mut self.changed[row];
             (*first, *end) = ((*first).min(x), (*end).max(x.min(self.width)));
         }
     }
 
     /// Composites the current layer behind the existing ones.
-    pub(super) fn lay(&mut self, number: usize) {
+    pub(super) fn composite_layer(&mut self, number: usize) {
         for row in 0..self.rows.len() {
-            let [first, end] = core::mem::replace(&mut self.touched[row], UNTOUCHED);
+            let [first, end] = core::mem::replace(&mut self.changed[row], UNTOUCHED);
             if first < self.width {
-                self.lay_row(row, first..(end + 1).min(self.width), number);
+                self.composite_row(row, first..(end + 1).min(self.width), number);
             }
         }
     }
 
-    fn lay_row(&mut self, row: usize, columns: Range<usize>, number: usize) {
+    fn composite_row(&mut self, row: usize, columns: Range<usize>, number: usize) {
         self.running.fill(0.0);
         for x in columns {
             let pixel = row * self.width + x;
@@ -94,27 +94,27 @@ impl Strip {
             for (sum, step) in self.running.iter_mut().zip(&mut self.layer[at..at + self.depth]) {
                 *sum += core::mem::take(step);
             }
-            if self.running[0] > NOTHING && self.left[pixel] > NOTHING {
-                self.lay_pixel(pixel, number);
+            if self.running[0] > MIN_COVERAGE && self.left[pixel] > MIN_COVERAGE {
+                self.composite_pixel(pixel, number);
             }
         }
     }
 
-    fn lay_pixel(&mut self, pixel: usize, number: usize) {
-        if number > self.last[pixel] + GAP {
-            self.close(pixel);
+    fn composite_pixel(&mut self, pixel: usize, number: usize) {
+        if number > self.last[pixel] + EMPTY_LAYERS {
+            self.close_surface(pixel);
         }
         self.last[pixel] = number;
         let surface = &mut self.surface[pixel * self.depth..(pixel + 1) * self.depth];
         let room = (1.0 - surface[0]).max(0.0);
-        let share = (room / self.running[0]).min(1.0);
+        let fraction = (room / self.running[0]).min(1.0);
         for (sum, light) in surface.iter_mut().zip(&self.running) {
-            *sum += share * light;
+            *sum += fraction * light;
         }
     }
 
     /// Composites the current surface behind those in front.
-    fn close(&mut self, pixel: usize) {
+    fn close_surface(&mut self, pixel: usize) {
         let range = pixel * self.depth..(pixel + 1) * self.depth;
         let left = self.left[pixel];
         self.left[pixel] = left * (1.0 - self.surface[range.start]).max(0.0);
@@ -126,19 +126,19 @@ impl Strip {
     /// The light of a pixel, a value per band; `None` if it received none.
     pub(super) fn light(&mut self, x: usize, y: usize) -> Option<impl Iterator<Item = f64>> {
         let pixel = (y - self.rows.start) * self.width + x;
-        self.close(pixel);
+        self.close_surface(pixel);
         let sums = &self.front[pixel * self.depth..(pixel + 1) * self.depth];
         let coverage = sums[0];
-        (coverage > NOTHING).then(|| sums[1..].iter().map(move |light| light / coverage))
+        (coverage > MIN_COVERAGE).then(|| sums[1..].iter().map(move |light| light / coverage))
     }
 }
 
 /// Maximum number of layers; layers become thicker where more would be needed.
-const MOST: f64 = 1024.0;
+const MAX_LAYERS: f64 = 1024.0;
 
 /// A source of light in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Source {
+pub(super) struct StripSource {
     /// The pixel of the view in which it is seen.
     pub(super) pixel: u32,
     pub(super) inverse_per_m: f32,
@@ -149,7 +149,7 @@ pub(super) struct Source {
 /// Sources of one layer, by rising pixels.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layer {
-    pub(super) sources: Vec<Source>,
+    pub(super) sources: Vec<StripSource>,
     /// Maximum reach of the layer's light, px.
     pub(super) reach_px: f64,
 }
@@ -159,13 +159,13 @@ pub(super) struct Layer {
 pub(super) struct Layers {
     /// Layers, the nearest first.
     pub(super) layers: Vec<Layer>,
-    pub(super) fills: Vec<Fill>,
+    pub(super) fills: Vec<HiddenSurface>,
 }
 
 impl Layers {
     pub(super) fn new(view: &PinholeView<'_>, footprints: &Footprints, inverse_range_per_m: [f64; 2]) -> Self {
         let [far, near] = inverse_range_per_m;
-        let count = ((near - far) * footprints.spread_px()).floor().min(MOST - 1.0) + 1.0;
+        let count = ((near - far) * footprints.spread_px()).floor().min(MAX_LAYERS - 1.0) + 1.0;
         let per_layer = (near - far) / count;
         let mut layers = vec![Layer::default(); count as usize];
         let place = |inverse: f32| {
@@ -175,15 +175,15 @@ impl Layers {
                 (((near - f64::from(inverse)) / per_layer) as usize).min(count as usize - 1)
             }
         };
-        let seen = (0..view.width() * view.height())
-            .filter_map(|i| Some(Source { pixel: i as u32, inverse_per_m: view.inverse_per_m(i)?, fill: None }));
+        let visible = (0..view.width() * view.height())
+            .filter_map(|i| Some(StripSource { pixel: i as u32, inverse_per_m: view.inverse_per_m(i)?, fill: None }));
         let fills = fills(view, footprints);
-        let hidden = fills.iter().enumerate().map(|(i, fill)| Source {
+        let hidden = fills.iter().enumerate().map(|(i, fill)| StripSource {
             pixel: fill.pixel,
             inverse_per_m: fill.inverse_per_m,
             fill: Some(i as u32),
         });
-        for source in seen.chain(hidden) {
+        for source in visible.chain(hidden) {
             let layer = &mut layers[place(source.inverse_per_m)];
             layer.reach_px = layer.reach_px.max(footprints.reach_px(f64::from(source.inverse_per_m)));
             layer.sources.push(source);
@@ -197,7 +197,7 @@ impl Layers {
 
 impl Layer {
     /// The sources in rows `first` to before `end`, of `width` pixels each.
-    pub(super) fn rows(&self, first: usize, end: usize, width: usize) -> &[Source] {
+    pub(super) fn rows(&self, first: usize, end: usize, width: usize) -> &[StripSource] {
         let before = |row: usize| self.sources.partition_point(|s| (s.pixel as usize) < row * width);
         &self.sources[before(first)..before(end)]
     }

@@ -31,7 +31,7 @@ const SIDE: usize = 2 * (NEAR_PX + 1) * FINE + 1;
 /// Rounds of scaling; each reduces the remaining error by an order of magnitude.
 const ROUNDS: usize = 8;
 /// Negative mass in the sums of rows or columns above which a spread is distributed bilinearly.
-const TOO_NARROW: f64 = 0.1;
+const MAX_NEGATIVE_MASS: f64 = 0.1;
 
 /// Mass on a lattice finer than pixels about the centre, and bilinear taps: of the far mass, and of all.
 #[derive(Debug)]
@@ -53,9 +53,9 @@ impl BandLimited {
             return self.far.deposit(offset_px, mass);
         }
         let place = (offset_px + (NEAR_PX + 1) as f64) * FINE as f64;
-        let (low, share) = (place.floor(), place - place.floor());
+        let (low, fraction) = (place.floor(), place - place.floor());
         let (x, y) = (low.x as usize - 1, low.y as usize - 1);
-        let (wide, tall) = (cubic(share.x), cubic(share.y));
+        let (wide, tall) = (cubic(fraction.x), cubic(fraction.y));
         for (j, tall) in tall.into_iter().enumerate() {
             let row = &mut self.fine[(y + j) * SIDE + x..][..4];
             row.iter_mut().zip(wide).for_each(|(cell, wide)| *cell += mass * tall * wide);
@@ -64,18 +64,18 @@ impl BandLimited {
 
     /// The taps by the sinc: along the rows of the fine lattice, then along its columns.
     fn band(&self) -> Kernel {
-        let shares: Vec<Shares> = (0..SIDE).map(Shares::of).collect();
+        let cell_weights: Vec<CellWeights> = (0..SIDE).map(CellWeights::new).collect();
         let width = 2 * (NEAR_PX + 1 + LOBES) + 1;
         let middle = (NEAR_PX + 1 + LOBES) as isize;
         let mut columns = vec![0.0; SIDE * width];
         for (fine, to) in self.fine.chunks_exact(SIDE).zip(columns.chunks_exact_mut(width)) {
-            for (mass, share) in fine.iter().zip(&shares).filter(|(mass, _)| **mass != 0.0) {
-                share.places().for_each(|(column, weight)| to[(column + middle) as usize] += mass * weight);
+            for (mass, weights) in fine.iter().zip(&cell_weights).filter(|(mass, _)| **mass != 0.0) {
+                weights.places().for_each(|(column, weight)| to[(column + middle) as usize] += mass * weight);
             }
         }
         let mut kernel = self.far.clone();
-        for (row, share) in columns.chunks_exact(width).zip(&shares) {
-            for (y, weight) in share.places() {
+        for (row, weights) in columns.chunks_exact(width).zip(&cell_weights) {
+            for (y, weight) in weights.places() {
                 for (x, mass) in row.iter().enumerate().filter(|(_, mass)| **mass != 0.0) {
                     kernel.add(x as isize - middle, y, weight * mass);
                 }
@@ -105,10 +105,10 @@ impl BandLimited {
         let all = self.fine.iter().sum::<f64>() + self.far.sum();
         let exact: Vec<DVec2> = frequencies.iter().map(|f| exact(*f) / all).collect();
         let kernel = self.kernel();
-        let found = |frequency: DVec2| {
+        let modulation_at = |frequency: DVec2| {
             modulation(kernel.taps().map(|(x, y, tap)| (DVec2::new(x as f64, y as f64), tap)), frequency)
         };
-        frequencies.iter().zip(exact).map(|(f, exact)| (found(*f) - exact).length()).fold(0.0, f64::max)
+        frequencies.iter().zip(exact).map(|(f, exact)| (modulation_at(*f) - exact).length()).fold(0.0, f64::max)
     }
 
     /// The kernel: its sum is one, its centroid that of the mass, and no tap is negative.
@@ -119,11 +119,11 @@ impl BandLimited {
         };
         let (band, bilinear) = (unit(self.band()), unit(self.bilinear));
         let sums = band.sums();
-        if sums.iter().any(|line| negative(line) > TOO_NARROW) {
+        if sums.iter().any(|line| negative(line) > MAX_NEGATIVE_MASS) {
             return bilinear;
         }
         let centroids = bilinear.sums().map(|line| centroid(&line));
-        let [columns, rows] = core::array::from_fn(|axis| wanted(&sums[axis], centroids[axis]));
+        let [columns, rows] = core::array::from_fn(|axis| target_sums(&sums[axis], centroids[axis]));
         unit(fitted(band.positive(), &columns, &rows))
     }
 }
@@ -148,7 +148,7 @@ fn centroid(sums: &[f64]) -> f64 {
 
 /// Line sums of total one without negative values, about a centroid: sums on one side of it are scaled up, on the other down, in proportion to the
 /// distance up to two lines.
-fn wanted(sums: &[f64], centroid: f64) -> Vec<f64> {
+fn target_sums(sums: &[f64], centroid: f64) -> Vec<f64> {
     let positive: Vec<f64> = sums.iter().map(|s| s.max(0.0)).collect();
     let tilt = |i: usize| (i as f64 - centroid).clamp(-2.0, 2.0);
     let moment = |by: &dyn Fn(usize) -> f64| -> f64 {
@@ -162,8 +162,8 @@ fn wanted(sums: &[f64], centroid: f64) -> Vec<f64> {
 
 /// Scales a kernel to other sums of its columns and rows.
 fn fitted(mut kernel: Kernel, columns: &[f64], rows: &[f64]) -> Kernel {
-    let ratios = |wanted: &[f64], found: &[f64]| -> Vec<f64> {
-        wanted.iter().zip(found).map(|(w, f)| if *f > 0.0 { w / f } else { 0.0 }).collect()
+    let ratios = |target: &[f64], actual: &[f64]| -> Vec<f64> {
+        target.iter().zip(actual).map(|(w, f)| if *f > 0.0 { w / f } else { 0.0 }).collect()
     };
     for _ in 0..ROUNDS {
         let by_row = ratios(rows, &kernel.sums()[1]);
@@ -181,21 +181,21 @@ fn cubic(t: f64) -> [f64; 4] {
 }
 
 /// Fractions of a cell's mass per pixel along one axis; they sum to one.
-struct Shares {
+struct CellWeights {
     first: isize,
     weights: [f64; 2 * LOBES],
 }
 
-impl Shares {
-    fn of(cell: usize) -> Self {
+impl CellWeights {
+    fn new(cell: usize) -> Self {
         let low = cell / FINE;
-        let share = (cell % FINE) as f64 / FINE as f64;
+        let fraction = (cell % FINE) as f64 / FINE as f64;
         let first = low as isize - (NEAR_PX + LOBES) as isize;
         let weight = |t: usize| {
-            let distance = t as f64 - (LOBES as f64 - 1.0) - share;
+            let distance = t as f64 - (LOBES as f64 - 1.0) - fraction;
             let sinc = if distance == 0.0 { 1.0 } else { sin_cos(PI * distance).0 / (PI * distance) };
-            let whole = share == 0.0 && distance != 0.0;
-            if whole { 0.0 } else { sinc * 0.5 * (1.0 + sin_cos(PI * distance / LOBES as f64).1) }
+            let on_other_pixel = fraction == 0.0 && distance != 0.0;
+            if on_other_pixel { 0.0 } else { sinc * 0.5 * (1.0 + sin_cos(PI * distance / LOBES as f64).1) }
         };
         let weights: [f64; 2 * LOBES] = core::array::from_fn(weight);
         let sum: f64 = weights.iter().sum();
@@ -237,8 +237,8 @@ mod tests {
             for f in [0.1, 0.2, 0.3, 0.4, 0.5] {
                 let expected = exp(-0.5 * (TAU * sigma_px * f) * (TAU * sigma_px * f));
                 for along in [DVec2::X, DVec2::Y] {
-                    let found = modulation(&kernel, along * f);
-                    assert!((found - expected).abs() < lost, "{sigma_px} at {f}: {found} for {expected}");
+                    let actual = modulation(&kernel, along * f);
+                    assert!((actual - expected).abs() < lost, "{sigma_px} at {f}: {actual} for {expected}");
                 }
                 let diagonal = modulation(&kernel, DVec2::splat(f / 2f64.sqrt()));
                 assert!((-2.0 * lost..0.004).contains(&(diagonal - expected)), "{sigma_px} at {f}: {diagonal}");
@@ -261,8 +261,8 @@ mod tests {
     #[test]
     fn centroids_are_kept() {
         let middle = DVec2::new(0.3, -0.2);
-        let found: DVec2 = gaussian(0.6, middle).taps().map(|(x, y, tap)| DVec2::new(x as f64, y as f64) * tap).sum();
+        let actual: DVec2 = gaussian(0.6, middle).taps().map(|(x, y, tap)| DVec2::new(x as f64, y as f64) * tap).sum();
         // The error of the sinc's window.
-        assert!((found - middle).length() < 2e-3, "{found}");
+        assert!((actual - middle).length() < 2e-3, "{actual}");
     }
 }

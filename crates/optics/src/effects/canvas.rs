@@ -3,7 +3,7 @@
 use etendue_projection::Raster;
 use glam::DVec2;
 
-use super::convolve::{Convolver, Field, Region};
+use super::convolve::{Convolver, NumberField, Region};
 use super::kernel::Kernel;
 
 /// The film and the image in it.
@@ -14,8 +14,8 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    pub(crate) fn new(picture: &Raster, margin_px: [usize; 2]) -> Self {
-        Self { film: picture.widened(margin_px), margin_px }
+    pub(crate) fn new(image: &Raster, margin_px: [usize; 2]) -> Self {
+        Self { film: image.widened(margin_px), margin_px }
     }
 
     /// Columns and rows of the film.
@@ -38,12 +38,12 @@ impl Canvas {
     }
 
     /// The whole film.
-    pub(super) fn whole(&self) -> Region {
+    pub(super) fn film_region(&self) -> Region {
         Region { x: 0..self.film.width(), y: 0..self.film.height() }
     }
 
     /// The image in the film.
-    pub(super) fn picture(&self) -> Region {
+    pub(super) fn image_region(&self) -> Region {
         let [x, y] = self.margin_px;
         Region { x: x..self.film.width() - x, y: y..self.film.height() - y }
     }
@@ -51,18 +51,18 @@ impl Canvas {
 
 /// A kernel for means and, squared, for variances.
 #[derive(Debug)]
-pub(super) struct Spread {
+pub(super) struct KernelPair {
     pub(super) mean: Convolver,
     pub(super) variance: Convolver,
 }
 
-impl Spread {
+impl KernelPair {
     pub(super) fn new(kernel: &Kernel, canvas: &Canvas) -> Self {
-        let of = |kernel: &Kernel| Convolver::new(kernel, canvas.size(), canvas.whole());
+        let of = |kernel: &Kernel| Convolver::new(kernel, canvas.size(), canvas.film_region());
         Self { mean: of(kernel), variance: of(&kernel.squared()) }
     }
 
-    pub(super) fn apply(&self, light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+    pub(super) fn apply(&self, light: &NumberField, variance: Option<&NumberField>) -> (NumberField, Option<NumberField>) {
         (self.mean.apply(light), variance.map(|variance| self.variance.apply(variance)))
     }
 }

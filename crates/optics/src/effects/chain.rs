@@ -4,21 +4,21 @@ use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, EffectStatus, Plane, WavelengthRange};
 use etendue_projection::Raster;
 
-use super::canvas::{Canvas, Spread};
-use super::convolve::{Field, OperationCounts, Region};
-use super::film_part::{FilmPart, SpreadBy, SpreadWidth};
-use super::point_spread::{PointSpread, ReadySpread};
+use super::canvas::{Canvas, KernelPair};
+use super::convolve::{NumberField, OperationCounts, Region};
+use super::film_part::{FilmPart, SpreadMethod, SpreadWidth};
+use super::point_spread::{PointSpread, PreparedSpread};
 use super::{Effect, error::EffectsError, glare::Glare, sample_spread::SampleSpread};
 use crate::ghosts::GhostSettings;
 
 /// The largest default margin, as a fraction of the image's width and height.
-pub const MARGIN_CAP: f64 = 0.25;
+pub const MAX_MARGIN: f64 = 0.25;
 
 /// The effects of a camera.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
     psf: Option<PointSpread>,
-    spread_by: Option<(SpreadBy, SpreadWidth)>,
+    spread_by: Option<(SpreadMethod, SpreadWidth)>,
     glare: Option<Glare>,
     ghosts: Option<GhostSettings>,
     margin_px: [usize; 2],
@@ -30,7 +30,7 @@ pub struct EffectsParameters {
     /// Diffraction and wavefront error, or an image.
     pub psf: Option<PointSpread>,
     /// Method of applying the point-spread function where samples come through the lens; `None`: the one that preserves modulation.
-    pub spread_by: Option<SpreadBy>,
+    pub spread_by: Option<SpreadMethod>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
     /// Light reflected by two surfaces.
@@ -44,27 +44,27 @@ impl Effects {
     ///
     /// # Errors
     /// If the margin is out of range or has no purpose, or sample displacement is requested and the function is wide.
-    pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
-        let EffectsParameters { psf, spread_by: asked, glare, ghosts, margin } = parameters;
+    pub fn new(parameters: EffectsParameters, image: &Raster) -> Result<Self, EffectsError> {
+        let EffectsParameters { psf, spread_by: requested, glare, ghosts, margin } = parameters;
         let mut effects = Self { psf, spread_by: None, glare, ghosts, margin_px: [0, 0] };
         if let Some(psf) = &effects.psf {
-            let width = psf.width(&Canvas::new(picture, [0, 0]));
-            effects.spread_by = Some((SpreadBy::choose(asked, width)?, width));
+            let width = psf.width(&Canvas::new(image, [0, 0]));
+            effects.spread_by = Some((SpreadMethod::choose(requested, width)?, width));
         }
         effects.margin_px = match margin {
             Some(margin) if !(0.0..=1.0).contains(&margin) => return Err(EffectsError::Margin { margin }),
             Some(_) if effects.is_idle() => return Err(EffectsError::IdleMargin),
-            Some(margin) => share(margin, picture),
-            None => effects.reach_px(picture),
+            Some(margin) => margin_of_fraction(margin, image),
+            None => effects.reach_px(image),
         };
         Ok(effects)
     }
 
     /// The reach of the effects, at most a quarter of the image.
-    fn reach_px(&self, picture: &Raster) -> [usize; 2] {
-        let cap = share(MARGIN_CAP, picture);
-        let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
-        let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
+    fn reach_px(&self, image: &Raster) -> [usize; 2] {
+        let cap = margin_of_fraction(MAX_MARGIN, image);
+        let glare = self.needs_glare().map(|glare| glare.reach_px(image.pitch_mm()).unwrap_or(cap));
+        let psf = self.psf.as_ref().map(|psf| psf.reach_px(image.pitch_mm()));
         // Ghosts of sources outside the image fall anywhere in it.
         let ghosts = self.ghosts.map(|_| cap);
         let reach = [psf, glare, ghosts].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
@@ -95,8 +95,8 @@ impl Effects {
 
     /// The pixels of the film: the image's with the margin.
     #[must_use]
-    pub fn film(&self, picture: &Raster) -> Raster {
-        picture.widened(self.margin_px)
+    pub fn film(&self, image: &Raster) -> Raster {
+        image.widened(self.margin_px)
     }
 
     /// The point-spread function, as described.
@@ -107,27 +107,27 @@ impl Effects {
 
     /// The method of applying the point-spread function where samples come through the lens, and the width of the function; `None` if there is none.
     #[must_use]
-    pub fn spread_by(&self) -> Option<(SpreadBy, SpreadWidth)> {
+    pub fn spread_by(&self) -> Option<(SpreadMethod, SpreadWidth)> {
         self.spread_by
     }
 
     /// The sample displacement for rays through the lens to the film of an image; `None` if the film spreads all light.
     #[must_use]
-    pub fn sample_spread(&self, picture: &Raster, range: WavelengthRange) -> Option<SampleSpread> {
-        self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range)
+    pub fn sample_spread(&self, image: &Raster, range: WavelengthRange) -> Option<SampleSpread> {
+        self.displacing()?.sample_spread(&Canvas::new(image, self.margin_px), range)
     }
 
     /// The function that displaces samples through the lens, if any.
     #[must_use]
     pub fn displacing(&self) -> Option<&PointSpread> {
-        self.psf.as_ref().filter(|_| self.spread_by.is_some_and(|(by, _)| by == SpreadBy::Samples))
+        self.psf.as_ref().filter(|_| self.spread_by.is_some_and(|(by, _)| by == SpreadMethod::Samples))
     }
 
     /// The part of the point-spread function left to the film, for samples through the lens or not.
     #[must_use]
     pub fn film_part(&self, through_lens: bool) -> FilmPart {
         match self.spread_by {
-            Some((SpreadBy::Samples, _)) if through_lens => FilmPart::Tails,
+            Some((SpreadMethod::Samples, _)) if through_lens => FilmPart::Tails,
             _ => FilmPart::Whole,
         }
     }
@@ -153,41 +153,41 @@ impl Effects {
     #[must_use]
     pub fn operation_counts(
         &self,
-        picture: &Raster,
+        image: &Raster,
         bands: Bands,
         with_variance: bool,
     ) -> [(Effect, OperationCounts); 2] {
-        let canvas = Canvas::new(picture, self.margin_px);
-        let pictures = if with_variance { 2.0 } else { 1.0 };
-        let psf = self.psf.as_ref().map(|psf| psf.operation_counts(&canvas, bands, pictures));
-        let glare = self.needs_glare().map(|glare| glare.operation_counts(&canvas, pictures * bands.count() as f64));
+        let canvas = Canvas::new(image, self.margin_px);
+        let images = if with_variance { 2.0 } else { 1.0 };
+        let psf = self.psf.as_ref().map(|psf| psf.operation_counts(&canvas, bands, images));
+        let glare = self.needs_glare().map(|glare| glare.operation_counts(&canvas, images * bands.count() as f64));
         [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 
     /// The effects prepared for an image, a range of wavelengths (nm) and this part of the point-spread function: everything that does not depend on
     /// the band.
     #[must_use]
-    pub fn prepared(&self, picture: &Raster, range: WavelengthRange, part: FilmPart) -> Prepared {
-        let canvas = Canvas::new(picture, self.margin_px);
-        let glare = self.needs_glare().map(|glare| Spread::new(&glare.kernel(&canvas), &canvas));
-        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range, part));
-        Prepared { canvas, psf, glare }
+    pub fn prepared(&self, image: &Raster, range: WavelengthRange, part: FilmPart) -> PreparedEffects {
+        let canvas = Canvas::new(image, self.margin_px);
+        let glare = self.needs_glare().map(|glare| KernelPair::new(&glare.kernel(&canvas), &canvas));
+        let psf = self.psf.as_ref().map(|psf| psf.prepare(&canvas, range, part));
+        PreparedEffects { canvas, psf, glare }
     }
 }
 
-pub(super) fn share(margin: f64, picture: &Raster) -> [usize; 2] {
-    [(margin * picture.width() as f64).ceil() as usize, (margin * picture.height() as f64).ceil() as usize]
+pub(super) fn margin_of_fraction(margin: f64, image: &Raster) -> [usize; 2] {
+    [(margin * image.width() as f64).ceil() as usize, (margin * image.height() as f64).ceil() as usize]
 }
 
 /// Prepared effects.
 #[derive(Debug)]
-pub struct Prepared {
+pub struct PreparedEffects {
     canvas: Canvas,
-    psf: Option<ReadySpread>,
-    glare: Option<Spread>,
+    psf: Option<PreparedSpread>,
+    glare: Option<KernelPair>,
 }
 
-impl Prepared {
+impl PreparedEffects {
     /// The image's irradiance in the band from `band.low_nm` to `band.high_nm`, from that of the film, with the variance.
     ///
     /// A non-finite pixel of the film affects others: every pixel with a finite number is free of it.
@@ -205,7 +205,7 @@ impl Prepared {
         (self.cut(&mean), variance)
     }
 
-    fn spread(&self, band: WavelengthRange, mut light: Field, mut variance: Option<Field>) -> (Field, Option<Field>) {
+    fn spread(&self, band: WavelengthRange, mut light: NumberField, mut variance: Option<NumberField>) -> (NumberField, Option<NumberField>) {
         if let Some(psf) = &self.psf {
             (light, variance) = psf.apply(band, &light, variance.as_ref());
         }
@@ -216,8 +216,8 @@ impl Prepared {
     }
 
     /// The image cut from a film. Values below zero are rounding of the transforms and become 0.
-    fn cut<Q: Quantity<Sample = f32>>(&self, film: &Field) -> Plane<Q> {
-        let Region { x, y } = self.canvas.picture();
+    fn cut<Q: Quantity<Sample = f32>>(&self, film: &NumberField) -> Plane<Q> {
+        let Region { x, y } = self.canvas.image_region();
         let (width, height) = (x.len(), y.len());
         let positive = |v: &f64| if *v < 0.0 { 0.0 } else { *v as f32 };
         let samples = y.flat_map(|y| film.row(y)[x.clone()].iter().map(positive)).collect();
@@ -225,11 +225,11 @@ impl Prepared {
     }
 
     fn unknown(&self) -> Plane<Variance> {
-        let Region { x, y } = self.canvas.picture();
+        let Region { x, y } = self.canvas.image_region();
         Plane::filled(x.len(), y.len(), f32::NAN)
     }
 }
 
-fn field<Q: Quantity<Sample = f32>>(plane: &Plane<Q>) -> Field {
-    Field { width: plane.width(), values: plane.samples().iter().map(|v| f64::from(*v)).collect() }
+fn field<Q: Quantity<Sample = f32>>(plane: &Plane<Q>) -> NumberField {
+    NumberField { width: plane.width(), values: plane.samples().iter().map(|v| f64::from(*v)).collect() }
 }

@@ -6,7 +6,7 @@
 use core::iter::Sum;
 use core::ops::{Add, Mul, Range};
 
-use super::fourier::{Grid, Plan, fast_length};
+use super::fourier::{ComplexGrid, TransformPlan, fast_length};
 use super::kernel::Kernel;
 
 /// Maximum number of taps for direct summation.
@@ -16,12 +16,12 @@ const MAX_BLOCKS: usize = 24;
 
 /// Numbers in a rectangle, row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Field {
+pub(crate) struct NumberField {
     pub(crate) width: usize,
     pub(crate) values: Vec<f64>,
 }
 
-impl Field {
+impl NumberField {
     pub(crate) fn zeros(width: usize, height: usize) -> Self {
         Self { width, values: vec![0.0; width * height] }
     }
@@ -56,7 +56,7 @@ pub(crate) struct Convolver {
 #[derive(Clone, Debug)]
 enum Method {
     Direct(Vec<(isize, isize, f64)>),
-    Fourier { plan: Box<Plan>, spectrum: Box<Grid>, blocks: Vec<Block> },
+    Fourier { plan: Box<TransformPlan>, spectrum: Box<ComplexGrid>, blocks: Vec<Block> },
 }
 
 /// A block of the result, and the part of the image that it needs.
@@ -75,17 +75,17 @@ impl Convolver {
     }
 
     /// The convolved region of the image.
-    pub(crate) fn apply(&self, picture: &Field) -> Field {
-        let mut result = Field::zeros(self.region.x.len(), self.region.y.len());
+    pub(crate) fn apply(&self, image: &NumberField) -> NumberField {
+        let mut result = NumberField::zeros(self.region.x.len(), self.region.y.len());
         match &self.method {
             Method::Direct(taps) => {
                 for (dx, dy, tap) in taps {
-                    self.add_tap(picture, *dx, *dy, *tap, &mut result);
+                    self.add_tap(image, *dx, *dy, *tap, &mut result);
                 }
             }
             Method::Fourier { plan, spectrum, blocks } => {
                 for pair in blocks.chunks(2) {
-                    let grid = through(plan, spectrum, pair, picture);
+                    let grid = through(plan, spectrum, pair, image);
                     pair.iter().enumerate().for_each(|(part, block)| self.take(&grid, block, part, &mut result));
                 }
             }
@@ -93,21 +93,21 @@ impl Convolver {
         result
     }
 
-    fn add_tap(&self, picture: &Field, dx: isize, dy: isize, tap: f64, result: &mut Field) {
-        let (height, width) = (picture.height(), picture.width);
+    fn add_tap(&self, image: &NumberField, dx: isize, dy: isize, tap: f64, result: &mut NumberField) {
+        let (height, width) = (image.height(), image.width);
         for y in self.region.y.clone() {
             let Some(from) = y.checked_add_signed(-dy).filter(|from| *from < height) else { continue };
             let to = result.row_mut(y - self.region.y.start);
             for x in self.region.x.clone() {
                 if let Some(from_x) = x.checked_add_signed(-dx).filter(|from| *from < width) {
-                    to[x - self.region.x.start] += tap * picture.row(from)[from_x];
+                    to[x - self.region.x.start] += tap * image.row(from)[from_x];
                 }
             }
         }
     }
 
     /// Copies a block out of the real or the imaginary part.
-    fn take(&self, grid: &Grid, block: &Block, part: usize, result: &mut Field) {
+    fn take(&self, grid: &ComplexGrid, block: &Block, part: usize, result: &mut NumberField) {
         let shift = block.out.x.start - block.from.x.start;
         for y in block.out.y.clone() {
             let row = y - block.from.y.start;
@@ -120,13 +120,13 @@ impl Convolver {
 }
 
 /// Transforms a pair of blocks, multiplies and transforms back.
-fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Grid {
-    let mut grid = Grid::zeros(plan.width(), plan.height());
+fn through(plan: &TransformPlan, spectrum: &ComplexGrid, pair: &[Block], image: &NumberField) -> ComplexGrid {
+    let mut grid = ComplexGrid::zeros(plan.width(), plan.height());
     let rows = |of: fn(&Block) -> Range<usize>| pair.iter().map(|b| of(b).end).max().unwrap_or(0);
     for (part, Block { from, .. }) in pair.iter().enumerate() {
         for (row, y) in from.y.clone().enumerate() {
             let to = if part == 0 { grid.re_mut(row) } else { grid.im_mut(row) };
-            to[..from.x.len()].copy_from_slice(&picture.row(y)[from.x.clone()]);
+            to[..from.x.len()].copy_from_slice(&image.row(y)[from.x.clone()]);
         }
     }
     plan.forward(&mut grid, 0..rows(|b| 0..b.from.y.len()));
@@ -136,7 +136,7 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
 }
 
 /// Operation counts of a kernel without zero taps on images of `size`, of which `region` of the result is needed.
-pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> OperationCounts {
+pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: UsageCounts) -> OperationCounts {
     let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
     if taps <= DIRECT_TAPS {
         return OperationCounts {
@@ -144,7 +144,7 @@ pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Reg
             ..OperationCounts::default()
         };
     }
-    let Cut { blocks, sides } = Cut::best(reach, size, region);
+    let BlockLayout { blocks, sides } = BlockLayout::best(reach, size, region);
     let pairs = (blocks[0] * blocks[1]).div_ceil(2) as f64;
     // One forward and one inverse transform per pair of blocks.
     let transforms = uses.ready + 2.0 * pairs * uses.applied;
@@ -152,16 +152,16 @@ pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Reg
 }
 
 /// Blocks across and down, and the sides of their transform.
-struct Cut {
+struct BlockLayout {
     blocks: [usize; 2],
     sides: [usize; 2],
 }
 
-impl Cut {
+impl BlockLayout {
     /// The cheapest division into blocks.
     fn best(reach: [usize; 2], size: [usize; 2], region: &Region) -> Self {
-        let lengths = |wanted: &Range<usize>, axis: usize| -> Vec<usize> {
-            (1..=MAX_BLOCKS).map(|count| length(&spans(wanted, count, reach[axis], size[axis]))).collect()
+        let lengths = |range: &Range<usize>, axis: usize| -> Vec<usize> {
+            (1..=MAX_BLOCKS).map(|count| length(&spans(range, count, reach[axis], size[axis]))).collect()
         };
         let (widths, heights) = (lengths(&region.x, 0), lengths(&region.y, 1));
         let (mut best, mut cost) = (Self { blocks: [1, 1], sides: [widths[0], heights[0]] }, f64::INFINITY);
@@ -180,11 +180,11 @@ impl Cut {
 
 fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
     let [rx, ry] = kernel.reach();
-    let Cut { blocks, sides } = Cut::best([rx, ry], size, region);
+    let BlockLayout { blocks, sides } = BlockLayout::best([rx, ry], size, region);
     let (across, down) = (spans(&region.x, blocks[0], rx, size[0]), spans(&region.y, blocks[1], ry, size[1]));
-    let plan = Box::new(Plan::new(sides[0], sides[1]));
+    let plan = Box::new(TransformPlan::new(sides[0], sides[1]));
     let pairs = down.iter().flat_map(|y| across.iter().map(move |x| (x, y)));
-    let block = |(x, y): (&Span, &Span)| Block {
+    let block = |(x, y): (&BlockSpan, &BlockSpan)| Block {
         out: Region { x: x.out.clone(), y: y.out.clone() },
         from: Region { x: x.from.clone(), y: y.from.clone() },
     };
@@ -199,25 +199,25 @@ fn effort([width, height]: [usize; 2]) -> f64 {
 }
 
 /// A block along one axis.
-struct Span {
+struct BlockSpan {
     out: Range<usize>,
     from: Range<usize>,
     reach: usize,
 }
 
 /// Divides `wanted` into `count` parts of nearly equal length, each with the input it needs of an image of length `size`.
-fn spans(wanted: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<Span> {
-    let end = |i: usize| wanted.start + wanted.len() * i / count;
+fn spans(range: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<BlockSpan> {
+    let end = |i: usize| range.start + range.len() * i / count;
     let span = |i: usize| {
         let out = end(i)..end(i + 1);
-        Span { from: out.start.saturating_sub(reach)..(out.end + reach).min(size), out, reach }
+        BlockSpan { from: out.start.saturating_sub(reach)..(out.end + reach).min(size), out, reach }
     };
     (0..count).map(span).filter(|span| !span.out.is_empty()).collect()
 }
 
 /// The transform length at which no block overlaps its own periodic copies.
-fn length(spans: &[Span]) -> usize {
-    let need = |Span { out, from, reach }: &Span| {
+fn length(spans: &[BlockSpan]) -> usize {
+    let need = |BlockSpan { out, from, reach }: &BlockSpan| {
         let furthest = (from.end - out.start).max(out.end - from.start);
         furthest + (*reach).min(furthest)
     };
@@ -225,8 +225,8 @@ fn length(spans: &[Span]) -> usize {
 }
 
 /// The transform of the kernel, divided by the number of points.
-fn spectrum(kernel: &Kernel, plan: &Plan) -> Grid {
-    let mut grid = Grid::zeros(plan.width(), plan.height());
+fn spectrum(kernel: &Kernel, plan: &TransformPlan) -> ComplexGrid {
+    let mut grid = ComplexGrid::zeros(plan.width(), plan.height());
     let scale = 1.0 / (plan.width() * plan.height()) as f64;
     for (x, y, tap) in kernel.taps() {
         // Taps farther apart than any two pixels of a block fall outside and are left out.
@@ -286,7 +286,7 @@ impl Sum for OperationCounts {
 
 /// Number of times a kernel is prepared, and number of images it is applied to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Uses {
+pub(super) struct UsageCounts {
     pub(super) ready: f64,
     pub(super) applied: f64,
 }
@@ -295,9 +295,9 @@ pub(super) struct Uses {
 mod tests {
     use super::*;
 
-    fn picture(width: usize, height: usize) -> Field {
+    fn test_image(width: usize, height: usize) -> NumberField {
         let value = |i: usize| ((i * 7919 + 104_729) % 1013) as f64 / 1013.0;
-        Field { width, values: (0..width * height).map(value).collect() }
+        NumberField { width, values: (0..width * height).map(value).collect() }
     }
 
     fn kernel(reach: [usize; 2]) -> Kernel {
@@ -311,13 +311,13 @@ mod tests {
     }
 
     /// The sum that defines a convolution.
-    fn summed(kernel: &Kernel, picture: &Field, region: &Region) -> Field {
-        let mut result = Field::zeros(region.x.len(), region.y.len());
+    fn summed(kernel: &Kernel, image: &NumberField, region: &Region) -> NumberField {
+        let mut result = NumberField::zeros(region.x.len(), region.y.len());
         for (j, y) in region.y.clone().enumerate() {
             for (i, x) in region.x.clone().enumerate() {
-                let from = (0..picture.values.len()).map(|k| {
-                    let (u, v) = (k % picture.width, k / picture.width);
-                    picture.values[k] * kernel.at(x as isize - u as isize, y as isize - v as isize)
+                let from = (0..image.values.len()).map(|k| {
+                    let (u, v) = (k % image.width, k / image.width);
+                    image.values[k] * kernel.at(x as isize - u as isize, y as isize - v as isize)
                 });
                 result.row_mut(j)[i] = from.sum();
             }
@@ -326,17 +326,17 @@ mod tests {
     }
 
     #[test]
-    fn blocks_are_the_sum_for_kernels_small_and_wider_than_the_picture() {
+    fn blocks_are_the_sum_for_kernels_small_and_wider_than_the_image() {
         let (width, height) = (61, 37);
-        let picture = picture(width, height);
-        let whole = Region { x: 0..width, y: 0..height };
+        let image = test_image(width, height);
+        let everything = Region { x: 0..width, y: 0..height };
         let inner = Region { x: 9..50, y: 4..36 };
         for reach in [[1, 1], [3, 3], [5, 9], [30, 20], [60, 36], [100, 50]] {
             let kernel = kernel(reach);
-            for region in [&whole, &inner] {
-                let found = Convolver::new(&kernel, [width, height], region.clone()).apply(&picture);
-                let wanted = summed(&kernel, &picture, region);
-                let error = found.values.iter().zip(&wanted.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            for region in [&everything, &inner] {
+                let actual = Convolver::new(&kernel, [width, height], region.clone()).apply(&image);
+                let expected = summed(&kernel, &image, region);
+                let error = actual.values.iter().zip(&expected.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 // Sums of 2257 terms below 1: rounding of the transform.
                 assert!(error < 1e-11, "{reach:?} {region:?}: {error}");
             }
@@ -344,18 +344,18 @@ mod tests {
     }
 
     #[test]
-    fn large_pictures_go_by_blocks() {
+    fn large_images_go_by_blocks() {
         let (width, height) = (400, 300);
-        let picture = picture(width, height);
+        let image = test_image(width, height);
         let kernel = kernel([6, 5]);
         let region = Region { x: 0..width, y: 0..height };
         let convolver = Convolver::new(&kernel, [width, height], region);
         assert!(matches!(&convolver.method, Method::Fourier { blocks, .. } if blocks.len() > 4));
-        let found = convolver.apply(&picture);
+        let actual = convolver.apply(&image);
         for (x, y) in [(0, 0), (399, 299), (133, 77), (200, 150)] {
             let region = Region { x: x..x + 1, y: y..y + 1 };
-            let wanted = summed(&kernel, &picture, &region).values[0];
-            assert!((found.row(y)[x] - wanted).abs() < 1e-11);
+            let expected = summed(&kernel, &image, &region).values[0];
+            assert!((actual.row(y)[x] - expected).abs() < 1e-11);
         }
     }
 
@@ -363,8 +363,8 @@ mod tests {
     fn a_kernel_of_one_tap_is_the_identity_to_the_bit() {
         let mut kernel = Kernel::zeros([2, 2]);
         kernel.add(0, 0, 1.0);
-        let picture = picture(20, 10);
+        let image = test_image(20, 10);
         let region = Region { x: 0..20, y: 0..10 };
-        assert_eq!(Convolver::new(&kernel, [20, 10], region).apply(&picture), picture);
+        assert_eq!(Convolver::new(&kernel, [20, 10], region).apply(&image), image);
     }
 }

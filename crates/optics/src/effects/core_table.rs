@@ -57,12 +57,12 @@ impl CoreBuilder {
             return;
         }
         let place = (offset + CORE_PX) * CELLS_PER_PX + 0.5;
-        let (low, share) = (place.floor(), place - place.floor());
+        let (low, fraction) = (place.floor(), place - place.floor());
         let (x, y) = (low.x as usize, low.y as usize);
         let mass = mass * core_share(offset);
-        for (row, tall) in [(y, 1.0 - share.y), (y + 1, share.y)] {
-            self.cells[row * SIDE + x] += mass * tall * (1.0 - share.x);
-            self.cells[row * SIDE + x + 1] += mass * tall * share.x;
+        for (row, tall) in [(y, 1.0 - fraction.y), (y + 1, fraction.y)] {
+            self.cells[row * SIDE + x] += mass * tall * (1.0 - fraction.x);
+            self.cells[row * SIDE + x + 1] += mass * tall * fraction.x;
         }
     }
 
@@ -95,7 +95,7 @@ impl CoreTable {
     }
 
     /// Samples an offset, px, with two numbers in [0, 1).
-    pub(super) fn draw(&self, u: DVec2) -> DVec2 {
+    pub(super) fn sample_offset(&self, u: DVec2) -> DVec2 {
         let (y, in_y) = invert(&self.rows, u.y);
         let (x, in_x) = invert(&self.in_row[y * SIDE..(y + 1) * SIDE], u.x);
         (DVec2::new(x as f64 + in_x, y as f64 + in_y) - 1.0) / CELLS_PER_PX - CORE_PX
@@ -112,9 +112,9 @@ impl CoreTable {
 /// The cell of a running sum in which a fraction `u` of the total ends, and the position within the cell, 0 to 1.
 fn invert(running: &[f32], u: f64) -> (usize, f64) {
     let all = f64::from(running[running.len() - 1]);
-    let wanted = u * all;
-    let cell = running.partition_point(|sum| f64::from(*sum) <= wanted).min(running.len() - 1);
+    let target = u * all;
+    let cell = running.partition_point(|sum| f64::from(*sum) <= target).min(running.len() - 1);
     let before = if cell == 0 { 0.0 } else { f64::from(running[cell - 1]) };
     let mass = f64::from(running[cell]) - before;
-    (cell, if mass > 0.0 { ((wanted - before) / mass).clamp(0.0, 1.0) } else { 0.5 })
+    (cell, if mass > 0.0 { ((target - before) / mass).clamp(0.0, 1.0) } else { 0.5 })
 }

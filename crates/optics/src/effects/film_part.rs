@@ -98,21 +98,21 @@ const MAX_FILM_ERROR_OF_BANDS: f64 = 0.065;
 
 /// Method of spreading light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpreadBy {
+pub enum SpreadMethod {
     /// Pixels of the film: no noise, but contrast is lost if the function is about as narrow as a pixel or narrower.
     Film,
     /// Displaced samples, with the film for the tails: exact for any width, with some more noise.
     Samples,
 }
 
-impl SpreadBy {
+impl SpreadMethod {
     /// The requested method. By default, samples if the function is narrow and the film's error would exceed 0.01, or 0.065 where samples add noise.
-    pub(super) fn choose(asked: Option<Self>, width: SpreadWidth) -> Result<Self, EffectsError> {
+    pub(super) fn choose(requested: Option<Self>, width: SpreadWidth) -> Result<Self, EffectsError> {
         let is_narrow = width.core >= MIN_CORE;
         let limit = if width.scales { MAX_FILM_ERROR_OF_BANDS } else { MAX_FILM_ERROR };
-        match asked {
+        match requested {
             Some(Self::Samples) if !is_narrow => Err(EffectsError::WideCore { core: width.core, least: MIN_CORE }),
-            Some(asked) => Ok(asked),
+            Some(requested) => Ok(requested),
             None if is_narrow && width.film_error > limit => Ok(Self::Samples),
             None => Ok(Self::Film),
         }

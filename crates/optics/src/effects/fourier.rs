@@ -12,30 +12,30 @@ use etendue_core::maths::f64::sin_cos;
 const LANES: usize = 16;
 
 /// The smallest length, at least `least`, that is a product of 2, 3 and 5.
-pub(crate) fn fast_length(least: usize) -> usize {
-    (least.max(1)..).find(|n| factors(*n).is_some()).expect("powers of two have no end")
+pub(crate) fn fast_length(minimum: usize) -> usize {
+    (minimum.max(1)..).find(|n| factors(*n).is_some()).expect("powers of two have no end")
 }
 
 /// The radices of a length, or `None` if another prime divides it.
 fn factors(mut n: usize) -> Option<Vec<usize>> {
-    let mut found = Vec::new();
+    let mut prime_factors = Vec::new();
     for radix in [4, 2, 3, 5] {
         while n.is_multiple_of(radix) {
-            found.push(radix);
+            prime_factors.push(radix);
             n /= radix;
         }
     }
-    (n == 1).then_some(found)
+    (n == 1).then_some(prime_factors)
 }
 
 /// Complex numbers as two lists.
 #[derive(Clone, Debug, Default)]
-struct Line {
+struct ComplexLine {
     re: Vec<f64>,
     im: Vec<f64>,
 }
 
-impl Line {
+impl ComplexLine {
     fn zeros(len: usize) -> Self {
         Self { re: vec![0.0; len], im: vec![0.0; len] }
     }
@@ -47,7 +47,7 @@ struct Transform {
     n: usize,
     radices: Vec<usize>,
     /// exp(−2πi k/n).
-    roots: Line,
+    roots: ComplexLine,
 }
 
 impl Transform {
@@ -55,11 +55,11 @@ impl Transform {
     fn new(n: usize) -> Self {
         let radices = factors(n).expect("a fast length");
         let (im, re) = (0..n).map(|k| sin_cos(-2.0 * PI * k as f64 / n as f64)).unzip();
-        Self { n, radices, roots: Line { re, im } }
+        Self { n, radices, roots: ComplexLine { re, im } }
     }
 
     /// Transforms `lanes` interleaved lines; `spare` has the same size.
-    fn run(&self, data: &mut Line, spare: &mut Line, lanes: usize) {
+    fn run(&self, data: &mut ComplexLine, spare: &mut ComplexLine, lanes: usize) {
         let (mut length, mut stride) = (self.n, lanes);
         for radix in &self.radices {
             let step = self.n / length;
@@ -114,8 +114,8 @@ fn scaled(a: Complex, s: f64) -> Complex {
 
 /// One pass of the algorithm: inputs `gap` apart, outputs `stride` apart.
 struct Pass<'a> {
-    from: &'a Line,
-    to: &'a mut Line,
+    from: &'a ComplexLine,
+    to: &'a mut ComplexLine,
     stride: usize,
     gap: usize,
 }
@@ -195,22 +195,22 @@ impl Pass<'_> {
 
 /// Transforms of rectangles of one size; the sides are fast lengths.
 #[derive(Clone, Debug)]
-pub(crate) struct Plan {
+pub(crate) struct TransformPlan {
     rows: Transform,
     columns: Transform,
 }
 
 /// A rectangle of complex numbers, row by row.
 #[derive(Clone, Debug)]
-pub(crate) struct Grid {
+pub(crate) struct ComplexGrid {
     width: usize,
-    data: Line,
+    data: ComplexLine,
 }
 
-impl Grid {
+impl ComplexGrid {
     /// Zeros.
     pub(crate) fn zeros(width: usize, height: usize) -> Self {
-        Self { width, data: Line::zeros(width * height) }
+        Self { width, data: ComplexLine::zeros(width * height) }
     }
 
     /// The real parts of a row.
@@ -235,7 +235,7 @@ impl Grid {
 
     /// Multiplies by another grid of the same size.
     pub(crate) fn multiply(&mut self, by: &Self) {
-        let Line { re, im } = &mut self.data;
+        let ComplexLine { re, im } = &mut self.data;
         let factors = by.data.re.iter().zip(&by.data.im);
         for ((re, im), (a, b)) in re.iter_mut().zip(im).zip(factors) {
             (*re, *im) = times((*re, *im), (*a, *b));
@@ -243,7 +243,7 @@ impl Grid {
     }
 }
 
-impl Plan {
+impl TransformPlan {
     /// Transforms of `width` × `height` numbers.
     pub(crate) fn new(width: usize, height: usize) -> Self {
         Self { rows: Transform::new(width), columns: Transform::new(height) }
@@ -260,23 +260,23 @@ impl Plan {
     }
 
     /// Σ a exp(−2πi (xu/w + yv/h)), where only the rows `used` are not zero.
-    pub(crate) fn forward(&self, grid: &mut Grid, used: Range<usize>) {
+    pub(crate) fn forward(&self, grid: &mut ComplexGrid, used: Range<usize>) {
         self.along_rows(grid, used);
         self.along_columns(grid);
     }
 
     /// Σ a exp(+2πi (xu/w + yv/h)), not divided by the number of points, in the rows `wanted`; the other rows are undefined.
-    pub(crate) fn inverse(&self, grid: &mut Grid, wanted: Range<usize>) {
+    pub(crate) fn inverse(&self, grid: &mut ComplexGrid, rows: Range<usize>) {
         // The conjugate of the transform of the conjugate; exchanging the parts does the same.
         core::mem::swap(&mut grid.data.re, &mut grid.data.im);
         self.along_columns(grid);
-        self.along_rows(grid, wanted);
+        self.along_rows(grid, rows);
         core::mem::swap(&mut grid.data.re, &mut grid.data.im);
     }
 
-    fn along_rows(&self, grid: &mut Grid, rows: Range<usize>) {
+    fn along_rows(&self, grid: &mut ComplexGrid, rows: Range<usize>) {
         let n = self.rows.n;
-        let (mut strip, mut spare) = (Line::zeros(n * LANES), Line::zeros(n * LANES));
+        let (mut strip, mut spare) = (ComplexLine::zeros(n * LANES), ComplexLine::zeros(n * LANES));
         for first in rows.clone().step_by(LANES) {
             let lanes = LANES.min(rows.end - first);
             resize(&mut strip, &mut spare, n * lanes);
@@ -297,9 +297,9 @@ impl Plan {
         }
     }
 
-    fn along_columns(&self, grid: &mut Grid) {
+    fn along_columns(&self, grid: &mut ComplexGrid) {
         let (n, width) = (self.columns.n, grid.width);
-        let (mut strip, mut spare) = (Line::zeros(n * LANES), Line::zeros(n * LANES));
+        let (mut strip, mut spare) = (ComplexLine::zeros(n * LANES), ComplexLine::zeros(n * LANES));
         for first in (0..width).step_by(LANES) {
             let lanes = LANES.min(width - first);
             resize(&mut strip, &mut spare, n * lanes);
@@ -318,7 +318,7 @@ impl Plan {
     }
 }
 
-fn resize(strip: &mut Line, spare: &mut Line, len: usize) {
+fn resize(strip: &mut ComplexLine, spare: &mut ComplexLine, len: usize) {
     for list in [&mut strip.re, &mut strip.im, &mut spare.re, &mut spare.im] {
         list.resize(len, 0.0);
     }
@@ -334,8 +334,8 @@ mod tests {
         (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     }
 
-    fn filled(width: usize, height: usize) -> Grid {
-        let mut grid = Grid::zeros(width, height);
+    fn filled(width: usize, height: usize) -> ComplexGrid {
+        let mut grid = ComplexGrid::zeros(width, height);
         for y in 0..height {
             grid.re_mut(y).iter_mut().enumerate().for_each(|(x, v)| *v = noise(y * width + x));
             grid.im_mut(y).iter_mut().enumerate().for_each(|(x, v)| *v = noise(7919 + y * width + x));
@@ -349,7 +349,7 @@ mod tests {
         let (width, height) = (20, 18);
         let before = filled(width, height);
         let mut after = before.clone();
-        Plan::new(width, height).forward(&mut after, 0..height);
+        TransformPlan::new(width, height).forward(&mut after, 0..height);
         for (u, v) in [(0, 0), (1, 0), (0, 1), (7, 11), (19, 17)] {
             let mut sum = (0.0, 0.0);
             for y in 0..height {
@@ -369,7 +369,7 @@ mod tests {
     fn there_and_back_is_the_same() {
         for (width, height) in [(1, 1), (2, 3), (64, 5), (45, 16), (30, 40)] {
             let before = filled(width, height);
-            let plan = Plan::new(width, height);
+            let plan = TransformPlan::new(width, height);
             let mut after = before.clone();
             plan.forward(&mut after, 0..height);
             plan.inverse(&mut after, 0..height);
@@ -383,7 +383,7 @@ mod tests {
 
     #[test]
     fn fast_lengths_have_small_factors() {
-        let found: Vec<_> = [1, 7, 11, 101, 1025].into_iter().map(fast_length).collect();
-        assert_eq!(found, [1, 8, 12, 108, 1080]);
+        let lengths: Vec<_> = [1, 7, 11, 101, 1025].into_iter().map(fast_length).collect();
+        assert_eq!(lengths, [1, 8, 12, 108, 1080]);
     }
 }

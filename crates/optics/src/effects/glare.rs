@@ -16,7 +16,7 @@ use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{atan2, exp_m1, ln_1p, pow, sin_cos};
 use glam::DVec2;
 
-use super::convolve::{self, OperationCounts, Uses};
+use super::convolve::{self, OperationCounts, UsageCounts};
 use super::error::{EffectsError, positive};
 use super::{Canvas, kernel::Kernel};
 
@@ -79,9 +79,9 @@ impl Glare {
 
     /// Fraction of the scattered light within `radius_mm`.
     #[must_use]
-    pub fn within(&self, radius_mm: f64) -> f64 {
+    pub fn light_within(&self, radius_mm: f64) -> f64 {
         match self.parameters.reach_mm {
-            Some(reach) => self.gathered(radius_mm.min(reach)) / self.gathered(reach),
+            Some(reach) => self.integrated_to(radius_mm.min(reach)) / self.integrated_to(reach),
             None => -exp_m1((1.0 - self.half()) * ln_1p(self.relative(radius_mm))),
         }
     }
@@ -117,12 +117,12 @@ impl Glare {
     }
 
     /// Operation counts for the given number of images, with one kernel for all.
-    pub(super) fn operation_counts(&self, canvas: &Canvas, pictures: f64) -> OperationCounts {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, images: f64) -> OperationCounts {
         let reach = self.reach_on(canvas);
         let shared = RINGS * ANGLES + (reach[0] + 1) * (reach[1] + 1);
-        let uses = Uses { ready: 2.0, applied: pictures };
+        let uses = UsageCounts { ready: 2.0, applied: images };
         OperationCounts { shared: shared as f64, ..OperationCounts::default() }
-            + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
+            + convolve::operation_counts(reach, canvas.size(), &canvas.film_region(), uses)
     }
 
     /// Columns and rows over which light is scattered on a canvas.
@@ -154,7 +154,7 @@ impl Glare {
             RINGS_END_PX * pitch_mm.max_element() * t * t
         };
         for ring in 0..RINGS {
-            let mass = self.within(edge(ring + 1)) - self.within(edge(ring));
+            let mass = self.light_within(edge(ring + 1)) - self.light_within(edge(ring));
             let radius = 0.5 * (edge(ring) + edge(ring + 1));
             for angle in 0..ANGLES {
                 let (s, c) = sin_cos(TAU * (angle as f64 + 0.5) / ANGLES as f64);
@@ -198,7 +198,7 @@ impl Glare {
             let direction = |i: usize| from + (to - from) * (i as f64 + 0.5) / DIRECTIONS as f64;
             let edge = |angle: f64| {
                 let (s, c) = sin_cos(angle);
-                self.within((half_mm.x / c).min(half_mm.y / s))
+                self.light_within((half_mm.x / c).min(half_mm.y / s))
             };
             (0..DIRECTIONS).map(|i| edge(direction(i))).sum::<f64>() / DIRECTIONS as f64 * (to - from)
         };
@@ -217,7 +217,7 @@ impl Glare {
     }
 
     /// G(r) in units of r₀^(2 − p).
-    fn gathered(&self, radius_mm: f64) -> f64 {
+    fn integrated_to(&self, radius_mm: f64) -> f64 {
         let (power, log) = (1.0 - self.half(), ln_1p(self.relative(radius_mm)));
         if power == 0.0 { 0.5 * log } else { 0.5 * exp_m1(power * log) / power }
     }
@@ -225,7 +225,7 @@ impl Glare {
     /// K at the centre, 1/mm².
     fn constant(&self) -> f64 {
         let r0 = self.parameters.core_um * MM_PER_UM;
-        let whole = self.parameters.reach_mm.map_or_else(|| 0.5 / (self.half() - 1.0), |reach| self.gathered(reach));
-        1.0 / (2.0 * PI * r0 * r0 * whole)
+        let full_extent = self.parameters.reach_mm.map_or_else(|| 0.5 / (self.half() - 1.0), |reach| self.integrated_to(reach));
+        1.0 / (2.0 * PI * r0 * r0 * full_extent)
     }
 }

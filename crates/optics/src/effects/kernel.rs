@@ -55,12 +55,12 @@ impl Kernel {
     /// Distributes a mass at `offset_px` over the four nearest taps.
     pub(crate) fn deposit(&mut self, offset_px: DVec2, mass: f64) {
         let low = offset_px.floor();
-        let share = offset_px - low;
+        let fraction = offset_px - low;
         let (x, y) = (low.x as isize, low.y as isize);
-        self.add(x, y, mass * (1.0 - share.x) * (1.0 - share.y));
-        self.add(x + 1, y, mass * share.x * (1.0 - share.y));
-        self.add(x, y + 1, mass * (1.0 - share.x) * share.y);
-        self.add(x + 1, y + 1, mass * share.x * share.y);
+        self.add(x, y, mass * (1.0 - fraction.x) * (1.0 - fraction.y));
+        self.add(x + 1, y, mass * fraction.x * (1.0 - fraction.y));
+        self.add(x, y + 1, mass * (1.0 - fraction.x) * fraction.y);
+        self.add(x + 1, y + 1, mass * fraction.x * fraction.y);
     }
 
     /// Sums over columns and over rows: of each column, of each row.
@@ -127,9 +127,9 @@ mod tests {
             kernel.deposit(place, mass);
             centroid += place * mass;
         }
-        let found: DVec2 = kernel.taps().map(|(x, y, tap)| DVec2::new(x as f64, y as f64) * tap).sum();
+        let actual: DVec2 = kernel.taps().map(|(x, y, tap)| DVec2::new(x as f64, y as f64) * tap).sum();
         // Rounding of a dozen terms.
-        assert!((kernel.sum() - 2.25).abs() < 1e-14 && (found - centroid).length() < 1e-14);
+        assert!((kernel.sum() - 2.25).abs() < 1e-14 && (actual - centroid).length() < 1e-14);
         assert!((kernel.squared().at(0, 0) - kernel.at(0, 0) * kernel.at(0, 0)).abs() < 1e-16);
     }
 

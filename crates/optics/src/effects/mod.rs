@@ -37,17 +37,17 @@ mod sample_spread;
 pub mod spread_image;
 pub mod spread_table;
 
-pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
+pub use chain::{Effects, EffectsParameters, MAX_MARGIN, PreparedEffects};
 pub use convolve::OperationCounts;
 pub use error::EffectsError;
-pub use film_part::{FilmPart, SpreadBy, SpreadWidth};
+pub use film_part::{FilmPart, SpreadMethod, SpreadWidth};
 pub use glare::{Glare, GlareParameters};
 pub use mtf::spread_of_modulation;
 pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
-pub use sample_spread::{SampleSpread, SpreadDraw};
+pub use sample_spread::{SampleSpread, SpreadRandomNumbers};
 pub use spread_image::{SpreadImage, SpreadImageParameters};
-pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
+pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, WavelengthTable};
 
 pub(crate) use canvas::Canvas;
 

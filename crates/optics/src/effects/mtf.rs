@@ -19,20 +19,20 @@ use super::{error::EffectsError, spread_image::SpreadImageParameters};
 /// Number of widths in addition to that of a point.
 const WIDTHS: u32 = 32;
 /// The narrowest width, relative to the largest frequency, and the widest, relative to the smallest.
-const NARROWEST: f64 = 0.02;
-const WIDEST: f64 = 1.5;
+const MIN_WIDTH: f64 = 0.02;
+const MAX_WIDTH: f64 = 1.5;
 /// Weight of the sum of one relative to a point of the table.
 const SUM_WEIGHT: f64 = 1e3;
 /// Samples per pixel.
 const SAMPLES_PX: f64 = 4.0;
 /// Cycles per sample up to which these are compared with the table: one cycle per pixel, beyond which the pixel's own area passes less than a fifth.
-const JUDGED: f64 = 0.25;
+const MAX_COMPARED_FREQUENCY: f64 = 0.25;
 /// Cut-off radius of a Gaussian, in its widths.
 const REACH: f64 = 5.0;
 /// Widths beyond this, px, cannot be distinguished from a constant loss: they are cut.
-const WIDEST_PX: f64 = 24.0;
+const MAX_WIDTH_PX: f64 = 24.0;
 /// Maximum accepted deviation.
-const WORST: f64 = 0.06;
+const MAX_DEVIATION: f64 = 0.06;
 
 /// The samples of a point-spread function, the same at all wavelengths, from (frequency, cycles/mm, rising from 0 or above; modulation, 1 at 0), for
 /// pixels of `pixel_um`.
@@ -41,21 +41,21 @@ const WORST: f64 = 0.06;
 /// If no sum of Gaussians is within 0.06 of the table, up to one cycle per pixel.
 pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<SpreadImageParameters, EffectsError> {
     const UM_PER_MM: f64 = 1e3;
-    let gaussians = gaussians(table, WIDEST_PX * pixel_um / UM_PER_MM);
+    let gaussians = gaussians(table, MAX_WIDTH_PX * pixel_um / UM_PER_MM);
     let pitch_mm = pixel_um / UM_PER_MM / SAMPLES_PX;
     let profiles: Vec<(f64, Vec<f64>)> =
         gaussians.iter().map(|(weight, sigma_mm)| (*weight, profile(*sigma_mm, pitch_mm))).collect();
     let width = profiles.iter().map(|(_, profile)| profile.len()).max().unwrap_or(1);
     let deviation = table
         .iter()
-        .filter(|(f, _)| f * pitch_mm <= JUDGED)
+        .filter(|(f, _)| f * pitch_mm <= MAX_COMPARED_FREQUENCY)
         .map(|(f, modulation)| {
-            let made: f64 = profiles.iter().map(|(weight, p)| weight * transform(p, f * pitch_mm)).sum();
-            (made - modulation).abs()
+            let modelled: f64 = profiles.iter().map(|(weight, p)| weight * transform(p, f * pitch_mm)).sum();
+            (modelled - modulation).abs()
         })
         .fold(0.0, f64::max);
-    if deviation > WORST {
-        return Err(EffectsError::Modulation { deviation, most: WORST });
+    if deviation > MAX_DEVIATION {
+        return Err(EffectsError::Modulation { deviation, most: MAX_DEVIATION });
     }
     let mut light = vec![0.0_f32; width * width];
     for (weight, profile) in &profiles {
@@ -74,9 +74,9 @@ pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<Sprea
 /// Weights and widths, mm, of the Gaussians whose sum best fits a table.
 fn gaussians(table: &[(f64, f64)], widest_mm: f64) -> Vec<(f64, f64)> {
     let above = || table.iter().map(|(f, _)| *f).filter(|f| *f > 0.0);
-    let (least, greatest) = (above().fold(f64::INFINITY, f64::min), above().fold(0.0, f64::max));
-    let from = (NARROWEST / greatest).min(0.5 * widest_mm);
-    let to = (WIDEST / least).min(widest_mm).max(2.0 * from);
+    let (minimum, maximum) = (above().fold(f64::INFINITY, f64::min), above().fold(0.0, f64::max));
+    let from = (MIN_WIDTH / maximum).min(0.5 * widest_mm);
+    let to = (MAX_WIDTH / minimum).min(widest_mm).max(2.0 * from);
     let width = |i: u32| from * exp(f64::from(i) / f64::from(WIDTHS - 1) * ln(to / from));
     let sigmas: Vec<f64> = core::iter::once(0.0).chain((0..WIDTHS).map(width)).collect();
     let column = |sigma: &f64| {
@@ -94,14 +94,14 @@ fn gaussians(table: &[(f64, f64)], widest_mm: f64) -> Vec<(f64, f64)> {
 /// of them.
 fn profile(sigma_mm: f64, pitch_mm: f64) -> Vec<f64> {
     /// Width from which samples have the modulation of the sampled function to 1e-4.
-    const RESOLVED: f64 = 0.7;
+    const MIN_RESOLVED_WIDTH: f64 = 0.7;
     let width = sigma_mm / pitch_mm;
     if width == 0.0 {
         return vec![1.0];
     }
-    if width < RESOLVED {
-        let beside = 0.5 * width * width;
-        return vec![beside, 1.0 - 2.0 * beside, beside];
+    if width < MIN_RESOLVED_WIDTH {
+        let neighbour = 0.5 * width * width;
+        return vec![neighbour, 1.0 - 2.0 * neighbour, neighbour];
     }
     let half = (REACH * width).ceil() as i64;
     let at = |index: i64| index as f64 / width;
@@ -118,7 +118,7 @@ fn transform(samples: &[f64], frequency: f64) -> f64 {
 
 /// The x ≥ 0 for which Σ xⱼ columnⱼ is nearest to a target (Lawson and Hanson 1974, algorithm 23.10).
 fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
-    const NOTHING: f64 = 1e-12;
+    const MIN_RESIDUAL: f64 = 1e-12;
     let mut x = vec![0.0; columns.len()];
     let mut passive: Vec<usize> = Vec::new();
     for _ in 0..3 * columns.len() {
@@ -128,7 +128,7 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
         let slope = |j: usize| dot(&columns[j], &residual) / dot(&columns[j], &columns[j]).sqrt();
         let steepest = (0..columns.len()).filter(|j| !passive.contains(j)).map(|j| (j, slope(j)));
         let Some((next, slope)) = steepest.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        if slope <= NOTHING {
+        if slope <= MIN_RESIDUAL {
             break;
         }
         passive.push(next);
@@ -140,13 +140,13 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
             };
             // As far towards the free solution as no value turns negative.
             let limit = passive.iter().zip(&free).filter(|(_, free)| **free <= 0.0);
-            let share = limit.map(|(j, free)| x[*j] / (x[*j] - free)).fold(1.0, f64::min);
-            passive.iter().zip(&free).for_each(|(j, free)| x[*j] += share * (free - x[*j]));
-            if share >= 1.0 {
+            let fraction = limit.map(|(j, free)| x[*j] / (x[*j] - free)).fold(1.0, f64::min);
+            passive.iter().zip(&free).for_each(|(j, free)| x[*j] += fraction * (free - x[*j]));
+            if fraction >= 1.0 {
                 break;
             }
             passive.retain(|j| {
-                let stays = x[*j] > NOTHING;
+                let stays = x[*j] > MIN_RESIDUAL;
                 if !stays {
                     x[*j] = 0.0;
                 }
@@ -159,7 +159,7 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
 
 /// The unconstrained solution for some columns, by orthogonalisation (modified Gram and Schmidt); `None` if they depend on each other.
 fn least_squares(columns: &[Vec<f64>], chosen: &[usize], target: &[f64]) -> Option<Vec<f64>> {
-    const DEPENDENT: f64 = 1e-13;
+    const MIN_PIVOT: f64 = 1e-13;
     let count = chosen.len();
     let mut q: Vec<Vec<f64>> = Vec::with_capacity(count);
     let mut r = vec![vec![0.0; count]; count];
@@ -172,7 +172,7 @@ fn least_squares(columns: &[Vec<f64>], chosen: &[usize], target: &[f64]) -> Opti
             column.iter_mut().zip(before).for_each(|(c, b)| *c -= r[i][k] * b);
         }
         let left = dot(&column, &column).sqrt();
-        if left <= DEPENDENT * length {
+        if left <= MIN_PIVOT * length {
             return None;
         }
         column.iter_mut().for_each(|c| *c /= left);
@@ -198,8 +198,8 @@ mod tests {
     use super::*;
     use etendue_core::maths::f64::atan2;
 
-    fn table(greatest: f64, modulation: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-        (0..=40).map(|i| f64::from(i) / 40.0).map(|x| (x * greatest, modulation(x))).collect()
+    fn table(maximum: f64, modulation: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        (0..=40).map(|i| f64::from(i) / 40.0).map(|x| (x * maximum, modulation(x))).collect()
     }
 
     #[test]
@@ -217,10 +217,10 @@ mod tests {
             (table(100.0, perfect), 0.0383),
             (vec![(0.0, 1.0), (10.0, 0.93), (20.0, 0.84), (30.0, 0.74), (60.0, 0.45), (80.0, 0.3)], 1e-6),
         ] {
-            let found = spread_of_modulation(&points, 4.0).expect("near enough");
-            assert!(found.deviation.is_some_and(|off| off < bound), "{:?} {:?}", found.deviation, points.last());
-            let sum: f64 = found.light.iter().map(|v| f64::from(*v)).sum();
-            assert!((sum - 1.0).abs() < 1e-5 && found.light.iter().all(|v| *v >= 0.0), "{sum}");
+            let actual = spread_of_modulation(&points, 4.0).expect("near enough");
+            assert!(actual.deviation.is_some_and(|off| off < bound), "{:?} {:?}", actual.deviation, points.last());
+            let sum: f64 = actual.light.iter().map(|v| f64::from(*v)).sum();
+            assert!((sum - 1.0).abs() < 1e-5 && actual.light.iter().all(|v| *v >= 0.0), "{sum}");
         }
     }
 
@@ -229,15 +229,15 @@ mod tests {
     fn tables_that_reach_beyond_the_samples_are_taken() {
         let arc = |x: f64| atan2((1.0 - x * x).sqrt(), x);
         let perfect = |x: f64| 2.0 / PI * (arc(x) - x * (1.0 - x * x).sqrt());
-        let found = spread_of_modulation(&table(363.6, perfect), 10.0).expect("near enough");
-        assert!(found.deviation.is_some_and(|off| off < 0.03), "{:?}", found.deviation);
+        let actual = spread_of_modulation(&table(363.6, perfect), 10.0).expect("near enough");
+        assert!(actual.deviation.is_some_and(|off| off < 0.03), "{:?}", actual.deviation);
     }
 
     #[test]
     fn low_frequencies_alone_make_no_wider_samples() {
         for points in [[(0.0, 1.0), (0.005, 0.99), (0.01, 0.97)], [(0.0, 1.0), (0.0005, 0.99), (0.001, 0.97)]] {
-            let found = spread_of_modulation(&points, 5.0).expect("within 0.06 of one");
-            assert!(f64::from(found.width as u32) <= 2.0 * REACH * WIDEST_PX * SAMPLES_PX + 3.0, "{}", found.width);
+            let actual = spread_of_modulation(&points, 5.0).expect("within 0.06 of one");
+            assert!(f64::from(actual.width as u32) <= 2.0 * REACH * MAX_WIDTH_PX * SAMPLES_PX + 3.0, "{}", actual.width);
         }
     }
 

@@ -8,23 +8,23 @@ use std::borrow::Borrow;
 
 use glam::DVec2;
 
-use super::convolve::{Convolver, Field, Region};
+use super::convolve::{Convolver, NumberField, Region};
 use super::{canvas::Canvas, kernel::Kernel};
 
 /// Patches over the image in a film, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
-    columns: Vec<Hat>,
-    rows: Vec<Hat>,
+    columns: Vec<PatchWeights>,
+    rows: Vec<PatchWeights>,
     size: [usize; 2],
 }
 
 impl Patches {
     /// Creates this number of patches across and down.
-    pub(super) fn new([across, down]: [usize; 2], stand: Stand, canvas: &Canvas) -> Self {
-        let (region, size) = (canvas.picture(), canvas.size());
-        let columns = (0..across).map(|i| Hat::new(stand, i, across, &region.x, size[0])).collect();
-        let rows = (0..down).map(|i| Hat::new(stand, i, down, &region.y, size[1])).collect();
+    pub(super) fn new([across, down]: [usize; 2], layout: PatchLayout, canvas: &Canvas) -> Self {
+        let (region, size) = (canvas.image_region(), canvas.size());
+        let columns = (0..across).map(|i| PatchWeights::new(layout, i, across, &region.x, size[0])).collect();
+        let rows = (0..down).map(|i| PatchWeights::new(layout, i, down, &region.y, size[1])).collect();
         Self { columns, rows, size }
     }
 
@@ -32,7 +32,7 @@ impl Patches {
         self.columns.len() * self.rows.len()
     }
 
-    fn hats(&self, index: usize) -> [&Hat; 2] {
+    fn hats(&self, index: usize) -> [&PatchWeights; 2] {
         [&self.columns[index % self.columns.len()], &self.rows[index / self.columns.len()]]
     }
 
@@ -49,19 +49,19 @@ impl Patches {
     }
 
     /// The weights across and down.
-    pub(super) fn into_hats(self) -> [Vec<Hat>; 2] {
+    pub(super) fn into_hats(self) -> [Vec<PatchWeights>; 2] {
         [self.columns, self.rows]
     }
 
     /// The film's light and variance, spread by the kernels of the patches.
     pub(super) fn apply<K: Borrow<Kernel>>(
         &self,
-        light: &Field,
-        variance: Option<&Field>,
+        light: &NumberField,
+        variance: Option<&NumberField>,
         kernel: impl Fn(usize) -> K,
-    ) -> (Field, Option<Field>) {
-        let mut spread = Field::zeros(self.size[0], self.size[1]);
-        let mut spread_variance = variance.map(|_| Field::zeros(self.size[0], self.size[1]));
+    ) -> (NumberField, Option<NumberField>) {
+        let mut spread = NumberField::zeros(self.size[0], self.size[1]);
+        let mut spread_variance = variance.map(|_| NumberField::zeros(self.size[0], self.size[1]));
         for index in 0..self.count() {
             let (kernel, region) = (kernel(index), self.region(index));
             let kernel = kernel.borrow();
@@ -74,7 +74,7 @@ impl Patches {
     }
 
     /// Adds a patch's part by its weights.
-    fn add(&self, part: &Field, index: usize, to: &mut Field) {
+    fn add(&self, part: &NumberField, index: usize, to: &mut NumberField) {
         let [x, y] = self.hats(index);
         for (row, (at, tall)) in y.range().zip(&y.weights).enumerate() {
             let target = &mut to.row_mut(at)[x.range()];
@@ -87,27 +87,27 @@ impl Patches {
 
 /// Positions of the patches along an axis of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stand {
+pub(super) enum PatchLayout {
     /// At the centres of equal parts; the outermost hold to the edge.
-    Middles,
+    Centres,
     /// On both edges, and uniformly between; a single one at the centre.
     Edges,
 }
 
 /// Weights of a patch along one axis: linear to its neighbours, constant beyond the outermost.
 #[derive(Clone, Debug)]
-pub(super) struct Hat {
+pub(super) struct PatchWeights {
     middle: f64,
     first: usize,
     weights: Vec<f64>,
 }
 
-impl Hat {
+impl PatchWeights {
     /// The patch `index` of `count` over the pixels `picture` of a film of `size`.
-    fn new(stand: Stand, index: usize, count: usize, picture: &core::ops::Range<usize>, size: usize) -> Self {
-        let (start, length, at) = (picture.start as f64, picture.len() as f64, index as f64);
-        let (middle, step) = match stand {
-            Stand::Edges if count > 1 => {
+    fn new(layout: PatchLayout, index: usize, count: usize, image: &core::ops::Range<usize>, size: usize) -> Self {
+        let (start, length, at) = (image.start as f64, image.len() as f64, index as f64);
+        let (middle, step) = match layout {
+            PatchLayout::Edges if count > 1 => {
                 let step = length / (count - 1) as f64;
                 (start + at * step, step)
             }
@@ -145,17 +145,17 @@ mod tests {
     #[test]
     fn weights_sum_to_one_wherever_functions_stand() {
         let canvas = Canvas::new(&Raster::centred(40, 23, 0.01).expect("legal"), [5, 3]);
-        for (stand, counts) in
-            [(Stand::Middles, [5, 3]), (Stand::Edges, [5, 3]), (Stand::Edges, [1, 2]), (Stand::Middles, [1, 1])]
+        for (layout, counts) in
+            [(PatchLayout::Centres, [5, 3]), (PatchLayout::Edges, [5, 3]), (PatchLayout::Edges, [1, 2]), (PatchLayout::Centres, [1, 1])]
         {
-            let patches = Patches::new(counts, stand, &canvas);
-            let sum = |hats: &[Hat], pixel: usize| hats.iter().map(|hat| hat.weight(pixel)).sum::<f64>();
-            assert!((0..50).all(|x| (sum(&patches.columns, x) - 1.0).abs() < 1e-12), "{stand:?}");
-            assert!((0..29).all(|y| (sum(&patches.rows, y) - 1.0).abs() < 1e-12), "{stand:?}");
+            let patches = Patches::new(counts, layout, &canvas);
+            let sum = |hats: &[PatchWeights], pixel: usize| hats.iter().map(|hat| hat.weight(pixel)).sum::<f64>();
+            assert!((0..50).all(|x| (sum(&patches.columns, x) - 1.0).abs() < 1e-12), "{layout:?}");
+            assert!((0..29).all(|y| (sum(&patches.rows, y) - 1.0).abs() < 1e-12), "{layout:?}");
         }
-        let at = |stand, index| Patches::new([5, 3], stand, &canvas).middle_px(index);
-        assert_eq!(at(Stand::Edges, 0), DVec2::new(5.0, 3.0));
-        assert_eq!(at(Stand::Edges, 14), DVec2::new(45.0, 26.0));
-        assert_eq!(at(Stand::Middles, 7), DVec2::new(25.0, 14.5));
+        let at = |layout, index| Patches::new([5, 3], layout, &canvas).middle_px(index);
+        assert_eq!(at(PatchLayout::Edges, 0), DVec2::new(5.0, 3.0));
+        assert_eq!(at(PatchLayout::Edges, 14), DVec2::new(45.0, 26.0));
+        assert_eq!(at(PatchLayout::Centres, 7), DVec2::new(25.0, 14.5));
     }
 }

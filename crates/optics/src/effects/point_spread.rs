@@ -5,11 +5,11 @@ use core::fmt;
 use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use glam::DVec2;
 
-use super::convolve::{Field, OperationCounts};
+use super::convolve::{NumberField, OperationCounts};
 use super::film_part::{FilmPart, SpreadWidth};
-use super::psf::{Psf, Ready};
-use super::spread_image::{ReadyImage, SpreadImage};
-use super::spread_table::{ReadyTable, SpreadTable};
+use super::psf::{Psf, PreparedPsf};
+use super::spread_image::{PreparedImage, SpreadImage};
+use super::spread_table::{PreparedTable, SpreadTable};
 use super::{Canvas, sample_spread::SampleSpread};
 
 /// Wavelength at which the width of a function is stated, nm.
@@ -57,20 +57,20 @@ impl PointSpread {
     }
 
     /// Operation counts for the given number of images per band.
-    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, images: f64) -> OperationCounts {
         match self {
-            Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
-            Self::Image(image) => image.operation_counts(canvas, bands, pictures),
-            Self::Table(table) => table.operation_counts(canvas, bands, pictures),
+            Self::Aperture(psf) => psf.operation_counts(canvas, bands, images),
+            Self::Image(image) => image.operation_counts(canvas, bands, images),
+            Self::Table(table) => table.operation_counts(canvas, bands, images),
         }
     }
 
     /// The function prepared for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> ReadySpread {
+    pub(super) fn prepare(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> PreparedSpread {
         match self {
-            Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range, part))),
-            Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
-            Self::Table(table) => ReadySpread::Table(Box::new(ReadyTable::new(table.clone(), canvas, part))),
+            Self::Aperture(psf) => PreparedSpread::Aperture(Box::new(psf.prepare(canvas, range, part))),
+            Self::Image(image) => PreparedSpread::Image(Box::new(image.prepare(canvas, part))),
+            Self::Table(table) => PreparedSpread::Table(Box::new(PreparedTable::new(table.clone(), canvas, part))),
         }
     }
 
@@ -99,23 +99,23 @@ impl PointSpread {
 
 /// A point-spread function prepared for a film.
 #[derive(Debug)]
-pub(super) enum ReadySpread {
+pub(super) enum PreparedSpread {
     /// Of an aperture.
-    Aperture(Box<Ready>),
+    Aperture(Box<PreparedPsf>),
     /// From an image.
-    Image(Box<ReadyImage>),
+    Image(Box<PreparedImage>),
     /// From tables over the field.
-    Table(Box<ReadyTable>),
+    Table(Box<PreparedTable>),
 }
 
-impl ReadySpread {
+impl PreparedSpread {
     /// The film's light and variance in a band.
     pub(super) fn apply(
         &self,
         band: WavelengthRange,
-        light: &Field,
-        variance: Option<&Field>,
-    ) -> (Field, Option<Field>) {
+        light: &NumberField,
+        variance: Option<&NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         match self {
             Self::Aperture(ready) => ready.apply(band, light, variance),
             Self::Image(ready) => ready.apply(band, light, variance),

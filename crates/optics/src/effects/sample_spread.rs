@@ -15,11 +15,11 @@
 use etendue_core::random::Pixel;
 use glam::DVec2;
 
-use super::{core_table::CoreTable, patches::Hat};
+use super::{core_table::CoreTable, patches::PatchWeights};
 
 /// Random numbers of a displacement, in [0, 1).
 #[derive(Clone, Copy, Debug)]
-pub struct SpreadDraw {
+pub struct SpreadRandomNumbers {
     /// Selects the wavelength and the patch.
     pub choice: f64,
     /// Selects the position.
@@ -32,26 +32,26 @@ pub struct SampleSpread {
     low_nm: f64,
     step_nm: f64,
     /// Columns of patches; one, without weights, if the function is uniform.
-    columns: Vec<Hat>,
-    rows: Vec<Hat>,
+    columns: Vec<PatchWeights>,
+    rows: Vec<PatchWeights>,
     /// Tables of each patch, row by row, by wavelength.
     tables: Vec<Vec<CoreTable>>,
 }
 
 impl SampleSpread {
     /// Creates the cores from the patches' tables, row by row; the wavelengths of each are in equal steps of `step_nm` from `low_nm` on.
-    pub(super) fn new([columns, rows]: [Vec<Hat>; 2], low_nm: f64, step_nm: f64, tables: Vec<Vec<CoreTable>>) -> Self {
+    pub(super) fn new([columns, rows]: [Vec<PatchWeights>; 2], low_nm: f64, step_nm: f64, tables: Vec<Vec<CoreTable>>) -> Self {
         Self { low_nm, step_nm, columns, rows, tables }
     }
 
     /// The offset of the sample's light from a pixel (of the film), px; and the weights of the path's wavelengths.
     #[must_use]
-    pub fn draw<const N: usize>(&self, pixel: Pixel, wavelengths_nm: &[f32; N], draw: SpreadDraw) -> (DVec2, [f32; N]) {
-        let choice = draw.choice * N as f64;
-        let drawn = (choice as usize).min(N - 1);
-        let tables = &self.tables[self.patch(pixel, choice - drawn as f64)];
+    pub fn sample_offset<const N: usize>(&self, pixel: Pixel, wavelengths_nm: &[f32; N], random: SpreadRandomNumbers) -> (DVec2, [f32; N]) {
+        let choice = random.choice * N as f64;
+        let chosen = (choice as usize).min(N - 1);
+        let tables = &self.tables[self.patch(pixel, choice - chosen as f64)];
         let of = wavelengths_nm.map(|nm| &tables[self.index(f64::from(nm)).min(tables.len() - 1)]);
-        let offset_px = of[drawn].draw(draw.place);
+        let offset_px = of[chosen].sample_offset(random.place);
         if tables.len() == 1 {
             return (offset_px, [1.0; N]);
         }
@@ -75,7 +75,7 @@ impl SampleSpread {
 }
 
 /// Selects one of the patches of a pixel's column or row by its weight there; returns the rescaled `u`.
-fn choose(hats: &[Hat], at: usize, u: f64) -> (usize, f64) {
+fn choose(hats: &[PatchWeights], at: usize, u: f64) -> (usize, f64) {
     let mut left = u;
     let mut last = (0, 0.0);
     for (index, weight) in hats.iter().map(|hat| hat.weight(at)).enumerate().filter(|(_, weight)| *weight > 0.0) {

@@ -16,14 +16,14 @@ use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::DVec2;
 
-use super::convolve::{self, Field, OperationCounts, Uses};
+use super::convolve::{self, NumberField, OperationCounts, UsageCounts};
 use super::error::{EffectsError, positive};
 use super::film_part::{FilmPart, KernelBuilder, mid_wavelengths};
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE};
-use super::{Canvas, canvas::Spread, core_table::CoreBuilder, kernel::Kernel, sample_spread::SampleSpread};
+use super::{Canvas, canvas::KernelPair, core_table::CoreBuilder, kernel::Kernel, sample_spread::SampleSpread};
 
 /// The largest distance between samples, px; the rest is rounding.
-const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
+const MAX_STEP_PX: f64 = 1.0 + 1e-9;
 
 /// Parameters of an image of a point's light.
 #[derive(Clone, PartialEq)]
@@ -73,12 +73,12 @@ impl SpreadImage {
     ///
     /// # Errors
     /// If the samples are not valid light, or are too far apart, or the function is too wide.
-    pub fn new(parameters: SpreadImageParameters, picture: &Raster) -> Result<Self, EffectsError> {
+    pub fn new(parameters: SpreadImageParameters, raster: &Raster) -> Result<Self, EffectsError> {
         positive("image_pitch_um", parameters.pitch_um)?;
         parameters.wavelength_nm.map_or(Ok(0.0), |nm| positive("image_wavelength_nm", nm))?;
         check_light(&parameters)?;
         let image = Self { parameters };
-        image.check_size(picture.pitch_mm())?;
+        image.check_size(raster.pitch_mm())?;
         Ok(image)
     }
 
@@ -90,7 +90,7 @@ impl SpreadImage {
 
     fn check_size(&self, pitch_mm: DVec2) -> Result<(), EffectsError> {
         let (step_mm, pixel_mm) = (self.step_mm(VISIBLE.high_nm), pitch_mm.min_element());
-        if step_mm > WIDEST_STEP_PX * pixel_mm {
+        if step_mm > MAX_STEP_PX * pixel_mm {
             return Err(EffectsError::Coarse { step_um: step_mm / MM_PER_UM, pixel_um: pixel_mm / MM_PER_UM });
         }
         let [x, y] = self.reach_px(pitch_mm);
@@ -170,7 +170,7 @@ impl SpreadImage {
     }
 
     /// Operation counts for the given number of images per band.
-    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, images: f64) -> OperationCounts {
         let count = bands.count() as f64;
         let of_band = WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm());
         let (kernels, of_kernel) = match self.parameters.wavelength_nm {
@@ -179,16 +179,16 @@ impl SpreadImage {
         };
         let points = mid_wavelengths(of_kernel).count() * self.parameters.light.len();
         let reach = self.reach_px_at(0.5 * (bands.low_nm() + bands.high_nm()), canvas.pitch_mm());
-        let uses = Uses { ready: 2.0 * kernels, applied: pictures * count };
+        let uses = UsageCounts { ready: 2.0 * kernels, applied: images * count };
         OperationCounts { shared: kernels * points as f64, ..OperationCounts::default() }
-            + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
+            + convolve::operation_counts(reach, canvas.size(), &canvas.film_region(), uses)
     }
 
     /// The function prepared for a film.
-    pub(super) fn ready(&self, canvas: &Canvas, part: FilmPart) -> ReadyImage {
+    pub(super) fn prepare(&self, canvas: &Canvas, part: FilmPart) -> PreparedImage {
         let shared = self.parameters.wavelength_nm.is_none();
-        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE, canvas.pitch_mm(), part), canvas));
-        ReadyImage { image: self.clone(), canvas: *canvas, part, shared }
+        let shared = shared.then(|| KernelPair::new(&self.kernel(VISIBLE, canvas.pitch_mm(), part), canvas));
+        PreparedImage { image: self.clone(), canvas: *canvas, part, shared }
     }
 }
 
@@ -205,27 +205,27 @@ fn check_light(parameters: &SpreadImageParameters) -> Result<(), EffectsError> {
 
 /// The function of a film.
 #[derive(Debug)]
-pub(super) struct ReadyImage {
+pub(super) struct PreparedImage {
     image: SpreadImage,
     canvas: Canvas,
     part: FilmPart,
     /// Set if the function is the same at all wavelengths.
-    shared: Option<Spread>,
+    shared: Option<KernelPair>,
 }
 
-impl ReadyImage {
+impl PreparedImage {
     /// The film's light and variance in a band.
     pub(super) fn apply(
         &self,
         band: WavelengthRange,
-        light: &Field,
-        variance: Option<&Field>,
-    ) -> (Field, Option<Field>) {
+        light: &NumberField,
+        variance: Option<&NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         match &self.shared {
             Some(shared) => shared.apply(light, variance),
             None => {
                 let kernel = self.image.kernel(band, self.canvas.pitch_mm(), self.part);
-                Spread::new(&kernel, &self.canvas).apply(light, variance)
+                KernelPair::new(&kernel, &self.canvas).apply(light, variance)
             }
         }
     }

@@ -15,7 +15,7 @@ pub enum FrontError {
     },
     /// A fraction of light outside its range.
     #[error("{name} is {value} at some wavelength; it must stay within {range}")]
-    Share {
+    Fraction {
         /// The key.
         name: &'static str,
         /// Its value.
@@ -33,7 +33,7 @@ pub enum FrontError {
     },
     /// A mirror consisting of its hole.
     #[error("the mirror's hole_radius_mm = {hole_mm} leaves nothing of it within rim_radius_mm = {rim_mm}")]
-    AllHole {
+    NoSurface {
         /// The hole, mm.
         hole_mm: f64,
         /// The outer radius, mm.

@@ -10,7 +10,7 @@ use core::fmt;
 
 use glam::{DVec2, DVec3};
 
-use super::{Line, Placement, line};
+use super::{MemberRay, Placement, line};
 use crate::error::front::{FrontError, positive};
 use crate::{lens::Lens, overlap::PRINCIPAL_NM};
 
@@ -44,7 +44,7 @@ impl Mask {
             return Err(FrontError::MaskSize { width, height, texels: transmittance.len() });
         }
         if let Some(texel) = transmittance.iter().find(|t| !(0.0..=1.0).contains(*t)) {
-            return Err(FrontError::Share { name: "the mask", value: f64::from(*texel), range: "0 and 1" });
+            return Err(FrontError::Fraction { name: "the mask", value: f64::from(*texel), range: "0 and 1" });
         }
         Ok(Self { width, height, transmittance })
     }
@@ -97,18 +97,18 @@ impl Dirt {
     }
 
     /// True if a ray starts on the camera's side of the dirt.
-    pub(super) fn is_after(&self, start: Line) -> bool {
+    pub(super) fn is_after(&self, start: MemberRay) -> bool {
         self.parameters.placement.inward(start).point_mm.z < 0.0
     }
 
     /// The transmitted fraction of a ray's light.
-    pub(super) fn share(&self, ray: Line) -> f64 {
-        let Line { point_mm, direction } = self.parameters.placement.inward(ray);
-        let way = -point_mm.z / direction.z;
-        if !(way.is_finite() && way > 0.0) {
+    pub(super) fn transmittance_along(&self, ray: MemberRay) -> f64 {
+        let MemberRay { point_mm, direction } = self.parameters.placement.inward(ray);
+        let travel = -point_mm.z / direction.z;
+        if !(travel.is_finite() && travel > 0.0) {
             return 1.0;
         }
-        let crossing: DVec3 = point_mm + direction * way;
+        let crossing: DVec3 = point_mm + direction * travel;
         let at = crossing.truncate() / self.parameters.size_mm + 0.5;
         let inside = at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::ONE).all();
         if inside { self.parameters.mask.at(at) } else { 1.0 }
@@ -121,7 +121,7 @@ impl Dirt {
         for i in 0..SAMPLES {
             let pupil = (STEP * (f64::from(i) + 0.5)).fract();
             if let Some(ray) = lens.ray(sensor_mm, pupil, PRINCIPAL_NM) {
-                passed += ray.weight_sr * self.share(line(&ray));
+                passed += ray.weight_sr * self.transmittance_along(line(&ray));
                 all += ray.weight_sr;
             }
         }

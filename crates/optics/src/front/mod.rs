@@ -23,7 +23,7 @@ use glam::{DVec2, DVec3};
 
 use crate::{lens::Lens, overlap::PRINCIPAL_NM, pupil::MM};
 use placement::{line, outgoing};
-use windscreen::Way;
+use windscreen::LightPath;
 
 pub use crate::error::FrontError;
 pub use dirt::{Dirt, DirtParameters, Mask};
@@ -32,7 +32,7 @@ pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, Qua
 pub use placement::{Curve, FrontRay, Placement};
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
-pub(crate) use placement::{Fate, Line};
+pub(crate) use placement::{RayOutcome, MemberRay};
 
 /// Optics in front of a lens.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,21 +104,21 @@ impl Front {
     #[must_use]
     pub fn ray(&self, lens: &Lens, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<FrontRay> {
         let Some(Optic::Windscreen(glass)) = &self.optic else {
-            let ray = self.soiled(lens.ray(sensor_mm, pupil, wavelength_nm)?)?;
-            return self.carry(ray, wavelength_nm);
+            let ray = self.through_dirt(lens.ray(sensor_mm, pupil, wavelength_nm)?)?;
+            return self.through_optic(ray, wavelength_nm);
         };
-        let (way, u, inverse) = glass.choose(pupil.x);
-        let mut ray = self.soiled(lens.ray(sensor_mm, DVec2::new(u, pupil.y), wavelength_nm)?)?;
+        let (direction, u, inverse) = glass.choose(pupil.x);
+        let mut ray = self.through_dirt(lens.ray(sensor_mm, DVec2::new(u, pupil.y), wavelength_nm)?)?;
         ray.weight_sr *= inverse;
-        let fate = glass.through_wet(line(&ray), wavelength_nm, way);
-        beyond(fate, ray, way)
+        let outcome = glass.through_wet(line(&ray), wavelength_nm, direction);
+        beyond(outcome, ray, direction)
     }
 
     /// The ground-truth ray, as [`Lens::truth_ray`], and whether it is off the pupil's centre.
     #[must_use]
     pub fn truth_ray(&self, lens: &Lens, sensor_mm: DVec2) -> Option<(FrontRay, bool)> {
         let truth = lens.truth_ray(sensor_mm)?;
-        Some((self.carry(truth.ray, PRINCIPAL_NM)?, truth.off_centre))
+        Some((self.through_optic(truth.ray, PRINCIPAL_NM)?, truth.off_centre))
     }
 
     /// True if a ray or its weight depends on the wavelength.
@@ -136,11 +136,11 @@ impl Front {
     /// # Errors
     /// If the image sees nothing of a mirror, or sees its back; if a windscreen is not in front of the lens.
     pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
-        let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
-        let lines: Vec<Line> = sights.map(|truth| line(&truth.ray)).collect();
+        let sights = sensor_points(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
+        let lines: Vec<MemberRay> = sights.map(|truth| line(&truth.ray)).collect();
         // Rays through a prescription start at its first surface, before the entrance pupil.
-        let rays = self::sights(raster).filter_map(|s_mm| lens.ray(s_mm, DVec2::splat(0.5), PRINCIPAL_NM));
-        let starts: Vec<Line> = rays.map(|ray| line(&ray)).collect();
+        let rays = self::sensor_points(raster).filter_map(|s_mm| lens.ray(s_mm, DVec2::splat(0.5), PRINCIPAL_NM));
+        let starts: Vec<MemberRay> = rays.map(|ray| line(&ray)).collect();
         if self.dirt.as_ref().is_some_and(|dirt| !starts.iter().all(|start| dirt.is_after(*start))) {
             return Err(FrontError::DirtInLens);
         }
@@ -148,9 +148,9 @@ impl Front {
             None => Ok(()),
             Some(Optic::Windscreen(glass)) => {
                 let radius_mm = lens.entrance_pupil_radius_m() / MM;
-                let rims = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y].map(|side| side * radius_mm);
+                let discs = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y].map(|side| side * radius_mm);
                 let all = lines.iter().chain(&starts);
-                let points: Vec<DVec3> = all.map(|line| line.point_mm).chain(rims).collect();
+                let points: Vec<DVec3> = all.map(|line| line.point_mm).chain(discs).collect();
                 glass.check(&points, &lines)
             }
             Some(Optic::Mirror(mirror)) => mirror.check(&lines).and_then(|()| mirror.check(&starts)),
@@ -158,32 +158,32 @@ impl Front {
     }
 
     /// A ray attenuated by the dirt; `None` if nothing is left.
-    fn soiled(&self, ray: PupilRay) -> Option<PupilRay> {
+    fn through_dirt(&self, ray: PupilRay) -> Option<PupilRay> {
         let Some(dirt) = &self.dirt else { return Some(ray) };
-        let weight_sr = ray.weight_sr * dirt.share(line(&ray));
+        let weight_sr = ray.weight_sr * dirt.transmittance_along(line(&ray));
         (weight_sr > 0.0).then_some(PupilRay { weight_sr, ..ray })
     }
 
     /// The ray for ground truth and for uses without a choice. It ignores drops.
-    fn carry(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
+    fn through_optic(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
         match &self.optic {
-            None => Some(FrontRay::bare(ray)),
-            Some(Optic::Windscreen(glass)) => beyond(glass.through(line(&ray), nm, Way::Straight), ray, Way::Straight),
+            None => Some(FrontRay::without_front(ray)),
+            Some(Optic::Windscreen(glass)) => beyond(glass.through(line(&ray), nm, LightPath::Direct), ray, LightPath::Direct),
             Some(Optic::Mirror(mirror)) => reflected(mirror, ray, nm),
         }
     }
 }
 
 /// A ray beyond glass, by its fate there. Its distances count from its point nearest to where it left the lens.
-fn beyond(fate: Fate, ray: PupilRay, way: Way) -> Option<FrontRay> {
+fn beyond(outcome: RayOutcome, ray: PupilRay, direction: LightPath) -> Option<FrontRay> {
     let from = line(&ray);
-    match fate {
+    match outcome {
         // Past the glass, only direct light arrives.
-        Fate::Past => (way == Way::Straight).then(|| FrontRay::bare(ray)),
-        Fate::Lost => None,
-        Fate::On(to, share) => {
+        RayOutcome::Missed => (direction == LightPath::Direct).then(|| FrontRay::without_front(ray)),
+        RayOutcome::Absorbed => None,
+        RayOutcome::Transmitted(to, fraction) => {
             let path_m = (to.point_mm - from.point_mm).dot(to.direction) * MM;
-            Some(FrontRay { ray: outgoing(to, ray.weight_sr * share), path_m, mirror_m: None })
+            Some(FrontRay { ray: outgoing(to, ray.weight_sr * fraction), path_m, mirror_m: None })
         }
     }
 }
@@ -191,10 +191,10 @@ fn beyond(fate: Fate, ray: PupilRay, way: Way) -> Option<FrontRay> {
 fn reflected(mirror: &Mirror, ray: PupilRay, nm: f64) -> Option<FrontRay> {
     let from = line(&ray);
     match mirror.reflect(from, nm) {
-        Fate::Past => Some(FrontRay::bare(ray)),
-        Fate::Lost => None,
-        Fate::On(to, share) => {
-            let ray = outgoing(to, ray.weight_sr * share);
+        RayOutcome::Missed => Some(FrontRay::without_front(ray)),
+        RayOutcome::Absorbed => None,
+        RayOutcome::Transmitted(to, fraction) => {
+            let ray = outgoing(to, ray.weight_sr * fraction);
             let path_m = (to.point_mm - from.point_mm).length() * MM;
             Some(FrontRay { ray, path_m, mirror_m: Some(ray.origin_m) })
         }
@@ -202,7 +202,7 @@ fn reflected(mirror: &Mirror, ray: PupilRay, nm: f64) -> Option<FrontRay> {
 }
 
 /// Points of the image, edges included, at which a front is checked.
-fn sights(raster: &Raster) -> impl Iterator<Item = DVec2> {
+fn sensor_points(raster: &Raster) -> impl Iterator<Item = DVec2> {
     const SIDE: u32 = 48;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);
     let raster = *raster;

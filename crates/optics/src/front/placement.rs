@@ -21,7 +21,7 @@ impl Placement {
     /// A rotated frame: initially parallel to the camera frame, it is rotated right-handed about the camera's x, then its y, then its z axis,
     /// degrees.
     #[must_use]
-    pub fn turned(origin_mm: DVec3, degrees: [f64; 3]) -> Self {
+    pub fn with_rotation_deg(origin_mm: DVec3, degrees: [f64; 3]) -> Self {
         let [(sx, cx), (sy, cy), (sz, cz)] = degrees.map(|d| sin_cos(d * PI / 180.0));
         let x = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cx, sx), DVec3::new(0.0, -sx, cx));
         let y = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
@@ -29,39 +29,39 @@ impl Placement {
         Self { origin_mm, rotation: z * y * x }
     }
 
-    pub(super) fn inward(&self, line: Line) -> Line {
+    pub(super) fn inward(&self, line: MemberRay) -> MemberRay {
         let back = self.rotation.transpose();
-        Line { point_mm: back * (line.point_mm - self.origin_mm), direction: back * line.direction }
+        MemberRay { point_mm: back * (line.point_mm - self.origin_mm), direction: back * line.direction }
     }
 
-    pub(super) fn outward(&self, line: Line) -> Line {
-        Line { point_mm: self.rotation * line.point_mm + self.origin_mm, direction: self.rotation * line.direction }
+    pub(super) fn outward(&self, line: MemberRay) -> MemberRay {
+        MemberRay { point_mm: self.rotation * line.point_mm + self.origin_mm, direction: self.rotation * line.direction }
     }
 }
 
 /// A ray in a member's frame, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct MemberRay {
     pub(crate) point_mm: DVec3,
     pub(crate) direction: DVec3,
 }
 
 /// Result of a ray's interaction with a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Fate {
+pub(crate) enum RayOutcome {
     /// The ray misses the member.
-    Past,
+    Missed,
     /// The ray ends: no light comes along it.
-    Lost,
+    Absorbed,
     /// The ray continues here, with this factor on its weight.
-    On(Line, f64),
+    Transmitted(MemberRay, f64),
 }
 
-pub(super) fn line(ray: &PupilRay) -> Line {
-    Line { point_mm: ray.origin_m / MM, direction: ray.direction }
+pub(super) fn line(ray: &PupilRay) -> MemberRay {
+    MemberRay { point_mm: ray.origin_m / MM, direction: ray.direction }
 }
 
-pub(super) fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
+pub(super) fn outgoing(line: MemberRay, weight_sr: f64) -> PupilRay {
     PupilRay { origin_m: line.point_mm * MM, direction: line.direction, weight_sr }
 }
 
@@ -79,7 +79,7 @@ pub struct FrontRay {
 impl FrontRay {
     /// A ray with nothing in front of the lens.
     #[must_use]
-    pub fn bare(ray: PupilRay) -> Self {
+    pub fn without_front(ray: PupilRay) -> Self {
         Self { ray, path_m: 0.0, mirror_m: None }
     }
 
@@ -132,8 +132,8 @@ mod tests {
 
     #[test]
     fn a_positive_turn_about_x_leans_the_upper_edge_towards_the_camera() {
-        let placement = Placement::turned(DVec3::new(0.0, 0.0, 500.0), [30.0, 0.0, 0.0]);
-        let upper = placement.outward(Line { point_mm: DVec3::new(0.0, -100.0, 0.0), direction: DVec3::Z });
+        let placement = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 500.0), [30.0, 0.0, 0.0]);
+        let upper = placement.outward(MemberRay { point_mm: DVec3::new(0.0, -100.0, 0.0), direction: DVec3::Z });
         // y is down: the upper edge lies at 500 − 100 sin 30° and its normal points up.
         assert!((upper.point_mm.z - 450.0).abs() < 1e-12 && (upper.direction.y + 0.5).abs() < 1e-15);
         let back = placement.inward(upper);
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_positive_turn_about_y_looks_to_the_right() {
-        let placement = Placement::turned(DVec3::ZERO, [0.0, 20.0, 0.0]);
+        let placement = Placement::with_rotation_deg(DVec3::ZERO, [0.0, 20.0, 0.0]);
         assert!((placement.rotation * DVec3::Z).x > 0.3);
         assert!((placement.rotation.determinant() - 1.0).abs() < 1e-15);
     }

@@ -13,11 +13,11 @@ use crate::{prescription::Prescription, prescription::ghost::GhostPair, prescrip
 const COLUMNS: usize = 32;
 const ROWS: usize = 16;
 /// The same for a first coarse pass, over the whole front.
-const LOOK_COLUMNS: usize = 32;
-const LOOK_ROWS: usize = 16;
+const COARSE_COLUMNS: usize = 32;
+const COARSE_ROWS: usize = 16;
 /// Number of rays of either grid.
 pub(super) const NODES: usize = (COLUMNS + 1) * (ROWS + 1);
-pub(super) const NODES_OF_LOOK: usize = (LOOK_COLUMNS + 1) * (LOOK_ROWS + 1);
+pub(super) const COARSE_NODES: usize = (COARSE_COLUMNS + 1) * (COARSE_ROWS + 1);
 
 /// Rays that land farther from the axis than this count as lost, mm.
 const MAX_MM: f32 = 1e4;
@@ -43,17 +43,17 @@ impl Node {
         self.filling.is_finite()
     }
 
-    fn mix(self, other: Self, share: f32) -> Self {
+    fn mix(self, other: Self, fraction: f32) -> Self {
         match (self.arrives(), other.arrives()) {
-            (true, true) => self.between(other, share),
+            (true, true) => self.between(other, fraction),
             (true, false) => self,
             _ => other,
         }
     }
 
     #[inline]
-    fn between(self, other: Self, share: f32) -> Self {
-        let mix = |a: f32, b: f32| a + share * (b - a);
+    fn between(self, other: Self, fraction: f32) -> Self {
+        let mix = |a: f32, b: f32| a + fraction * (b - a);
         Self {
             x: mix(self.x, other.x),
             y: mix(self.y, other.y),
@@ -65,14 +65,14 @@ impl Node {
 }
 
 /// Collimated light at an angle to the axis.
-pub(super) struct Beam<'a> {
+pub(super) struct GhostBeam<'a> {
     lens: &'a Prescription,
     direction: DVec3,
     across: DVec3,
     angle: f64,
 }
 
-impl<'a> Beam<'a> {
+impl<'a> GhostBeam<'a> {
     pub(super) fn new(lens: &'a Prescription, angle: f64) -> Self {
         let (sine, cosine) = sin_cos(angle);
         Self { lens, direction: DVec3::new(sine, 0.0, cosine), across: DVec3::new(cosine, 0.0, -sine), angle }
@@ -82,9 +82,9 @@ impl<'a> Beam<'a> {
     fn grid(&self, pair: GhostPair, nm: f64, window: [DVec2; 2], size: [usize; 2]) -> Vec<Node> {
         let media = self.lens.media(nm);
         let node = |i: usize| {
-            let share =
+            let fraction =
                 DVec2::new((i % (size[0] + 1)) as f64 / size[0] as f64, (i / (size[0] + 1)) as f64 / size[1] as f64);
-            let at = window[0] + (window[1] - window[0]) * share;
+            let at = window[0] + (window[1] - window[0]) * fraction;
             let ray = LensRay { point: self.across * at.x + DVec3::Y * at.y, direction: self.direction };
             let Ok(ghost) = self.lens.ghost_in(pair, ray, nm, &media) else { return Node::LOST };
             let d = ghost.ray.direction;
@@ -98,19 +98,19 @@ impl<'a> Beam<'a> {
     }
 
     /// The window in which a pair passes rays, and the passed area times its weight, mm².
-    pub(super) fn look(&self, pair: GhostPair, nm: f64) -> Option<([DVec2; 2], f64)> {
-        let size = [LOOK_COLUMNS, LOOK_ROWS];
+    pub(super) fn survey(&self, pair: GhostPair, nm: f64) -> Option<([DVec2; 2], f64)> {
+        let size = [COARSE_COLUMNS, COARSE_ROWS];
         let [low, high] = self.lens.front_box(self.angle);
         let cell = (high - low) / DVec2::new(size[0] as f64, size[1] as f64);
         let nodes = self.grid(pair, nm, [low, high], size);
-        let (mut least, mut most, mut weight) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0);
+        let (mut minimum, mut maximum, mut weight) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0);
         for (i, node) in nodes.iter().enumerate().filter(|(_, node)| node.filling <= 1.0) {
             let place = DVec2::new((i % (size[0] + 1)) as f64, (i / (size[0] + 1)) as f64);
-            (least, most) = (least.min(place), most.max(place));
+            (minimum, maximum) = (minimum.min(place), maximum.max(place));
             // The row in the plane of symmetry belongs to both halves.
             weight += f64::from(node.weight) * if place.y == 0.0 { 1.0 } else { 2.0 };
         }
-        let window = [least - 1.0, most + 1.0].map(|place| low + cell * place);
+        let window = [minimum - 1.0, maximum + 1.0].map(|place| low + cell * place);
         let window = [DVec2::new(window[0].x, 0.0), window[1]];
         (weight > 0.0).then_some((window, weight * cell.x * cell.y))
     }
@@ -133,7 +133,7 @@ pub(super) struct Footprint {
 
 /// Light that lands at a point, mm: the cross-section of its part of the beam times the remaining fractions, mm².
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Landed {
+pub(super) struct LandedLight {
     pub(super) x: f32,
     pub(super) y: f32,
     pub(super) area_mm2: f32,
@@ -142,14 +142,14 @@ pub(super) struct Landed {
 
 impl Footprint {
     /// Interpolates between two angles.
-    pub(super) fn mix(&self, other: &Self, share: f32) -> Self {
-        let nodes = self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.mix(*b, share)).collect();
-        Self { nodes, cell_mm2: self.cell_mm2 + share * (other.cell_mm2 - self.cell_mm2) }
+    pub(super) fn mix(&self, other: &Self, fraction: f32) -> Self {
+        let nodes = self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.mix(*b, fraction)).collect();
+        Self { nodes, cell_mm2: self.cell_mm2 + fraction * (other.cell_mm2 - self.cell_mm2) }
     }
 
     /// The same position with a fraction of the light.
-    pub(super) fn dimmed(&self, share: f32) -> Self {
-        Self { nodes: self.nodes.clone(), cell_mm2: self.cell_mm2 * share }
+    pub(super) fn dimmed(&self, fraction: f32) -> Self {
+        Self { nodes: self.nodes.clone(), cell_mm2: self.cell_mm2 * fraction }
     }
 
     fn cells(&self) -> impl Iterator<Item = [Node; 4]> {
@@ -174,17 +174,17 @@ impl Footprint {
 
     /// Calls `lands` for points closer to each other than `step_mm` that together carry all light.
     #[inline]
-    pub(super) fn each(&self, step_mm: f32, mut lands: impl FnMut(Landed)) {
+    pub(super) fn each(&self, step_mm: f32, mut lands: impl FnMut(LandedLight)) {
         for cell in self.cells() {
             let finer = finer(&cell, step_mm);
-            let share = self.cell_mm2 / (finer * finer) as f32;
+            let fraction = self.cell_mm2 / (finer * finer) as f32;
             let at = |i: usize| (i as f32 + 0.5) / finer as f32;
             for row in 0..finer {
                 let [left, right] = [cell[0].between(cell[2], at(row)), cell[1].between(cell[3], at(row))];
                 for node in (0..finer).map(|column| left.between(right, at(column))).filter(|n| n.filling <= 1.0) {
-                    let landed = Landed { x: node.x, y: node.y, area_mm2: share * node.weight, cosine: node.cosine };
+                    let landed = LandedLight { x: node.x, y: node.y, area_mm2: fraction * node.weight, cosine: node.cosine };
                     lands(landed);
-                    lands(Landed { y: -node.y, ..landed });
+                    lands(LandedLight { y: -node.y, ..landed });
                 }
             }
         }
@@ -192,12 +192,12 @@ impl Footprint {
 }
 
 /// Minimum and maximum number of points along a cell's side; more than the minimum only for density.
-const LEAST: usize = 3;
-const MOST: usize = 256;
+const MIN_CELL_POINTS: usize = 3;
+const MAX_CELL_POINTS: usize = 256;
 
 fn finer(cell: &[Node; 4], step_mm: f32) -> usize {
     let side = |a: Node, b: Node| (a.x - b.x).abs().max((a.y - b.y).abs());
     let [a, b, c, d] = *cell;
     let longest = side(a, b).max(side(c, d)).max(side(a, c)).max(side(b, d));
-    ((longest / step_mm).ceil() as usize).clamp(LEAST, MOST)
+    ((longest / step_mm).ceil() as usize).clamp(MIN_CELL_POINTS, MAX_CELL_POINTS)
 }

@@ -30,7 +30,7 @@ mod splat;
 
 use etendue_core::EffectStatus;
 
-use crate::{error::OpticsError, lens::Prescribed};
+use crate::{error::OpticsError, lens::PrescriptionLens};
 
 pub use layer::layer;
 pub use report::{GhostReport, strongest};
@@ -78,6 +78,6 @@ impl GhostSettings {
 }
 
 /// Reflectance factor of a pair in addition to the traced surfaces: that of the sensor, if it is one of the pair.
-fn mirrored(lens: &Prescribed, rear: usize, settings: GhostSettings) -> f64 {
+fn mirrored(lens: &PrescriptionLens, rear: usize, settings: GhostSettings) -> f64 {
     if rear == lens.prescription().surfaces().len() { settings.sensor_reflectance } else { 1.0 }
 }

@@ -5,9 +5,9 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::sin;
 use glam::DVec2;
 
-use super::footprint::{Beam, Footprint};
+use super::footprint::{GhostBeam, Footprint};
 use super::{GhostSettings, mirrored};
-use crate::{lens::Prescribed, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
+use crate::{lens::PrescriptionLens, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
 
 /// Solid angle of the sun's disc, sr (radius 959.63″, Auwers 1891).
 const SUN_SR: f64 = 6.8e-5;
@@ -29,15 +29,15 @@ pub struct GhostReport {
 
 /// The `most` brightest ghosts of a source at infinity whose image lies at a height; empty if the height has no principal ray or no light.
 #[must_use]
-pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, most: usize) -> Vec<GhostReport> {
+pub fn strongest(lens: &PrescriptionLens, height_mm: f64, settings: GhostSettings, maximum: usize) -> Vec<GhostReport> {
     let (Some(angle), Some(image_mm2)) = (lens.field_angle(height_mm), image_mm2(lens, height_mm)) else {
         return Vec::new();
     };
     let projected_solid_angle_sr = lens.projected_solid_angle_sr(DVec2::new(height_mm, 0.0));
     let prescription = lens.prescription();
-    let beam = Beam::new(prescription, angle);
+    let beam = GhostBeam::new(prescription, angle);
     let report = |pair: GhostPair| {
-        let (window, _) = beam.look(pair, PRINCIPAL_NM)?;
+        let (window, _) = beam.survey(pair, PRINCIPAL_NM)?;
         let landed = beam.footprint(pair, PRINCIPAL_NM, window);
         let Moments { area_mm2, centre_mm, radius_mm } = moments(&landed)?;
         let area_mm2 = area_mm2 * mirrored(lens, pair.rear, settings);
@@ -49,13 +49,13 @@ pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, mos
     let pairs = prescription.ghost_pairs(settings.sensor_reflectance > 0.0);
     let mut reports: Vec<GhostReport> = pairs.into_iter().filter_map(report).collect();
     reports.sort_by(|a, b| b.light.total_cmp(&a.light));
-    reports.truncate(most);
+    reports.truncate(maximum);
     reports
 }
 
 /// The beam's cross-section that forms the image of a point at infinity at a height, times its transmittance, mm²: étendue per area over solid angle
 /// per area.
-fn image_mm2(lens: &Prescribed, height_mm: f64) -> Option<f64> {
+fn image_mm2(lens: &PrescriptionLens, height_mm: f64) -> Option<f64> {
     let step_mm = 1e-3 * lens.lit_radius_mm();
     let inner = (height_mm - 0.5 * step_mm).max(0.0);
     let outer = inner + step_mm;

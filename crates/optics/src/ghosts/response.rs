@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::footprint::{Beam, Footprint, NODES, NODES_OF_LOOK};
+use super::footprint::{GhostBeam, Footprint, NODES, COARSE_NODES};
 use super::{GhostSettings, mirrored};
-use crate::{lens::Prescribed, prescription::ghost::GhostPair};
+use crate::{lens::PrescriptionLens, prescription::ghost::GhostPair};
 
 /// Field angles from the axis to the largest.
 pub(super) const ANGLES: usize = 48;
 /// Maximum total fraction of an angle's ghost light in omitted pairs.
-const LEFT_OUT: f64 = 5e-3;
+const MAX_OMITTED_FRACTION: f64 = 5e-3;
 /// Maximum distance of wavelengths, nm.
 const KNOT_NM: f64 = 100.0;
 
@@ -28,16 +28,16 @@ pub(super) struct Response {
 impl Response {
     /// Footprints at the tabulated angles next to the `wanted` ones (rad, rising to at most `greatest`).
     pub(super) fn new(
-        lens: &Prescribed,
+        lens: &PrescriptionLens,
         settings: GhostSettings,
         range_nm: [f64; 2],
-        greatest: f64,
-        wanted: &[f64],
+        maximum: f64,
+        needed: &[f64],
     ) -> Self {
         let pairs = lens.prescription().ghost_pairs(settings.sensor_reflectance > 0.0);
-        let (knots_nm, step) = (knots(lens, range_nm), greatest / (ANGLES - 1) as f64);
+        let (knots_nm, step) = (knots(lens, range_nm), maximum / (ANGLES - 1) as f64);
         let mut near = [false; ANGLES];
-        for angle in wanted {
+        for angle in needed {
             let i = place(*angle, step).0;
             (near[i], near[i + 1]) = (true, true);
         }
@@ -48,12 +48,12 @@ impl Response {
 
     /// The footprints of a pair (by its index in the list) at an angle; `None` if it is omitted.
     pub(super) fn at(&self, angle: f64, pair: usize) -> Option<Vec<Footprint>> {
-        let (i, share) = place(angle, self.step);
+        let (i, fraction) = place(angle, self.step);
         let side = |i: usize| self.table[i].as_ref().and_then(|pairs| pairs[pair].as_ref());
         match (side(i), side(i + 1)) {
-            (Some(a), Some(b)) => Some(a.iter().zip(b).map(|(a, b)| a.mix(b, share)).collect()),
-            (Some(a), None) => Some(a.iter().map(|a| a.dimmed(1.0 - share)).collect()),
-            (None, Some(b)) => Some(b.iter().map(|b| b.dimmed(share)).collect()),
+            (Some(a), Some(b)) => Some(a.iter().zip(b).map(|(a, b)| a.mix(b, fraction)).collect()),
+            (Some(a), None) => Some(a.iter().map(|a| a.dimmed(1.0 - fraction)).collect()),
+            (None, Some(b)) => Some(b.iter().map(|b| b.dimmed(fraction)).collect()),
             (None, None) => None,
         }
     }
@@ -67,7 +67,7 @@ fn place(angle: f64, step: f64) -> (usize, f32) {
 }
 
 /// Uniformly spaced wavelengths over a range: one at its centre for a lens that does not depend on the wavelength.
-pub(super) fn knots(lens: &Prescribed, [low, high]: [f64; 2]) -> Vec<f64> {
+pub(super) fn knots(lens: &PrescriptionLens, [low, high]: [f64; 2]) -> Vec<f64> {
     if !lens.disperses() {
         return vec![0.5 * (low + high)];
     }
@@ -75,21 +75,21 @@ pub(super) fn knots(lens: &Prescribed, [low, high]: [f64; 2]) -> Vec<f64> {
     (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect()
 }
 
-fn at_angle(lens: &Prescribed, settings: GhostSettings, angle: f64, pairs: &[GhostPair], knots_nm: &[f64]) -> AtAngle {
-    let beam = Beam::new(lens.prescription(), angle);
+fn at_angle(lens: &PrescriptionLens, settings: GhostSettings, angle: f64, pairs: &[GhostPair], knots_nm: &[f64]) -> AtAngle {
+    let beam = GhostBeam::new(lens.prescription(), angle);
     let middle_nm = knots_nm[knots_nm.len() / 2];
-    let look = |pair: &GhostPair| {
-        let (window, area) = beam.look(*pair, middle_nm)?;
+    let survey = |pair: &GhostPair| {
+        let (window, area) = beam.survey(*pair, middle_nm)?;
         Some((window, area * mirrored(lens, pair.rear, settings)))
     };
-    let looks: Vec<_> = pairs.iter().map(look).collect();
-    let areas: Vec<f64> = looks.iter().map(|look| look.map_or(0.0, |(_, area)| area)).collect();
-    let least = threshold(&areas);
-    let footprints = |(pair, look): (&GhostPair, Option<([glam::DVec2; 2], f64)>)| {
-        let (window, _) = look.filter(|(_, area)| *area >= least)?;
+    let surveys: Vec<_> = pairs.iter().map(survey).collect();
+    let areas: Vec<f64> = surveys.iter().map(|survey| survey.map_or(0.0, |(_, area)| area)).collect();
+    let minimum = threshold(&areas);
+    let footprints = |(pair, survey): (&GhostPair, Option<([glam::DVec2; 2], f64)>)| {
+        let (window, _) = survey.filter(|(_, area)| *area >= minimum)?;
         Some(knots_nm.iter().map(|nm| beam.footprint(*pair, *nm, window)).collect())
     };
-    pairs.iter().zip(looks).map(footprints).collect()
+    pairs.iter().zip(surveys).map(footprints).collect()
 }
 
 /// The area below which pairs together have at most the fraction of light that may be omitted.
@@ -100,7 +100,7 @@ fn threshold(areas: &[f64]) -> f64 {
     let mut sum = 0.0;
     let first = rising.into_iter().find(|area| {
         sum += area;
-        sum > LEFT_OUT * total
+        sum > MAX_OMITTED_FRACTION * total
     });
     first.unwrap_or(f64::INFINITY)
 }
@@ -109,16 +109,16 @@ fn threshold(areas: &[f64]) -> f64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostOperationCounts {
     /// Surfaces met by rays, if no ray is lost and no pair is omitted.
-    pub met: f64,
+    pub surface_hits: f64,
     /// Beams splatted onto the sensor: one per source, pair and tabulated wavelength, if no pair is omitted.
-    pub laid: f64,
+    pub splats: f64,
 }
 
 /// Operation counts of the ghosts of a number of sources between two wavelengths, nm. The number depends on the light of the image: a nearly uniform
 /// one has 1024, one with half of its light in the sun about 260, a single light 1.
 #[must_use]
 pub fn operation_counts(
-    lens: &Prescribed,
+    lens: &PrescriptionLens,
     settings: GhostSettings,
     range_nm: [f64; 2],
     sources: f64,
@@ -127,11 +127,11 @@ pub fn operation_counts(
     let pairs = prescription.ghost_pairs(settings.sensor_reflectance > 0.0);
     let (wavelengths, surfaces) = (knots(lens, range_nm).len() as f64, prescription.surfaces().len());
     // Through the lens, and twice through the part between the reflecting surfaces.
-    let way = |pair: &GhostPair| (surfaces + 2 * (pair.rear - pair.front)) as f64;
-    let rays = (NODES_OF_LOOK as f64 + wavelengths * NODES as f64) * ANGLES as f64;
+    let surface_count = |pair: &GhostPair| (surfaces + 2 * (pair.rear - pair.front)) as f64;
+    let rays = (COARSE_NODES as f64 + wavelengths * NODES as f64) * ANGLES as f64;
     GhostOperationCounts {
-        met: rays * pairs.iter().map(way).sum::<f64>(),
-        laid: sources * wavelengths * pairs.len() as f64,
+        surface_hits: rays * pairs.iter().map(surface_count).sum::<f64>(),
+        splats: sources * wavelengths * pairs.len() as f64,
     }
 }
 

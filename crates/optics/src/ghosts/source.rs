@@ -4,7 +4,7 @@ use etendue_core::{plane::Plane, quantity::Quantity};
 use glam::DVec2;
 
 /// The fraction of all light above which a block of several pixels is split.
-pub(super) const SHARE: f64 = 1.0 / 300.0;
+pub(super) const SPLIT_FRACTION: f64 = 1.0 / 300.0;
 
 /// An image whose samples, times a factor of the pixel and one of the band, are radiance times solid angle.
 pub(super) struct SourceImage<'a, Q: Quantity<Sample = f32>> {
@@ -17,13 +17,13 @@ pub(super) struct SourceImage<'a, Q: Quantity<Sample = f32>> {
 
 /// Light from one direction.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Source {
+pub(super) struct GhostSource {
     /// The centroid of its light in the image, raster coordinates.
     pub(super) at_px: DVec2,
     /// Radiance times solid angle by band: the irradiance of a surface that faces it, W·m⁻²·nm⁻¹.
     pub(super) spectrum: Vec<f32>,
     /// Its fraction of all light.
-    pub(super) share: f64,
+    pub(super) fraction: f64,
 }
 
 /// A rectangle of pixels.
@@ -35,7 +35,7 @@ struct Block {
 
 impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
     /// The image's sources, in a fixed order.
-    pub(super) fn sources(&self) -> Vec<Source> {
+    pub(super) fn sources(&self) -> Vec<GhostSource> {
         let strength = self.strength();
         let total: f64 = strength.iter().sum();
         let Some(first) = self.planes.first().filter(|_| total > 0.0) else { return Vec::new() };
@@ -44,7 +44,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
         let mut sources = Vec::new();
         while let Some(block) = open.pop() {
             let light: f64 = block.pixels(width).map(|i| strength[i]).sum();
-            if light > SHARE * total && block.len() > 1 {
+            if light > SPLIT_FRACTION * total && block.len() > 1 {
                 open.extend(block.parts());
             } else if light > 0.0 {
                 sources.push(self.source(block, &strength, light, light / total));
@@ -65,7 +65,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
         strength
     }
 
-    fn source(&self, block: Block, strength: &[f64], light: f64, share: f64) -> Source {
+    fn source(&self, block: Block, strength: &[f64], light: f64, fraction: f64) -> GhostSource {
         let width = self.planes[0].width();
         let centre = |i: usize| DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
         let moment: DVec2 = block.pixels(width).map(|i| centre(i) * strength[i]).sum();
@@ -74,7 +74,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
             (factor * pixels.map(|i| f64::from(plane.samples()[i]) * self.pixel_factor[i]).sum::<f64>()) as f32
         };
         let spectrum = self.planes.iter().zip(&self.band_factor).map(of_band).collect();
-        Source { at_px: moment / light, spectrum, share }
+        GhostSource { at_px: moment / light, spectrum, fraction: share: fraction }
     }
 }
 
@@ -114,10 +114,10 @@ mod tests {
         let all: f64 = 37.0 * 23.0 - 1.0 + 5000.0;
         let sum = |band: usize| sources.iter().map(|s| f64::from(s.spectrum[band])).sum::<f64>();
         assert!((sum(0) / (0.5 * all) - 1.0).abs() < 1e-6 && (sum(1) / (3.0 * all) - 1.0).abs() < 1e-6);
-        let bright = sources.iter().max_by(|a, b| a.share.total_cmp(&b.share)).expect("sources");
+        let bright = sources.iter().max_by(|a, b| a.fraction.total_cmp(&b.fraction)).expect("sources");
         assert_eq!(bright.at_px, DVec2::new(20.5, 11.5));
-        assert!((bright.share - 5000.0 / all).abs() < 1e-9);
-        assert!(sources.iter().filter(|s| s.share > SHARE).count() == 1, "no other is above the share");
+        assert!((bright.fraction - 5000.0 / all).abs() < 1e-9);
+        assert!(sources.iter().filter(|s| s.fraction > SPLIT_FRACTION).count() == 1, "no other is above the share");
     }
 
     #[test]

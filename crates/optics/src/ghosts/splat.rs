@@ -7,7 +7,7 @@
 use etendue_projection::Raster;
 use glam::DVec2;
 
-use super::{footprint::Footprint, source::SHARE};
+use super::{footprint::Footprint, source::SPLIT_FRACTION};
 
 /// Cells across a ghost of a source with [`SHARE`] of the light, and the maximum.
 const CELLS: f64 = 32.0;
@@ -15,7 +15,7 @@ const MAX_CELLS: f64 = 192.0;
 /// Distance of points, cells.
 const STEP: f32 = 0.35;
 /// Minimum cells across the shorter side of the image at the coarsest level.
-const COARSEST: usize = 12;
+const MIN_COARSE_CELLS: usize = 12;
 
 /// The cells of one level about an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,9 +46,9 @@ impl Level {
     }
 
     /// All levels of an image, finest first.
-    pub(super) fn of(raster: &Raster) -> Vec<Self> {
+    pub(super) fn all(raster: &Raster) -> Vec<Self> {
         let shorter = raster.width().min(raster.height());
-        (0..24).take_while(|l| *l == 0 || shorter >> l >= COARSEST).map(|l| Self::new(raster, l)).collect()
+        (0..24).take_while(|l| *l == 0 || shorter >> l >= MIN_COARSE_CELLS).map(|l| Self::new(raster, l)).collect()
     }
 
     /// The cell whose centre lies at or before that of a pixel's column or row, and the fraction towards the next.
@@ -66,7 +66,7 @@ impl Level {
 
 /// Light on a window of a level: area of the beam over area of the cell, by wavelength.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Laid {
+pub(super) struct SplattedLight {
     /// The level.
     pub(super) level: usize,
     /// First column and row of the window.
@@ -81,11 +81,11 @@ pub(super) struct Laid {
 
 /// Splats the footprints (by wavelength) of a source in the direction `outward` from the axis with a fraction of all light; `None` if nothing falls
 /// on the image.
-pub(super) fn lay(footprints: &[Footprint], outward: DVec2, share: f64, levels: &[Level]) -> Option<Laid> {
+pub(super) fn splat_footprints(footprints: &[Footprint], outward: DVec2, fraction: f64, levels: &[Level]) -> Option<SplattedLight> {
     let bounds = bounds(footprints)?;
-    let level = level(bounds, share, levels);
+    let level = level(bounds, fraction, levels);
     let at = &levels[level];
-    let mut window = Window::new(bounds, outward, at)?;
+    let mut window = SplatWindow::new(bounds, outward, at)?;
     let (mut cosines, mut area) = (0.0, 0.0);
     let light = footprints.iter().map(|footprint| {
         let step_mm = STEP * at.cell_mm.min_element() as f32;
@@ -98,7 +98,7 @@ pub(super) fn lay(footprints: &[Footprint], outward: DVec2, share: f64, levels: 
     });
     let light: Vec<Vec<f32>> = light.collect();
     let lit = light.iter().flatten().any(|value| *value > 0.0);
-    lit.then(|| Laid { level, from: window.from, columns: window.size[0], light, cosine: cosines / area })
+    lit.then(|| SplattedLight { level, from: window.from, columns: window.size[0], light, cosine: cosines / area })
 }
 
 /// A box about all footprints, mm.
@@ -109,14 +109,14 @@ fn bounds(footprints: &[Footprint]) -> Option<[DVec2; 2]> {
 }
 
 /// The coarsest level with enough cells across a ghost for the fraction of its source.
-fn level(bounds: [DVec2; 2], share: f64, levels: &[Level]) -> usize {
-    let cells = (CELLS * (share / SHARE).max(1.0).sqrt()).min(MAX_CELLS);
+fn level(bounds: [DVec2; 2], fraction: f64, levels: &[Level]) -> usize {
+    let cells = (CELLS * (fraction / SPLIT_FRACTION).max(1.0).sqrt()).min(MAX_CELLS);
     let cell_mm = (bounds[1] - bounds[0]).max_element() / cells;
     levels.iter().rposition(|level| level.cell_mm.max_element() <= cell_mm).unwrap_or(0)
 }
 
 /// Part of a level.
-struct Window {
+struct SplatWindow {
     from: [usize; 2],
     size: [usize; 2],
     light: Vec<f32>,
@@ -127,25 +127,25 @@ struct Window {
     y_axis: [f32; 2],
 }
 
-impl Window {
+impl SplatWindow {
     fn new([low, high]: [DVec2; 2], outward: DVec2, level: &Level) -> Option<Self> {
         let turned = |x: f64, y: f64| level.place(outward * x + outward.perp() * y);
         let corners = [turned(low.x, low.y), turned(low.x, high.y), turned(high.x, low.y), turned(high.x, high.y)];
-        let least = corners.into_iter().reduce(DVec2::min)?.floor().max(DVec2::ZERO);
+        let minimum = corners.into_iter().reduce(DVec2::min)?.floor().max(DVec2::ZERO);
         let all = DVec2::new(level.columns as f64, level.rows as f64);
-        let most = (corners.into_iter().reduce(DVec2::max)?.floor() + 2.0).min(all);
-        let size = most - least;
+        let maximum = (corners.into_iter().reduce(DVec2::max)?.floor() + 2.0).min(all);
+        let size = maximum - minimum;
         if !(size.x > 0.0 && size.y > 0.0) {
             return None;
         }
-        let (from, size) = ([least.x as usize, least.y as usize], [size.x as usize, size.y as usize]);
+        let (from, size) = ([minimum.x as usize, minimum.y as usize], [size.x as usize, size.y as usize]);
         let single = |v: DVec2| [v.x as f32, v.y as f32];
         Some(Self {
             from,
             size,
             light: vec![0.0; size[0] * size[1]],
             per_mm2: (1.0 / level.area_mm2) as f32,
-            origin: single(level.place(DVec2::ZERO) - least),
+            origin: single(level.place(DVec2::ZERO) - minimum),
             x_axis: single(outward / level.cell_mm),
             y_axis: single(outward.perp() / level.cell_mm),
         })

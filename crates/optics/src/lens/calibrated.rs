@@ -24,18 +24,18 @@ use etendue_projection::{Calibration, Raster};
 use glam::{DVec2, DVec3};
 
 use super::field_angles;
-use super::paraxial_properties::{Falloff, FalloffBy, LateralColour, ParaxialProperties};
+use super::paraxial_properties::{Falloff, FalloffArgument, LateralColour, ParaxialProperties};
 use crate::error::OpticsError;
 use crate::overlap::{f_number, positive};
 use crate::pupil::{MM, concentric_disc};
 
 /// Orientation of the entrance pupil over the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PupilStance {
+pub enum PupilOrientation {
     /// A disc across the axis.
     Flat,
     /// Turned towards each direction.
-    Turning,
+    Oriented,
 }
 
 /// Parameters of a calibrated camera.
@@ -52,7 +52,7 @@ pub struct CalibratedParameters {
     /// Focus distance, m; infinity is legal. `None`: everything is sharp.
     pub focus_distance_m: Option<f64>,
     /// Orientation of the pupil; `None`: flat for projections that see less than 180°, else turning.
-    pub pupil: Option<PupilStance>,
+    pub pupil: Option<PupilOrientation>,
     /// Measured relative illumination.
     pub relative_illumination: Option<Falloff>,
 }
@@ -62,7 +62,7 @@ pub struct CalibratedParameters {
 pub struct Calibrated {
     parameters: CalibratedParameters,
     pub(super) lateral_colour: Option<LateralColour>,
-    pupil: PupilStance,
+    pupil: PupilOrientation,
     focal_length_mm: f64,
     /// τ A_p in mm², or (where the illumination is measured) E/L on the axis, sr.
     scale: f64,
@@ -96,14 +96,14 @@ impl Calibrated {
             return Err(OpticsError::FocusTooNear { focus_m, least_m: 0.0 });
         }
         let matrix = parameters.calibration.matrix();
-        let seen = parameters.calibration.solid_angle_per_area(DVec2::new(matrix.cx, matrix.cy));
-        let sr_per_px2 = seen.filter(|s| *s > 0.0).ok_or(OpticsError::BlindCentre { x: matrix.cx, y: matrix.cy })?;
+        let solid_angle_per_area = parameters.calibration.solid_angle_per_area(DVec2::new(matrix.cx, matrix.cy));
+        let sr_per_px2 = solid_angle_per_area.filter(|s| *s > 0.0).ok_or(OpticsError::BlindCentre { x: matrix.cx, y: matrix.cy })?;
         let focal_length_mm = pitch_mm / sr_per_px2.sqrt();
         let axis_sr = transmittance * PI / (4.0 * n * n);
         let measured = parameters.relative_illumination.is_some();
         let scale = if measured { axis_sr } else { axis_sr * focal_length_mm * focal_length_mm };
         let wide = parameters.calibration.model().edge().angle_rad > core::f64::consts::FRAC_PI_2;
-        let by_field = if wide { PupilStance::Turning } else { PupilStance::Flat };
+        let by_field = if wide { PupilOrientation::Oriented } else { PupilOrientation::Flat };
         let pupil = parameters.pupil.unwrap_or(by_field);
         Ok(Self { pupil, lateral_colour: None, focal_length_mm, scale, parameters })
     }
@@ -116,7 +116,7 @@ impl Calibrated {
 
     /// Orientation of the pupil.
     #[must_use]
-    pub fn pupil(&self) -> PupilStance {
+    pub fn pupil(&self) -> PupilOrientation {
         self.pupil
     }
 
@@ -149,16 +149,16 @@ impl Calibrated {
 
     /// Extent of an image in the argument of a relative illumination: to its farthest corner with a direction, or to the edge of the projection if a
     /// corner has none.
-    fn reach(&self, raster: &Raster, by: FalloffBy) -> f64 {
+    fn reach(&self, raster: &Raster, by: FalloffArgument) -> f64 {
         let [width, height] = self.parameters.calibration.size_px().map(|size| size as f64);
         let corners = [0.0, 0.5, 1.0].map(|x| [0.0, 0.5, 1.0].map(|y| DVec2::new(x * width, y * height)));
         let angle = |px: DVec2| self.parameters.calibration.unproject(px).map(field_angle_deg);
         match by {
-            FalloffBy::Radius => raster.max_radius_mm(),
-            FalloffBy::Angle => {
+            FalloffArgument::Radius => raster.max_radius_mm(),
+            FalloffArgument::Angle => {
                 let calibration = &self.parameters.calibration;
                 let end = calibration.model().edge().angle_rad;
-                let edge = calibration.greatest_angle_rad().map_or(end, |angle| angle.min(end)).to_degrees();
+                let edge = calibration.max_angle_rad().map_or(end, |angle| angle.min(end)).to_degrees();
                 corners.as_flattened().iter().map(|px| angle(*px).unwrap_or(edge)).fold(0.0, f64::max)
             }
         }
@@ -166,7 +166,7 @@ impl Calibrated {
 
     /// Checks that the model looks at about r/f near the principal point.
     fn check_course(&self, radius_mm: f64) -> Result<(), OpticsError> {
-        let limited = self.parameters.calibration.greatest_angle_rad().is_some();
+        let limited = self.parameters.calibration.max_angle_rad().is_some();
         let ideal = |r_mm: f64| {
             let direction = self.direction(DVec2::new(r_mm, 0.0));
             let angle = direction.map(|d| etendue_core::maths::f64::atan2(d.truncate().length(), d.z));
@@ -200,8 +200,8 @@ impl Calibrated {
             let direction = self.parameters.calibration.unproject(at_px)?;
             self.foreshortening(direction)?;
             let field = match table.by() {
-                FalloffBy::Radius => sensor_mm.length(),
-                FalloffBy::Angle => field_angle_deg(direction),
+                FalloffArgument::Radius => sensor_mm.length(),
+                FalloffArgument::Angle => field_angle_deg(direction),
             };
             return Some(at_the_centre(direction, self.scale * table.at(field)));
         }
@@ -218,8 +218,8 @@ impl Calibrated {
     /// The fraction of the pupil's area seen from a direction; `None` if no light comes from it.
     fn foreshortening(&self, direction: DVec3) -> Option<f64> {
         match self.pupil {
-            PupilStance::Flat => (direction.z > 0.0).then_some(direction.z),
-            PupilStance::Turning => Some(1.0),
+            PupilOrientation::Flat => (direction.z > 0.0).then_some(direction.z),
+            PupilOrientation::Oriented => Some(1.0),
         }
     }
 
@@ -239,8 +239,8 @@ impl Calibrated {
         let ahead = principal.direction;
         let at = q * (self.pupil_radius_mm() * MM);
         let (origin_m, sharp) = match self.pupil {
-            PupilStance::Flat => (at.extend(0.0), ahead / ahead.z),
-            PupilStance::Turning => {
+            PupilOrientation::Flat => (at.extend(0.0), ahead / ahead.z),
+            PupilOrientation::Oriented => {
                 let (x, y) = ahead.any_orthonormal_pair();
                 (x * at.x + y * at.y, ahead)
             }

@@ -48,9 +48,9 @@ fn cubic([a, b, c, d]: [f64; 4], t: f64) -> f64 {
 }
 
 /// Maximum extent of an image from its principal point, in focal lengths: 89.994° of a lens without distortion.
-const WIDEST: f64 = 1e4;
+const MAX_EXTENT: f64 = 1e4;
 /// Maximum factor by which a distortion may stretch or shrink a distance from the principal point.
-const WILD: f64 = 1e3;
+const MAX_STRETCH: f64 = 1e3;
 
 /// Fractions of the image's extent at which a distortion is checked.
 pub(super) const ALL: [f64; 3] = [1e-3, 0.1, 1.0];
@@ -65,12 +65,12 @@ pub(super) fn check(
     parts: &[f64],
     ideal: impl Fn(f64) -> Option<f64>,
 ) -> Result<(), OpticsError> {
-    if radius_mm > WIDEST * focal_length_mm {
+    if radius_mm > MAX_EXTENT * focal_length_mm {
         return Err(OpticsError::TooWide { radius_mm, focal_length_mm });
     }
     let at = parts.iter().map(|part| part * radius_mm).find_map(|radius_mm| {
         let ratio = ideal(radius_mm).map_or(f64::NAN, |ideal_mm| ideal_mm / radius_mm);
-        let sane = (1.0 / WILD..=WILD).contains(&ratio);
+        let sane = (1.0 / MAX_STRETCH..=MAX_STRETCH).contains(&ratio);
         (!sane).then_some(OpticsError::WildDistortion { radius_mm, ratio })
     });
     at.map_or(Ok(()), Err)

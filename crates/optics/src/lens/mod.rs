@@ -47,13 +47,13 @@ use etendue_projection::{RadialDistortion, Raster};
 
 use crate::error::OpticsError;
 
-pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
-pub use paraxial_properties::{Falloff, FalloffBy, LateralColour, PupilStatements};
-pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
+pub use calibrated::{Calibrated, CalibratedParameters, PupilOrientation};
+pub use paraxial_properties::{Falloff, FalloffArgument, LateralColour, PupilParameters};
+pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, PrescriptionLens, Spot};
 pub use rays::TruthRay;
 pub use simple::{Pinhole, PinholeParameters, Telecentric, TelecentricParameters, Thin, ThinParameters};
-pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
-pub use transferred::{SensorPlace, Transferred};
+pub use thick::{ConstantPupil, ClippingAperture, Thick, ThickParameters};
+pub use transferred::{SensorPlace, RayTransferLens};
 
 pub(crate) use field_angles::FieldAngles;
 pub(crate) use prescribed::DIRECTIONS;
@@ -68,9 +68,9 @@ pub enum Lens {
     /// Principal planes, pupils and apertures.
     Thick(Thick),
     /// Surfaces, glasses, a stop: traced.
-    Prescription(Arc<Prescribed>),
+    Prescription(Arc<PrescriptionLens>),
     /// Ray-transfer functions: one step per ray.
-    RayTransfer(Arc<Transferred>),
+    RayTransfer(Arc<RayTransferLens>),
     /// Viewing directions by a projection.
     Calibrated(Arc<Calibrated>),
     /// Every pixel looks along the axis.
@@ -104,13 +104,13 @@ impl Lens {
 
     /// Creates a lens from a prescription.
     #[must_use]
-    pub fn prescription(lens: Prescribed) -> Self {
+    pub fn prescription(lens: PrescriptionLens) -> Self {
         Self::Prescription(Arc::new(lens))
     }
 
     /// Creates a lens from ray-transfer functions.
     #[must_use]
-    pub fn ray_transfer(lens: Transferred) -> Self {
+    pub fn ray_transfer(lens: RayTransferLens) -> Self {
         Self::RayTransfer(Arc::new(lens))
     }
 

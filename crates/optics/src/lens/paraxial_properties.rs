@@ -81,7 +81,7 @@ impl ParaxialProperties {
 
 /// Statements about the pupils: none (pupils in the principal planes), one, or several that agree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PupilStatements {
+pub struct PupilParameters {
     /// Position of the entrance pupil, mm.
     pub entrance_pupil_mm: Option<f64>,
     /// Position of the exit pupil, mm.
@@ -93,7 +93,7 @@ pub struct PupilStatements {
 /// Maximum relative difference between two statements of the pupil magnification.
 const PUPIL_AGREEMENT: f64 = 1e-6;
 
-impl PupilStatements {
+impl PupilParameters {
     /// The pupil magnification given by the statements; 1 if there is none.
     pub(super) fn magnification(&self, focal_mm: f64, separation_mm: f64) -> Result<f64, OpticsError> {
         let position = |m: f64| separation_mm + focal_mm * (1.0 - m);
@@ -136,11 +136,11 @@ pub(crate) struct Conjugates {
 impl Conjugates {
     pub(crate) fn new(focal_mm: f64, pupil_magnification: f64, focus_m: f64) -> Result<Self, OpticsError> {
         let inverse_focus_per_mm = MM / focus_m;
-        let least_mm = focal_mm / pupil_magnification;
+        let min_mm = focal_mm / pupil_magnification;
         // Written with the inverse so that infinity needs no special case: |m| = f/F / (1 − f/(m_p F)).
-        let room = 1.0 - least_mm * inverse_focus_per_mm;
+        let room = 1.0 - min_mm * inverse_focus_per_mm;
         if focus_m.is_nan() || focus_m <= 0.0 || room <= 0.0 {
-            return Err(OpticsError::FocusTooNear { focus_m, least_m: least_mm * MM });
+            return Err(OpticsError::FocusTooNear { focus_m, least_m: min_mm * MM });
         }
         let magnification = focal_mm * inverse_focus_per_mm / room;
         let principal_distance_mm = focal_mm * (1.0 + magnification / pupil_magnification);
@@ -176,14 +176,14 @@ impl PupilSize {
 
 /// The argument of a relative illumination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FalloffBy {
+pub enum FalloffArgument {
     /// The distance from the principal point, mm.
     Radius,
     /// The angle from the axis in front of the lens, degrees.
     Angle,
 }
 
-impl FalloffBy {
+impl FalloffArgument {
     pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Radius => " mm from the principal point",
@@ -195,7 +195,7 @@ impl FalloffBy {
 /// A table of relative illumination: linear interpolation, the end value beyond.
 #[derive(Clone, PartialEq)]
 pub struct Falloff {
-    by: FalloffBy,
+    argument: FalloffArgument,
     points: Vec<(f64, f64)>,
 }
 
@@ -203,8 +203,8 @@ pub struct Falloff {
 impl Debug for Falloff {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Falloff");
-        if self.by != FalloffBy::Radius {
-            text.field("by", &self.by);
+        if self.argument != FalloffArgument::Radius {
+            text.field("by", &self.argument);
         }
         text.field("points", &self.points).finish()
     }
@@ -216,18 +216,18 @@ impl Falloff {
     /// # Errors
     /// If the points violate this.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
-        Self::over(FalloffBy::Radius, points)
+        Self::over(FalloffArgument::Radius, points)
     }
 
     /// Creates the table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
     ///
     /// # Errors
     /// If the points violate this.
-    pub fn over(by: FalloffBy, points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
+    pub fn over(by: FalloffArgument, points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
         let legal = points.iter().all(|(r, ratio)| r.is_finite() && ratio.is_finite() && *ratio >= 0.0);
         if points.first() == Some(&(0.0, 1.0)) && rising && legal {
-            Ok(Self { by, points })
+            Ok(Self { argument: by, points })
         } else {
             Err(OpticsError::Falloff)
         }
@@ -235,14 +235,14 @@ impl Falloff {
 
     /// The argument of the table.
     #[must_use]
-    pub fn by(&self) -> FalloffBy {
-        self.by
+    pub fn by(&self) -> FalloffArgument {
+        self.argument
     }
 
     /// Refuses an image that reaches beyond the table.
     pub(super) fn check(&self, needed: f64) -> Result<(), OpticsError> {
         let end = self.points.last().map_or(0.0, |(r, _)| *r);
-        if end >= needed { Ok(()) } else { Err(OpticsError::FalloffEnds { end, needed, unit: self.by.unit() }) }
+        if end >= needed { Ok(()) } else { Err(OpticsError::FalloffEnds { end, needed, unit: self.argument.unit() }) }
     }
 
     /// The ratio at a distance (mm) or an angle (degrees).

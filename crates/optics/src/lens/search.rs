@@ -15,7 +15,7 @@ pub(super) fn last_open(mut bracket: [f64; 2], halvings: usize, is_open: impl Fn
 }
 
 /// The largest distance up to `reach_mm` below which all steps are lit; `None` if the first is dark.
-pub(super) fn lit_as_far_as(reach_mm: f64, steps: usize, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
+pub(super) fn max_lit_radius(reach_mm: f64, steps: usize, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
     let at = |i: usize| reach_mm * i as f64 / steps as f64;
     let Some(dark) = (0..=steps).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };
     Some(last_open([at(dark.checked_sub(1)?), at(dark)], 30, is_lit))
@@ -48,10 +48,10 @@ mod tests {
     #[test]
     fn edges_are_found_between_steps() {
         assert!((last_open([1.0, 2.0], 40, |x| x < 1.3) - 1.3).abs() < 1e-10);
-        let lit = lit_as_far_as(10.0, 96, |x| x < 7.03).expect("lit at 0");
+        let lit = max_lit_radius(10.0, 96, |x| x < 7.03).expect("lit at 0");
         assert!((lit - 7.03).abs() < 1e-6, "{lit}");
-        assert_eq!(lit_as_far_as(10.0, 96, |_| true), Some(10.0));
-        assert_eq!(lit_as_far_as(10.0, 96, |_| false), None);
+        assert_eq!(max_lit_radius(10.0, 96, |_| true), Some(10.0));
+        assert_eq!(max_lit_radius(10.0, 96, |_| false), None);
         assert!((towards(1, 4) - DVec2::Y).length() < 1e-15);
     }
 }

@@ -47,7 +47,7 @@
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
 
-use super::paraxial_properties::{Conjugates, ParaxialProperties, PupilSize, PupilStatements};
+use super::paraxial_properties::{Conjugates, ParaxialProperties, PupilSize, PupilParameters};
 use crate::error::OpticsError;
 use crate::overlap::{Disc, PRINCIPAL_NM, clipped_etendue_sr, finite, open_centroid, positive};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
@@ -66,13 +66,13 @@ pub struct ThickParameters {
     /// Position of the rear principal plane, mm.
     pub principal_separation_mm: f64,
     /// Statements about the pupils.
-    pub pupils: PupilStatements,
+    pub pupils: PupilParameters,
     /// The pupil that keeps its area over the field.
     pub constant_pupil: ConstantPupil,
     /// Aperture before the lens.
-    pub front_aperture: Option<Rim>,
+    pub front_aperture: Option<ClippingAperture>,
     /// Aperture behind the lens.
-    pub rear_aperture: Option<Rim>,
+    pub rear_aperture: Option<ClippingAperture>,
 }
 
 /// The pupil whose area does not change over the field.
@@ -86,7 +86,7 @@ pub enum ConstantPupil {
 
 /// A round aperture centred on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rim {
+pub struct ClippingAperture {
     /// Position, mm.
     pub position_mm: f64,
     /// Radius, mm.
@@ -101,12 +101,12 @@ pub struct Thick {
     pub(super) conjugates: Conjugates,
     pub(super) size: PupilSize,
     pub(super) pupil_magnification: f64,
-    rims: Rims,
+    apertures: ClippingApertures,
 }
 
 /// The front and rear apertures relative to the pupils; distances in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Rims {
+struct ClippingApertures {
     /// Distance from the entrance pupil towards the scene, and radius.
     front: Option<[f64; 2]>,
     /// Distance from the exit pupil towards the sensor, and radius.
@@ -114,7 +114,7 @@ struct Rims {
 }
 
 /// The bundle of one sensor point.
-struct Bundle {
+struct PointBundle {
     pencil: Pencil,
     /// The exit pupil as seen from the sensor point.
     view: PupilView,
@@ -139,10 +139,10 @@ impl Thick {
             conjugates,
             size,
             pupil_magnification,
-            rims: Rims { front: None, rear: None },
+            apertures: ClippingApertures { front: None, rear: None },
         };
-        lens.rims.front = p.front_aperture.map(|rim| lens.front_aperture(rim)).transpose()?;
-        lens.rims.rear = p.rear_aperture.map(|rim| lens.rear_aperture(rim)).transpose()?;
+        lens.apertures.front = p.front_aperture.map(|aperture| lens.front_aperture(aperture)).transpose()?;
+        lens.apertures.rear = p.rear_aperture.map(|aperture| lens.rear_aperture(aperture)).transpose()?;
         Ok(lens)
     }
 
@@ -192,7 +192,7 @@ impl Thick {
     /// The ray through the centroid of the unvignetted part of the pupil.
     pub(super) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
-        let centroid = open_centroid(self.rim_discs(&bundle, sensor_mm.length()))?;
+        let centroid = open_centroid(self.aperture_discs(&bundle, sensor_mm.length()))?;
         self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid, PRINCIPAL_NM)
     }
 
@@ -201,7 +201,7 @@ impl Thick {
         let bundle = self.bundle(sensor_mm)?;
         let axis = sensor_mm.normalize_or(DVec2::X);
         let open = |disc: Disc| (q - axis * disc.centre).length_squared() <= disc.radius * disc.radius;
-        if !self.rim_discs(&bundle, sensor_mm.length()).into_iter().flatten().all(open) {
+        if !self.aperture_discs(&bundle, sensor_mm.length()).into_iter().flatten().all(open) {
             return None;
         }
         let weight_sr = self.properties.transmittance * bundle.view.weight_sr(sensor_mm, q * bundle.view.radius_mm);
@@ -214,11 +214,11 @@ impl Thick {
 
     pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         let Some(bundle) = self.bundle(sensor_mm) else { return 0.0 };
-        let rims = self.rim_discs(&bundle, sensor_mm.length());
-        let clipped = rims.into_iter().flatten().any(|disc| disc.clips_unit_disc());
+        let discs = self.aperture_discs(&bundle, sensor_mm.length());
+        let clipped = discs.into_iter().flatten().any(|disc| disc.clips_unit_disc());
         self.properties.transmittance
             * if clipped {
-                clipped_etendue_sr(&bundle.view, sensor_mm.length(), rims)
+                clipped_etendue_sr(&bundle.view, sensor_mm.length(), discs)
             } else {
                 bundle.view.projected_solid_angle_sr(sensor_mm)
             }
@@ -230,7 +230,7 @@ impl Thick {
     }
 
     /// The bundle at 587.56 nm; apertures and pupils do not depend on the wavelength.
-    fn bundle(&self, sensor_mm: DVec2) -> Option<Bundle> {
+    fn bundle(&self, sensor_mm: DVec2) -> Option<PointBundle> {
         let tangent = self.tangent(sensor_mm, PRINCIPAL_NM)?;
         let entrance_mm = self.size.entrance_radius_mm;
         let exit_mm = entrance_mm * self.pupil_magnification;
@@ -239,7 +239,7 @@ impl Thick {
             ConstantPupil::Entrance => (entrance_mm, exit_mm * growth),
             ConstantPupil::Exit => (entrance_mm / growth, exit_mm),
         };
-        Some(Bundle {
+        Some(PointBundle {
             pencil: Pencil { tangent, inverse_focus_per_mm: self.conjugates.inverse_focus_per_mm },
             view: PupilView { distance_mm: self.exit_distance_mm(), radius_mm },
             entrance_radius_mm,
@@ -254,22 +254,22 @@ impl Thick {
     }
 
     /// The apertures as discs in the plane of the unit disc, centres along the direction of the sensor point.
-    fn rim_discs(&self, bundle: &Bundle, sensor_radius_mm: f64) -> [Option<Disc>; 2] {
-        let front = self.rims.front.map(|[towards_scene, radius]| {
+    fn aperture_discs(&self, bundle: &PointBundle, sensor_radius_mm: f64) -> [Option<Disc>; 2] {
+        let front = self.apertures.front.map(|[towards_scene, radius]| {
             let scale = bundle.entrance_radius_mm * (1.0 - towards_scene * self.conjugates.inverse_focus_per_mm);
             Disc { centre: -towards_scene * bundle.pencil.tangent.length() / scale, radius: radius / scale }
         });
-        let rear = self.rims.rear.map(|[towards_sensor, radius]| {
-            let share = towards_sensor / bundle.view.distance_mm;
-            let scale = bundle.view.radius_mm * (1.0 - share);
-            Disc { centre: sensor_radius_mm * share / scale, radius: radius / scale }
+        let rear = self.apertures.rear.map(|[towards_sensor, radius]| {
+            let fraction = towards_sensor / bundle.view.distance_mm;
+            let scale = bundle.view.radius_mm * (1.0 - fraction);
+            Disc { centre: sensor_radius_mm * fraction / scale, radius: radius / scale }
         });
         [front, rear]
     }
 
-    fn front_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
-        let position_mm = finite("front_aperture.position_mm", rim.position_mm)?;
-        let radius_mm = positive("front_aperture.radius_mm", rim.radius_mm)?;
+    fn front_aperture(&self, aperture: ClippingAperture) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("front_aperture.position_mm", aperture.position_mm)?;
+        let radius_mm = positive("front_aperture.radius_mm", aperture.radius_mm)?;
         let ahead_mm = self.entrance_pupil_position_mm() - position_mm;
         let left = 1.0 - ahead_mm * self.conjugates.inverse_focus_per_mm;
         if left <= 0.0 {
@@ -281,13 +281,13 @@ impl Thick {
                 plane_mm,
             });
         }
-        rim_is_wide_enough("front_aperture", radius_mm, self.size.entrance_radius_mm * left)?;
+        check_aperture_width("front_aperture", radius_mm, self.size.entrance_radius_mm * left)?;
         Ok([ahead_mm, radius_mm])
     }
 
-    fn rear_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
-        let position_mm = finite("rear_aperture.position_mm", rim.position_mm)?;
-        let radius_mm = positive("rear_aperture.radius_mm", rim.radius_mm)?;
+    fn rear_aperture(&self, aperture: ClippingAperture) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("rear_aperture.position_mm", aperture.position_mm)?;
+        let radius_mm = positive("rear_aperture.radius_mm", aperture.radius_mm)?;
         let behind_mm = position_mm - self.exit_pupil_position_mm();
         let left = 1.0 - behind_mm / self.exit_distance_mm();
         if left <= 0.0 {
@@ -295,7 +295,7 @@ impl Thick {
             return Err(OpticsError::RimMisplaced { rim: "rear_aperture", position_mm, plane: "sensor", plane_mm });
         }
         let exit_radius_mm = self.size.entrance_radius_mm * self.pupil_magnification;
-        rim_is_wide_enough("rear_aperture", radius_mm, exit_radius_mm * left)?;
+        check_aperture_width("rear_aperture", radius_mm, exit_radius_mm * left)?;
         Ok([behind_mm, radius_mm])
     }
 }
@@ -303,9 +303,9 @@ impl Thick {
 /// Tolerance for an aperture as wide as the bundle.
 const RIM_ROUNDING: f64 = 1e-12;
 
-fn rim_is_wide_enough(rim: &'static str, radius_mm: f64, needed_mm: f64) -> Result<(), OpticsError> {
+fn check_aperture_width(aperture: &'static str, radius_mm: f64, needed_mm: f64) -> Result<(), OpticsError> {
     if radius_mm * (1.0 + RIM_ROUNDING) >= needed_mm {
         return Ok(());
     }
-    Err(OpticsError::RimIsStop { rim, radius_mm, needed_mm })
+    Err(OpticsError::RimIsStop { rim: aperture, radius_mm, needed_mm })
 }

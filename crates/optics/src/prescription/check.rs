@@ -1,12 +1,12 @@
 //! Checks of a prescription, and the steps from the stated surfaces to a lens that is opened and focused.
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
-use super::paraxial::{self, AxialOpening, OtherRims};
+use super::paraxial::{self, AxialOpening, AxialClipping};
 use super::surface::{Shape, Surface};
-use super::trace::{self, LensRay, Loss, Lost, Rims, Way, walk};
+use super::trace::{self, LensRay, RayLossReason, RayLoss, ApertureTest, TravelDirection, walk};
 use super::{Prescription, PrescriptionParameters, coating::Coating, focus, indices::IndexTable};
 use crate::error::PrescriptionError;
 
@@ -28,34 +28,34 @@ fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, 
 
 /// A wavelength within the range of the index tables.
 fn reference(nm: f64) -> Result<f64, PrescriptionError> {
-    if (SHORTEST_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
+    if (MIN_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
 }
 
 fn numbers(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
-    let fault = |name, value, expected| Err(PrescriptionError::Number { surface, name, value, expected });
+    let error = |name, value, expected| Err(PrescriptionError::Number { surface, name, value, expected });
     if s.radius_mm == 0.0 || s.radius_mm.is_nan() {
-        return fault("radius_mm", s.radius_mm, "it must not be zero; infinity (or leaving it out) is a plane");
+        return error("radius_mm", s.radius_mm, "it must not be zero; infinity (or leaving it out) is a plane");
     }
     finite_number(surface, "conic", s.conic)?;
     s.asphere.iter().try_for_each(|a| finite_number(surface, "asphere", *a).map(|_| ()))?;
     if !(s.semi_aperture_mm > 0.0 && s.semi_aperture_mm.is_finite()) {
-        return fault("semi_aperture_mm", s.semi_aperture_mm, "it must be positive and finite");
+        return error("semi_aperture_mm", s.semi_aperture_mm, "it must be positive and finite");
     }
     if !(s.thickness_mm >= 0.0 && s.thickness_mm.is_finite()) {
-        return fault("thickness_mm", s.thickness_mm, "it must be finite and not negative");
+        return error("thickness_mm", s.thickness_mm, "it must be finite and not negative");
     }
     match s.coating {
         Coating::Constant(value) if !(value > 0.0 && value <= 1.0) => {
-            fault("transmittance", value, "it must be above 0 and at most 1")
+            error("transmittance", value, "it must be above 0 and at most 1")
         }
         Coating::QuarterWave { design_nm } if !(design_nm > 0.0 && design_nm.is_finite()) => {
-            fault("design_wavelength_nm", design_nm, "it must be positive and finite")
+            error("design_wavelength_nm", design_nm, "it must be positive and finite")
         }
-        _ => rim(surface, s),
+        _ => check_clear_aperture(surface, s),
     }
 }
 
-fn rim(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
+fn check_clear_aperture(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
     let semi_aperture_mm = s.semi_aperture_mm;
     let ends = s.shape().sag(semi_aperture_mm).is_none();
     if ends { Err(PrescriptionError::Equator { surface, semi_aperture_mm }) } else { Ok(()) }
@@ -87,9 +87,9 @@ pub(super) fn overlaps(surfaces: &[Surface]) -> Result<(), PrescriptionError> {
 
 fn overlap(pair: [&Surface; 2], gap_mm: f64, first: usize, second: usize) -> Result<(), PrescriptionError> {
     let shapes = pair.map(Surface::shape);
-    let least = pair[0].semi_aperture_mm.min(pair[1].semi_aperture_mm);
+    let minimum = pair[0].semi_aperture_mm.min(pair[1].semi_aperture_mm);
     for i in 0..=HEIGHTS {
-        let height_mm = least * i as f64 / HEIGHTS as f64;
+        let height_mm = minimum * i as f64 / HEIGHTS as f64;
         let sag = |shape: &Shape| shape.sag(height_mm).unwrap_or(0.0);
         let overlap_mm = sag(&shapes[0]) - sag(&shapes[1]) - gap_mm;
         if overlap_mm > TOUCHING_MM {
@@ -100,31 +100,31 @@ fn overlap(pair: [&Surface; 2], gap_mm: f64, first: usize, second: usize) -> Res
 }
 
 /// Fraction of the entrance pupil, from its centre, that must be open on the axis: published apertures are rounded.
-const OPEN: f64 = 0.99;
+const MIN_OPEN_FRACTION: f64 = 0.99;
 /// The same if other clear apertures may clip: below it the difference is more than rounding.
-const OPEN_OR_CLIPPED: f64 = 0.999;
+const MIN_UNCLIPPED_FRACTION: f64 = 0.999;
 const STEPS: usize = 32;
 /// Bisections of a step, down to rounding.
 const HALVINGS: usize = 50;
 
 /// Checks that the bundle of the axial point in focus passes: without total reflection, and limited by the stop alone unless other clear apertures
 /// may clip it.
-fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpening, PrescriptionError> {
-    let open = if other_rims == OtherRims::Clip { OPEN_OR_CLIPPED } else { OPEN };
+fn axial_bundle(lens: &Prescription, other_rims: AxialClipping) -> Result<AxialOpening, PrescriptionError> {
+    let open = if other_rims == AxialClipping::Clip { MIN_UNCLIPPED_FRACTION } else { MIN_OPEN_FRACTION };
     let stop_mm = lens.stop_mm();
     for step in 0..=STEPS {
-        let share = open * step as f64 / STEPS as f64;
-        let Some(lost) = lost_at(lens, share) else { continue };
+        let fraction = open * step as f64 / STEPS as f64;
+        let Some(lost) = loss_at(lens, fraction) else { continue };
         if lost.surface == lens.stop {
             return Ok(AxialOpening::STOP);
         }
-        let (surface, height_mm) = (lost.surface + 1, share * stop_mm);
+        let (surface, height_mm) = (lost.surface + 1, fraction * stop_mm);
         return match lost.loss {
-            Loss::Clipped if other_rims == OtherRims::Clip && step > 0 => {
+            RayLossReason::Clipped if other_rims == AxialClipping::Clip && step > 0 => {
                 let passes = open * (step - 1) as f64 / STEPS as f64;
-                Ok(AxialOpening { share: edge(lens, passes, share), limit: Some(lost.surface) })
+                Ok(AxialOpening { radius_ratio: edge(lens, passes, fraction), limit: Some(lost.surface) })
             }
-            Loss::TotalReflection => Err(PrescriptionError::TotalReflection { surface, height_mm }),
+            RayLossReason::TotalReflection => Err(PrescriptionError::TotalReflection { surface, height_mm }),
             _ => Err(PrescriptionError::NotTheStop { surface, height_mm, stop_mm }),
         };
     }
@@ -132,16 +132,16 @@ fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpeni
 }
 
 /// The loss of the ray at a fraction of the entrance pupil's radius, at the reference wavelength; `None` if it passes.
-fn lost_at(lens: &Prescription, share: f64) -> Option<Lost> {
-    let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
-    walk(&lens.elements, 0, Way::ToSensor, &lens.media(lens.reference_nm), ray, &mut Rims::Clip).err()
+fn loss_at(lens: &Prescription, fraction: f64) -> Option<RayLoss> {
+    let ray = axial_ray(lens, fraction * lens.paraxial.entrance_radius_mm);
+    walk(&lens.elements, 0, TravelDirection::ToSensor, &lens.media(lens.reference_nm), ray, &mut ApertureTest::Clip).err()
 }
 
 /// The largest passing fraction, between one that passes and one that does not.
 fn edge(lens: &Prescription, mut passes: f64, mut lost: f64) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (passes + lost);
-        if lost_at(lens, middle).is_none() {
+        if loss_at(lens, middle).is_none() {
             passes = middle;
         } else {
             lost = middle;
@@ -163,7 +163,7 @@ impl Prescription {
     /// # Errors
     /// If the surfaces do not form a lens, or it cannot be focused as requested.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
-        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, other_rims } = parameters;
+        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, axial_clipping: other_rims } = parameters;
         let stop = check_surfaces(&surfaces)?;
         let (list, places) = trace::media(&surfaces)?;
         let table = IndexTable::new(&list);
@@ -194,7 +194,7 @@ impl Prescription {
             axial_opening: AxialOpening::STOP,
         };
         lens.axial_opening = axial_bundle(&lens, other_rims)?;
-        lens.paraxial = paraxial.clipped(lens.axial_opening.share);
+        lens.paraxial = paraxial.clipped(lens.axial_opening.radius_ratio);
         Ok(lens)
     }
 }

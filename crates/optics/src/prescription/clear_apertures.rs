@@ -11,8 +11,8 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::DVec3;
 
-use super::surface::{Hit, Surface};
-use super::trace::{Element, Journey, LensRay, Loss, Rims, Way, walk};
+use super::surface::{SurfaceHit, Surface};
+use super::trace::{Element, SurfaceVisitor, LensRay, RayLossReason, ApertureTest, TravelDirection, walk};
 use super::{Media, Prescription, coating::Crossing};
 
 /// A point of the field in the meridional plane.
@@ -42,19 +42,19 @@ pub struct FieldBundle {
 
 /// Step of the slope search, rad, and its limit on either side of the axis.
 const STEP: f64 = 0.25 * PI / 180.0;
-const STEEPEST: f64 = 85.0 * PI / 180.0;
+const MAX_SLOPE_RAD: f64 = 85.0 * PI / 180.0;
 /// Bisections of that step, down to rounding.
 const HALVINGS: usize = 50;
 
 /// The heights of the rays at every surface, mm; the stop's is `stop_mm`.
 struct Heights {
-    most_mm: Vec<f64>,
+    max_mm: Vec<f64>,
 }
 
-impl Journey for Heights {
-    fn crosses(&mut self, index: usize, _: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
-        let most = &mut self.most_mm[index];
-        *most = most.max(hit.point.truncate().length());
+impl SurfaceVisitor for Heights {
+    fn crosses(&mut self, index: usize, _: &Element, hit: &SurfaceHit, _: &Crossing) -> Result<(), RayLossReason> {
+        let maximum = &mut self.max_mm[index];
+        *maximum = maximum.max(hit.point.truncate().length());
         Ok(())
     }
 }
@@ -70,15 +70,15 @@ pub fn clear_apertures_mm(
     bundles: &[FieldBundle],
     wavelengths_nm: &[f64],
 ) -> Result<Vec<f64>, usize> {
-    let mut heights = Heights { most_mm: vec![0.0; lens.surfaces.len()] };
+    let mut heights = Heights { max_mm: vec![0.0; lens.surfaces.len()] };
     for nm in wavelengths_nm {
         let stop = FromStop { lens, media: lens.media(*nm) };
         for (i, bundle) in bundles.iter().enumerate() {
             stop.trace(bundle, stop_mm, &mut heights).ok_or(i)?;
         }
     }
-    heights.most_mm[lens.stop] = stop_mm;
-    Ok(heights.most_mm)
+    heights.max_mm[lens.stop] = stop_mm;
+    Ok(heights.max_mm)
 }
 
 /// Meridional rays from the stop, at a wavelength.
@@ -109,17 +109,17 @@ impl FromStop<'_> {
     }
 
     /// The ray in front of the lens, towards the scene.
-    fn out(&self, height_mm: f64, angle: f64, journey: &mut impl Journey) -> Option<LensRay> {
+    fn out(&self, height_mm: f64, angle: f64, journey: &mut impl SurfaceVisitor) -> Option<LensRay> {
         let before = &self.lens.elements[..self.lens.stop];
-        walk(before, 0, Way::ToScene, &self.media, self.ray(height_mm, angle)?, journey).ok()
+        walk(before, 0, TravelDirection::ToScene, &self.media, self.ray(height_mm, angle)?, journey).ok()
     }
 
     /// Position where it meets the sensor plane, mm.
-    fn image(&self, height_mm: f64, angle: f64, journey: &mut impl Journey) -> Option<f64> {
+    fn image(&self, height_mm: f64, angle: f64, journey: &mut impl SurfaceVisitor) -> Option<f64> {
         let mut ray = self.ray(height_mm, angle)?;
         ray.direction = -ray.direction;
         let behind = &self.lens.elements[self.lens.stop..];
-        let out = walk(behind, self.lens.stop, Way::ToSensor, &self.media, ray, journey).ok()?;
+        let out = walk(behind, self.lens.stop, TravelDirection::ToSensor, &self.media, ray, journey).ok()?;
         Some(out.point.x + (self.lens.sensor_position_mm - out.point.z) * out.direction.x / out.direction.z)
     }
 
@@ -127,14 +127,14 @@ impl FromStop<'_> {
     fn missed(&self, point: FieldPoint, height_mm: f64, angle: f64) -> Option<f64> {
         let missed = match point {
             FieldPoint::Angle(rad) => {
-                let direction = self.out(height_mm, angle, &mut Rims::Ignore)?.direction;
+                let direction = self.out(height_mm, angle, &mut ApertureTest::Ignore)?.direction;
                 atan2(-direction.x, -direction.z) - rad
             }
             FieldPoint::Object { height_mm: wanted_mm, distance_mm } => {
-                let LensRay { point, direction } = self.out(height_mm, angle, &mut Rims::Ignore)?;
+                let LensRay { point, direction } = self.out(height_mm, angle, &mut ApertureTest::Ignore)?;
                 point.x + (-distance_mm - point.z) * direction.x / direction.z - wanted_mm
             }
-            FieldPoint::Image(wanted_mm) => self.image(height_mm, angle, &mut Rims::Ignore)? - wanted_mm,
+            FieldPoint::Image(wanted_mm) => self.image(height_mm, angle, &mut ApertureTest::Ignore)? - wanted_mm,
         };
         Some(missed).filter(|x| x.is_finite())
     }
@@ -147,11 +147,11 @@ impl FromStop<'_> {
             return Some(guess);
         }
         let mut last = [(guess, at_guess); 2];
-        let steps = (2.0 * STEEPEST / STEP) as usize;
+        let steps = (2.0 * MAX_SLOPE_RAD / STEP) as usize;
         for i in 1..=steps {
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
                 let next = guess + sign * STEP * i as f64;
-                if next.abs() > STEEPEST {
+                if next.abs() > MAX_SLOPE_RAD {
                     continue;
                 }
                 let (before, value) = (last[side], missed(next));

@@ -147,7 +147,7 @@ impl InterferenceFilter {
 
 #[cfg(test)]
 mod tests {
-    use etendue_spectra::Outside;
+    use etendue_spectra::Extrapolation;
 
     use super::*;
 
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn the_edge_moves_to_the_blue_with_the_angle() {
         let points = [(300.0, 1.0), (640.0, 1.0), (660.0, 0.0), (1100.0, 0.0)];
-        let edge = Spectrum::from_points(&points, Outside::Hold).expect("a table");
+        let edge = Spectrum::from_points(&points, Extrapolation::Hold).expect("a table");
         let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
         // Half transmittance at 650 nm; at 30° at 650 √(1 − 0.25/3.24) = 624.4 nm.
         assert!((filter.transmittance(650.0, 1.0) - 0.5).abs() < 1e-6);

@@ -40,7 +40,7 @@ pub enum Focus {
 
 /// A focused lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Focused {
+pub(super) struct FocusedLens {
     /// Sensor position without defocus, mm behind the last vertex.
     pub(super) image_mm: f64,
     /// Distance of the plane in focus from the entrance pupil, m.
@@ -103,8 +103,8 @@ pub(super) fn open(
     let needed_mm = focal_length_mm / (2.0 * f_number) * magnified.abs();
     // Tolerance for a prescription's own rounded f-number, which opens the stop fully.
     if needed_mm > open_mm * 1.001 {
-        let least = focal_length_mm * magnified.abs() / (2.0 * open_mm);
-        return Err(PrescriptionError::TooFast { f_number, needed_mm, open_mm, least });
+        let minimum = focal_length_mm * magnified.abs() / (2.0 * open_mm);
+        return Err(PrescriptionError::TooFast { f_number, needed_mm, open_mm, least: minimum });
     }
     surfaces[stop].semi_aperture_mm = needed_mm.min(open_mm);
     Ok(())
@@ -117,19 +117,19 @@ pub(super) fn focused(
     focus: Focus,
     places: &[[usize; 2]],
     media: &Media,
-) -> Result<Focused, PrescriptionError> {
+) -> Result<FocusedLens, PrescriptionError> {
     match focus {
         Focus::Fixed { back_focus_mm } => {
             let state = State::new(surfaces, stop, places, media);
             let image_mm = behind(back_focus_mm)?;
             let distance_m = conjugate_m(&state, image_mm);
-            Ok(Focused { image_mm, distance_m, magnification: state.magnification(distance_m) })
+            Ok(FocusedLens { image_mm, distance_m, magnification: state.magnification(distance_m) })
         }
         Focus::Sensor { distance_m } => at(&State::new(surfaces, stop, places, media), legal(distance_m)?),
         Focus::Group { distance_m, first, last } => {
             let sensor_position_mm = behind(State::new(surfaces, stop, places, media).image_mm(f64::INFINITY))?;
             let group = Group::new(surfaces, first, last, sensor_position_mm)?;
-            group.bring(surfaces, legal(distance_m)?, |s| State::new(s, stop, places, media))
+            group.solve_group(surfaces, legal(distance_m)?, |s| State::new(s, stop, places, media))
         }
     }
 }
@@ -143,9 +143,9 @@ fn behind(distance_mm: f64) -> Result<f64, PrescriptionError> {
     if real { Ok(distance_mm) } else { Err(PrescriptionError::ImageInside { distance_mm }) }
 }
 
-fn at(state: &State, distance_m: f64) -> Result<Focused, PrescriptionError> {
+fn at(state: &State, distance_m: f64) -> Result<FocusedLens, PrescriptionError> {
     let image_mm = behind(state.image_mm(distance_m))?;
-    Ok(Focused { image_mm, distance_m, magnification: state.magnification(distance_m) })
+    Ok(FocusedLens { image_mm, distance_m, magnification: state.magnification(distance_m) })
 }
 
 /// The distance from the entrance pupil that is sharp on a sensor at `image_mm`: infinity if there is none in front.
@@ -208,12 +208,12 @@ impl Group {
     }
 
     /// The smallest shift that focuses the distance, by scanning outwards and bisection.
-    fn bring(
+    fn solve_group(
         &self,
         surfaces: &mut [Surface],
         focus_m: f64,
         state: impl Fn(&[Surface]) -> State,
-    ) -> Result<Focused, PrescriptionError> {
+    ) -> Result<FocusedLens, PrescriptionError> {
         const STEPS: i32 = 400;
         let mut error = |shift_mm: f64| {
             let back_mm = self.shift(surfaces, shift_mm);
@@ -222,13 +222,13 @@ impl Group {
         let start = error(0.0);
         // Fine steps near the start, where most lenses focus, coarse at the ends.
         let reach = |limit: f64, i: i32| limit * (f64::from(i) / f64::from(STEPS)) * (f64::from(i) / f64::from(STEPS));
-        let found = (1..=STEPS).flat_map(|i| [(self.low_mm, i), (self.high_mm, i)]).find_map(|(limit, i)| {
+        let sign_change = (1..=STEPS).flat_map(|i| [(self.low_mm, i), (self.high_mm, i)]).find_map(|(limit, i)| {
             let bracket = [reach(limit, i - 1), reach(limit, i)];
             let ends = bracket.map(&mut error);
             let crosses = ends[0] * ends[1] <= 0.0 && (ends[0] - ends[1]).abs() < 1e3;
             crosses.then_some((bracket, ends))
         });
-        let shift_mm = match (start.abs() < 1e-12, found) {
+        let shift_mm = match (start.abs() < 1e-12, sign_change) {
             (true, _) => 0.0,
             (false, Some((bracket, ends))) => bisect(&mut error, bracket, ends),
             (false, None) => {
@@ -237,7 +237,7 @@ impl Group {
             }
         };
         let image_mm = behind(self.shift(surfaces, shift_mm))?;
-        Ok(Focused { image_mm, distance_m: focus_m, magnification: state(surfaces).magnification(focus_m) })
+        Ok(FocusedLens { image_mm, distance_m: focus_m, magnification: state(surfaces).magnification(focus_m) })
     }
 }
 

@@ -12,8 +12,8 @@
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
-use super::trace::{Element, Journey, LensRay, Loss, Lost, Way, bounce, walk};
-use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, surface::Hit};
+use super::trace::{Element, SurfaceVisitor, LensRay, RayLossReason, RayLoss, TravelDirection, bounce, walk};
+use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, surface::SurfaceHit};
 
 /// Two surfaces, counted from 0 at the scene, between which light is reflected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,32 +48,32 @@ pub struct GhostFirstOrder {
 }
 
 /// Records weights and the filling of clear apertures; nothing is clipped.
-struct Note {
+struct GhostVisitor {
     nm: f64,
     weight: f64,
     filling: f64,
 }
 
-impl Journey for Note {
+impl SurfaceVisitor for GhostVisitor {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss> {
+    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason> {
         self.filling = self.filling.max(element.filling(hit));
         self.weight *= element.coating.transmittance(crossing, self.nm);
         Ok(())
     }
 }
 
-impl Note {
+impl GhostVisitor {
     fn bounce(
         &mut self,
         elements: &[Element],
         at: usize,
-        way: Way,
+        direction: TravelDirection,
         media: &Media,
         ray: LensRay,
-    ) -> Result<LensRay, Lost> {
-        let bounced = bounce(&elements[at], way, media, ray, self.nm);
-        let (ray, hit, reflectance) = bounced.map_err(|loss| Lost { surface: at, loss })?;
+    ) -> Result<LensRay, RayLoss> {
+        let bounced = bounce(&elements[at], direction, media, ray, self.nm);
+        let (ray, hit, reflectance) = bounced.map_err(|loss| RayLoss { surface: at, loss })?;
         self.filling = self.filling.max(elements[at].filling(&hit));
         self.weight *= reflectance;
         Ok(ray)
@@ -98,22 +98,22 @@ impl Prescription {
     ///
     /// # Errors
     /// If it misses a surface or is totally reflected where it should pass.
-    pub fn ghost(&self, pair: GhostPair, ray: LensRay, nm: f64) -> Result<GhostRay, Lost> {
+    pub fn ghost(&self, pair: GhostPair, ray: LensRay, nm: f64) -> Result<GhostRay, RayLoss> {
         self.ghost_in(pair, ray, nm, &self.media(nm))
     }
 
-    pub(crate) fn ghost_in(&self, pair: GhostPair, ray: LensRay, nm: f64, media: &Media) -> Result<GhostRay, Lost> {
+    pub(crate) fn ghost_in(&self, pair: GhostPair, ray: LensRay, nm: f64, media: &Media) -> Result<GhostRay, RayLoss> {
         let GhostPair { front, rear } = pair;
         let elements = &self.elements;
-        let mut note = Note { nm, weight: 1.0, filling: 0.0 };
-        let ray = walk(&elements[..rear], 0, Way::ToSensor, media, ray, &mut note)?;
+        let mut note = GhostVisitor { nm, weight: 1.0, filling: 0.0 };
+        let ray = walk(&elements[..rear], 0, TravelDirection::ToSensor, media, ray, &mut note)?;
         let ray = match rear == elements.len() {
             true => self.off_sensor(ray),
-            false => note.bounce(elements, rear, Way::ToSensor, media, ray)?,
+            false => note.bounce(elements, rear, TravelDirection::ToSensor, media, ray)?,
         };
-        let ray = walk(&elements[front + 1..rear], front + 1, Way::ToScene, media, ray, &mut note)?;
-        let ray = note.bounce(elements, front, Way::ToScene, media, ray)?;
-        let ray = walk(&elements[front + 1..], front + 1, Way::ToSensor, media, ray, &mut note)?;
+        let ray = walk(&elements[front + 1..rear], front + 1, TravelDirection::ToScene, media, ray, &mut note)?;
+        let ray = note.bounce(elements, front, TravelDirection::ToScene, media, ray)?;
+        let ray = walk(&elements[front + 1..], front + 1, TravelDirection::ToSensor, media, ray, &mut note)?;
         Ok(GhostRay { ray, weight: note.weight, filling: note.filling })
     }
 
@@ -147,12 +147,12 @@ impl Prescription {
     /// First order of a pair's ghost at a wavelength.
     #[must_use]
     pub fn ghost_first_order(&self, pair: GhostPair, nm: f64) -> GhostFirstOrder {
-        let m = self.folded(pair, &self.media(nm));
+        let m = self.folded_matrix(pair, &self.media(nm));
         GhostFirstOrder { spread: m.a, throw_mm: m.b, focus_mm: -m.a / m.c }
     }
 
     /// The matrix from the plane of the first vertex through both reflections to the sensor.
-    fn folded(&self, pair: GhostPair, media: &Media) -> Matrix {
+    fn folded_matrix(&self, pair: GhostPair, media: &Media) -> Matrix {
         let forward = |range: core::ops::Range<usize>| range.map(|i| (i, true));
         let mirrors_and_surfaces = forward(0..pair.rear + 1)
             .chain((pair.front + 1..pair.rear).rev().map(|i| (i, false)))
@@ -179,7 +179,7 @@ impl Prescription {
 /// Mean reflectance of a surface at normal incidence and at n sin θ = 0.6.
 fn typical(element: &Element, media: &Media, nm: f64) -> f64 {
     const INVARIANT: f64 = 0.6;
-    let n = element.indices(Way::ToSensor, media);
+    let n = element.indices(TravelDirection::ToSensor, media);
     let oblique = n.map(|n| (1.0 - (INVARIANT / n) * (INVARIANT / n)).sqrt());
     let reflectance = |cosine: [f64; 2]| 1.0 - element.coating.transmittance(&Crossing { n, cosine }, nm);
     0.5 * (reflectance([1.0; 2]) + reflectance(oblique))

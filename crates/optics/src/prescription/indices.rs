@@ -7,13 +7,13 @@
 use core::f64::consts::PI;
 
 use etendue_core::maths::f64::cos;
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_spectra::glass::Dispersion;
 
 const PIECES: usize = 40;
 /// Inverse of the longest wavelength, and a piece's width, 1/nm.
 const LOW: f64 = 1.0 / MAX_NM;
-const WIDTH: f64 = (1.0 / SHORTEST_NM - LOW) / PIECES as f64;
+const WIDTH: f64 = (1.0 / MIN_NM - LOW) / PIECES as f64;
 const COEFFICIENTS: usize = 8;
 
 /// Maximum number of different media in a lens.
@@ -43,7 +43,7 @@ impl IndexTable {
     /// The indices at a wavelength; clamped to the range 300 to 1 100 nm.
     #[inline]
     pub(super) fn at(&self, nm: f64) -> Media {
-        let inverse = 1.0 / nm.clamp(SHORTEST_NM, MAX_NM);
+        let inverse = 1.0 / nm.clamp(MIN_NM, MAX_NM);
         let piece = (((inverse - LOW) / WIDTH) as usize).min(PIECES - 1);
         let x = (inverse - centre(piece)) * (2.0 / WIDTH);
         let stride = COEFFICIENTS * self.media;
@@ -93,10 +93,10 @@ mod tests {
             let table = IndexTable::new(&media);
             for step in 0..=8000 {
                 let nm = 300.0 + 0.1 * f64::from(step);
-                let found = table.at(nm);
+                let tabulated = table.at(nm);
                 for (i, medium) in media.iter().enumerate() {
                     let allowed = if nm < 320.0 { 1e-7 } else { 1e-10 };
-                    assert!((found[i] - medium.index(nm)).abs() < allowed, "{} at {nm}", glasses[i].name);
+                    assert!((tabulated[i] - medium.index(nm)).abs() < allowed, "{} at {nm}", glasses[i].name);
                 }
             }
         }

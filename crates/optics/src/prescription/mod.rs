@@ -25,11 +25,11 @@ use glam::DVec3;
 use crate::overlap::PRINCIPAL_NM;
 use indices::{IndexTable, Media};
 use paraxial::{AxialOpening, Paraxial};
-use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
+use trace::{Element, ApertureFillingVisitor, LensRay, RayLoss, ApertureTest, TransmittanceVisitor, TravelDirection, walk};
 
 pub use crate::error::PrescriptionError;
 pub use focus::Focus;
-pub use paraxial::OtherRims;
+pub use paraxial::AxialClipping;
 pub use surface::Surface;
 
 /// Parameters of a prescription.
@@ -46,7 +46,7 @@ pub struct PrescriptionParameters {
     /// The wavelength of first-order quantities, of focusing and of the f-number, nm.
     pub reference_nm: f64,
     /// Treatment of a clear aperture other than the stop's that clips the bundle on the axis.
-    pub other_rims: OtherRims,
+    pub axial_clipping: AxialClipping,
 }
 
 impl PrescriptionParameters {
@@ -59,7 +59,7 @@ impl PrescriptionParameters {
             focus,
             defocus_mm: 0.0,
             reference_nm: PRINCIPAL_NM,
-            other_rims: OtherRims::Refused,
+            axial_clipping: AxialClipping::Refused,
         }
     }
 }
@@ -108,8 +108,8 @@ impl Prescription {
     /// First-order quantities at a wavelength.
     #[must_use]
     pub fn paraxial_at(&self, nm: f64) -> Paraxial {
-        let whole = paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm));
-        whole.clipped(self.axial_opening.share)
+        let paraxial_nm = paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm));
+        paraxial_nm.clipped(self.axial_opening.radius_ratio)
     }
 
     /// The surface other than the stop, from 0, whose clear aperture limits the bundle on the axis; `None` if the stop does.
@@ -120,8 +120,8 @@ impl Prescription {
 
     /// Radius of the bundle on the axis over that passed by the stop alone; 1 if no other clear aperture limits it.
     #[must_use]
-    pub fn axial_share(&self) -> f64 {
-        self.axial_opening.share
+    pub fn axial_radius_ratio(&self) -> f64 {
+        self.axial_opening.radius_ratio
     }
 
     /// Sensor position in the lens frame: mm from the first vertex.
@@ -170,41 +170,41 @@ impl Prescription {
     ///
     /// # Errors
     /// If the ray is lost.
-    pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
-        self.through(ray, Way::ToSensor, nm)
+    pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), RayLoss> {
+        self.through(ray, TravelDirection::ToSensor, nm)
     }
 
     /// Traces a ray from the sensor (its direction towards the scene) to before the first surface; returns it with the transmittance of the surfaces.
     ///
     /// # Errors
     /// If the ray is lost.
-    pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
-        self.through(ray, Way::ToScene, nm)
+    pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), RayLoss> {
+        self.through(ray, TravelDirection::ToScene, nm)
     }
 
-    fn through(&self, ray: LensRay, way: Way, nm: f64) -> Result<(LensRay, f64), Lost> {
-        let mut journey = Through { nm, transmittance: 1.0 };
-        let ray = walk(&self.elements, 0, way, &self.table.at(nm), ray, &mut journey)?;
+    fn through(&self, ray: LensRay, direction: TravelDirection, nm: f64) -> Result<(LensRay, f64), RayLoss> {
+        let mut journey = TransmittanceVisitor { nm, transmittance: 1.0 };
+        let ray = walk(&self.elements, 0, direction, &self.table.at(nm), ray, &mut journey)?;
         Ok((ray, journey.transmittance))
     }
 
     /// Geometry only: traces a ray from the sensor to before the first surface, clipped or not.
     #[inline]
-    pub(crate) fn passes(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
-        walk(&self.elements, 0, Way::ToScene, media, ray, &mut rims)
+    pub(crate) fn passes(&self, ray: LensRay, media: &Media, mut test: ApertureTest) -> Result<LensRay, RayLoss> {
+        walk(&self.elements, 0, TravelDirection::ToScene, media, ray, &mut test)
     }
 
     /// Geometry only: traces a ray from the scene to behind the last surface, clipped or not.
-    pub(crate) fn arrives(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
-        walk(&self.elements, 0, Way::ToSensor, media, ray, &mut rims)
+    pub(crate) fn arrives(&self, ray: LensRay, media: &Media, mut test: ApertureTest) -> Result<LensRay, RayLoss> {
+        walk(&self.elements, 0, TravelDirection::ToSensor, media, ray, &mut test)
     }
 
     /// Largest ratio of a ray's distance from the axis to the clear aperture's radius over the surfaces on its `way`; above 1 the ray is clipped.
     /// `None` if it misses a surface or is totally reflected.
-    pub(crate) fn filling(&self, ray: LensRay, way: Way, media: &Media) -> Option<f64> {
-        let mut fullness = Fullness { most: 0.0 };
-        walk(&self.elements, 0, way, media, ray, &mut fullness).ok()?;
-        Some(fullness.most.sqrt())
+    pub(crate) fn filling(&self, ray: LensRay, direction: TravelDirection, media: &Media) -> Option<f64> {
+        let mut fullness = ApertureFillingVisitor { max_filling: 0.0 };
+        walk(&self.elements, 0, direction, media, ray, &mut fullness).ok()?;
+        Some(fullness.max_filling.sqrt())
     }
 
     /// Position of the paraxial image of the plane in focus at a wavelength, mm behind the last vertex.
@@ -217,8 +217,8 @@ impl Prescription {
     /// Smallest and largest distance of the last surface's clear aperture from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
         let vertex = self.sensor_position_mm - self.last_vertex_mm();
-        let rim = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
-        [vertex - rim.max(0.0), vertex - rim.min(0.0)]
+        let sag_mm = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
+        [vertex - sag_mm.max(0.0), vertex - sag_mm.min(0.0)]
     }
 
     /// Distance of the exit pupil before the sensor, mm; infinite for a telecentric lens.
@@ -234,27 +234,27 @@ impl Prescription {
     ///
     /// # Errors
     /// If it misses a surface or is totally reflected before.
-    pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, Lost> {
+    pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, RayLoss> {
         self.stop_point(ray, &self.media(nm))
     }
 
-    pub(crate) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
+    pub(crate) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, RayLoss> {
         let behind = &self.elements[self.stop + 1..];
-        let ray = walk(behind, self.stop + 1, Way::ToScene, media, ray, &mut Rims::Ignore)?;
+        let ray = walk(behind, self.stop + 1, TravelDirection::ToScene, media, ray, &mut ApertureTest::Ignore)?;
         self.at_stop_surface(ray, -1.0)
     }
 
     /// The same for a ray from the scene.
-    pub(crate) fn stop_point_from_scene(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
-        let ray = walk(&self.elements[..self.stop], 0, Way::ToSensor, media, ray, &mut Rims::Ignore)?;
+    pub(crate) fn stop_point_from_scene(&self, ray: LensRay, media: &Media) -> Result<DVec3, RayLoss> {
+        let ray = walk(&self.elements[..self.stop], 0, TravelDirection::ToSensor, media, ray, &mut ApertureTest::Ignore)?;
         self.at_stop_surface(ray, 1.0)
     }
 
-    fn at_stop_surface(&self, ray: LensRay, sense: f64) -> Result<DVec3, Lost> {
+    fn at_stop_surface(&self, ray: LensRay, sense: f64) -> Result<DVec3, RayLoss> {
         let element = &self.elements[self.stop];
         let vertex = DVec3::new(0.0, 0.0, element.z_mm);
         let hit = element.shape.hit(ray.point - vertex, ray.direction, sense);
-        hit.map(|h| h.point).ok_or(Lost { surface: self.stop, loss: trace::Loss::Missed })
+        hit.map(|h| h.point).ok_or(RayLoss { surface: self.stop, loss: trace::RayLossReason::Missed })
     }
 
     /// Transmittance of the coatings on the axis.

@@ -35,7 +35,7 @@ pub struct Paraxial {
 
 /// Treatment of a clear aperture other than the stop's that clips the bundle on the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OtherRims {
+pub enum AxialClipping {
     /// Refused: that clear aperture would be the stop.
     Refused,
     /// It clips, as edges and baffles in manufacturers' files do: pupils and f-number are those of the remaining bundle, their positions those of the
@@ -47,14 +47,14 @@ pub enum OtherRims {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AxialOpening {
     /// Its radius at the entrance pupil over that of the stop's image.
-    pub(super) share: f64,
+    pub(super) radius_ratio: f64,
     /// The surface whose clear aperture limits it, if that is not the stop.
     pub(super) limit: Option<usize>,
 }
 
 impl AxialOpening {
     /// Limited by the stop.
-    pub(super) const STOP: Self = Self { share: 1.0, limit: None };
+    pub(super) const STOP: Self = Self { radius_ratio: 1.0, limit: None };
 }
 
 impl Paraxial {
@@ -65,10 +65,10 @@ impl Paraxial {
     }
 
     /// The same for a bundle reduced to a fraction of the pupil radii.
-    pub(super) fn clipped(self, share: f64) -> Self {
+    pub(super) fn clipped(self, fraction: f64) -> Self {
         Self {
-            entrance_radius_mm: share * self.entrance_radius_mm,
-            exit_radius_mm: share * self.exit_radius_mm,
+            entrance_radius_mm: fraction * self.entrance_radius_mm,
+            exit_radius_mm: fraction * self.exit_radius_mm,
             ..self
         }
     }

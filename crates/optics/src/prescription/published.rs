@@ -1,32 +1,32 @@
 //! Published lenses, each with its source (`data/lenses/`), as examples and for validation.
 
-use etendue_spectra::glass::{Dispersion, named as catalogue};
+use etendue_spectra::glass::{Dispersion, by_name as catalogue};
 
 use super::surface::Surface;
 
 /// A published lens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Published {
+pub struct PublishedLens {
     /// Name in this list.
     pub name: &'static str,
     text: &'static str,
 }
 
 /// The list: double-gauss, wide-angle, fisheye, telephoto.
-pub const LENSES: [Published; 4] = [
-    Published { name: "double-gauss", text: include_str!("../../data/lenses/double_gauss.csv") },
-    Published { name: "wide-angle", text: include_str!("../../data/lenses/wide_angle.csv") },
-    Published { name: "fisheye", text: include_str!("../../data/lenses/fisheye.csv") },
-    Published { name: "telephoto", text: include_str!("../../data/lenses/telephoto.csv") },
+pub const LENSES: [PublishedLens; 4] = [
+    PublishedLens { name: "double-gauss", text: include_str!("../../data/lenses/double_gauss.csv") },
+    PublishedLens { name: "wide-angle", text: include_str!("../../data/lenses/wide_angle.csv") },
+    PublishedLens { name: "fisheye", text: include_str!("../../data/lenses/fisheye.csv") },
+    PublishedLens { name: "telephoto", text: include_str!("../../data/lenses/telephoto.csv") },
 ];
 
 /// A published lens by its name.
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Published> {
+pub fn named(name: &str) -> Option<&'static PublishedLens> {
     LENSES.iter().find(|lens| lens.name == name)
 }
 
-impl Published {
+impl PublishedLens {
     /// Description and source.
     #[must_use]
     pub fn source(&self) -> String {
@@ -56,7 +56,7 @@ fn glass(text: &str) -> Dispersion {
         _ if text == "air" => Dispersion::AIR,
         Some((n, v)) => {
             let [n, v] = [n, v].map(|t| t.parse().expect("a number in a file of the crate"));
-            Dispersion::of_abbe(n, v).expect("a glass in a file of the crate")
+            Dispersion::from_abbe(n, v).expect("a glass in a file of the crate")
         }
         None => catalogue(text).expect("a glass in a file of the crate").dispersion,
     }

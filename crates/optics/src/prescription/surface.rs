@@ -82,7 +82,7 @@ pub(crate) struct Asphere {
 
 /// Intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hit {
+pub(super) struct SurfaceHit {
     /// Position relative to the surface's vertex, mm.
     pub(super) point: DVec3,
     /// Unit normal, towards the sensor at the vertex.
@@ -106,7 +106,7 @@ impl Shape {
     /// Intersection of the ray from `p` (relative to the vertex) along the unit vector `d`, in the direction `sense` (1 towards the sensor, −1
     /// towards the scene); `None` if there is none.
     #[inline]
-    pub(super) fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+    pub(super) fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
         match self {
             Self::Plane => plane_hit(p, d, sense),
             Self::Sphere(c) => sphere_hit(*c, p, d, sense),
@@ -137,23 +137,23 @@ impl Shape {
 }
 
 #[inline]
-fn plane_hit(p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+fn plane_hit(p: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
     if d.z * sense <= 0.0 {
         return None;
     }
     let t = -p.z / d.z;
-    Some(Hit { point: DVec3::new(p.x + t * d.x, p.y + t * d.y, 0.0), normal: DVec3::Z })
+    Some(SurfaceHit { point: DVec3::new(p.x + t * d.x, p.y + t * d.y, 0.0), normal: DVec3::Z })
 }
 
 /// c |p + t d|² = 2 (p + t d)_z: c t² − 2 b t + q = 0, and direction · normal at the root is b − c t = ± √(b² − c q).
 #[inline]
-fn sphere_hit(c: f64, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+fn sphere_hit(c: f64, p: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
     let b = d.z - c * p.dot(d);
     let q = c * p.length_squared() - 2.0 * p.z;
     let t = root(c, b, q, sense)?;
     let point = p + d * t;
     let normal = DVec3::new(-c * point.x, -c * point.y, 1.0 - c * point.z);
-    (normal.z > 0.0).then_some(Hit { point, normal })
+    (normal.z > 0.0).then_some(SurfaceHit { point, normal })
 }
 
 /// The root of a t² − 2 b t + q = 0 at which b − a t has the sign of `sense`, without cancellation.
@@ -170,7 +170,7 @@ fn root(a: f64, b: f64, q: f64, sense: f64) -> Option<f64> {
 
 impl Conic {
     #[inline]
-    fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+    fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
         let Self { c, k } = *self;
         let a = c * (1.0 + k * d.z * d.z);
         let b = d.z - c * (p.dot(d) + k * p.z * d.z);
@@ -178,7 +178,7 @@ impl Conic {
         let t = root(a, b, q, sense)?;
         let point = p + d * t;
         let gradient = DVec3::new(-c * point.x, -c * point.y, 1.0 - c * (1.0 + k) * point.z);
-        (gradient.z > 0.0).then(|| Hit { point, normal: gradient.normalize() })
+        (gradient.z > 0.0).then(|| SurfaceHit { point, normal: gradient.normalize() })
     }
 
     /// Sag and its derivative by r², at r².
@@ -197,7 +197,7 @@ const NEWTON_STEPS: usize = 40;
 impl Asphere {
     /// Safeguarded Newton on f(t) = z(t) − sag(r²(t)), started at the conic's own intersection (or the vertex plane's). A step that does not lower
     /// |f| is halved.
-    fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+    fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
         let start = self.conic.hit(p, d, sense).or_else(|| plane_hit(p, d, sense))?.point;
         let (mut t, mut step) = ((start - p).dot(d), 0.0_f64);
         let mut f = self.residual(p + d * t, d);
@@ -226,10 +226,10 @@ impl Asphere {
         Some([point.z - sag, d.z - 2.0 * slope * (point.x * d.x + point.y * d.y)])
     }
 
-    fn at(&self, point: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
+    fn at(&self, point: DVec3, d: DVec3, sense: f64) -> Option<SurfaceHit> {
         let [_, slope] = self.sag(point.x * point.x + point.y * point.y)?;
         let normal = DVec3::new(-2.0 * slope * point.x, -2.0 * slope * point.y, 1.0).normalize();
-        (d.dot(normal) * sense > 0.0).then_some(Hit { point, normal })
+        (d.dot(normal) * sense > 0.0).then_some(SurfaceHit { point, normal })
     }
 
     fn sag(&self, r2: f64) -> Option<[f64; 2]> {
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sphere_is_met_as_far_as_its_equator() {
+    fn a_sphere_is_hit_as_far_as_its_equator() {
         let dome = Shape::new(0.1, 0.0, [0.0; ASPHERE_TERMS]);
         // Straight across at 9 mm depth, from the side: crosses the dome's wall outwards, 0.5 mm before the equator.
         let inside = DVec3::new(0.0, 0.0, 9.5);

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::coating::{Coating, Crossing};
 use super::indices::{MAX_MEDIA, Media};
-use super::surface::{Hit, Shape, Surface};
+use super::surface::{SurfaceHit, Shape, Surface};
 use crate::error::PrescriptionError;
 
 /// A ray in the lens frame.
@@ -22,7 +22,7 @@ pub struct LensRay {
 
 /// Reason for the loss of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Loss {
+pub enum RayLossReason {
     /// The ray misses a surface.
     Missed,
     /// The ray meets a surface outside its clear aperture.
@@ -33,11 +33,11 @@ pub enum Loss {
 
 /// Surface and reason of a lost ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Lost {
+pub struct RayLoss {
     /// The surface, counted from 0 at the scene.
     pub surface: usize,
     /// Reason.
-    pub loss: Loss,
+    pub loss: RayLossReason,
 }
 
 /// A surface prepared for tracing.
@@ -61,26 +61,26 @@ impl Element {
 
     /// Refractive indices before and behind the surface, for a ray in this direction.
     #[inline]
-    pub(super) fn indices(&self, way: Way, media: &Media) -> [f64; 2] {
+    pub(super) fn indices(&self, direction: TravelDirection, media: &Media) -> [f64; 2] {
         let [a, b] = self.media.map(|i| media[i]);
-        if way == Way::ToSensor { [a, b] } else { [b, a] }
+        if direction == TravelDirection::ToSensor { [a, b] } else { [b, a] }
     }
 
     /// Squared distance of a hit from the axis over the squared radius of the clear aperture.
     #[inline]
-    pub(super) fn filling(&self, hit: &Hit) -> f64 {
+    pub(super) fn filling(&self, hit: &SurfaceHit) -> f64 {
         hit.point.truncate().length_squared() / self.open_mm2
     }
 }
 
 /// Direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum TravelDirection {
     ToSensor,
     ToScene,
 }
 
-impl Way {
+impl TravelDirection {
     #[inline]
     fn sense(self) -> f64 {
         if self == Self::ToSensor { 1.0 } else { -1.0 }
@@ -89,26 +89,26 @@ impl Way {
 
 /// Treatment of clear apertures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rims {
+pub(crate) enum ApertureTest {
     Clip,
     Ignore,
 }
 
 /// Visitor of a ray's surface crossings; may stop the ray.
-pub(super) trait Journey {
+pub(super) trait SurfaceVisitor {
     /// The ray crosses `element` at `hit` with these indices and cosines; false stops it.
-    fn crosses(&mut self, index: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss>;
+    fn crosses(&mut self, index: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason>;
 }
 
 /// Clear apertures clip, coatings attenuate.
-pub(super) struct Through {
+pub(super) struct TransmittanceVisitor {
     pub(super) nm: f64,
     pub(super) transmittance: f64,
 }
 
-impl Journey for Through {
+impl SurfaceVisitor for TransmittanceVisitor {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss> {
+    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason> {
         inside(element, hit)?;
         self.transmittance *= element.coating.transmittance(crossing, self.nm);
         Ok(())
@@ -116,31 +116,31 @@ impl Journey for Through {
 }
 
 /// Geometry: clear apertures only, or none.
-impl Journey for Rims {
+impl SurfaceVisitor for ApertureTest {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
+    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, _: &Crossing) -> Result<(), RayLossReason> {
         if *self == Self::Clip { inside(element, hit) } else { Ok(()) }
     }
 }
 
 /// The largest filling of the clear apertures on the way; nothing is clipped.
-pub(super) struct Fullness {
+pub(super) struct ApertureFillingVisitor {
     /// Largest squared distance from the axis over that of the clear aperture; above 1 the ray is clipped.
-    pub(super) most: f64,
+    pub(super) max_filling: f64,
 }
 
-impl Journey for Fullness {
+impl SurfaceVisitor for ApertureFillingVisitor {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
-        self.most = self.most.max(element.filling(hit));
+    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, _: &Crossing) -> Result<(), RayLossReason> {
+        self.max_filling = self.max_filling.max(element.filling(hit));
         Ok(())
     }
 }
 
 #[inline]
-fn inside(element: &Element, hit: &Hit) -> Result<(), Loss> {
+fn inside(element: &Element, hit: &SurfaceHit) -> Result<(), RayLossReason> {
     let r2 = hit.point.x * hit.point.x + hit.point.y * hit.point.y;
-    if r2 <= element.open_mm2 { Ok(()) } else { Err(Loss::Clipped) }
+    if r2 <= element.open_mm2 { Ok(()) } else { Err(RayLossReason::Clipped) }
 }
 
 /// Traces `ray` through the surfaces `elements` (numbered from `first`), in the order of its direction.
@@ -148,16 +148,16 @@ fn inside(element: &Element, hit: &Hit) -> Result<(), Loss> {
 pub(super) fn walk(
     elements: &[Element],
     first: usize,
-    way: Way,
+    direction: TravelDirection,
     media: &Media,
     mut ray: LensRay,
-    journey: &mut impl Journey,
-) -> Result<LensRay, Lost> {
+    journey: &mut impl SurfaceVisitor,
+) -> Result<LensRay, RayLoss> {
     let count = elements.len();
     for step in 0..count {
-        let index = if way == Way::ToSensor { step } else { count - 1 - step };
-        let lost = |loss| Lost { surface: first + index, loss };
-        ray = cross(&elements[index], first + index, way, media, ray, journey).map_err(lost)?;
+        let index = if direction == TravelDirection::ToSensor { step } else { count - 1 - step };
+        let lost = |loss| RayLoss { surface: first + index, loss };
+        ray = cross(&elements[index], first + index, direction, media, ray, journey).map_err(lost)?;
     }
     Ok(ray)
 }
@@ -166,37 +166,37 @@ pub(super) fn walk(
 fn cross(
     element: &Element,
     index: usize,
-    way: Way,
+    travel: TravelDirection,
     media: &Media,
     ray: LensRay,
-    journey: &mut impl Journey,
-) -> Result<LensRay, Loss> {
-    let hit = meet(element, way, ray)?;
-    let n = element.indices(way, media);
-    let refracted = refract(ray.direction, &hit, n[0] / n[1], way.sense());
-    let (direction, cosine) = refracted.ok_or(Loss::TotalReflection)?;
+    journey: &mut impl SurfaceVisitor,
+) -> Result<LensRay, RayLossReason> {
+    let hit = meet(element, travel, ray)?;
+    let n = element.indices(travel, media);
+    let refracted = refract(ray.direction, &hit, n[0] / n[1], travel.sense());
+    let (direction, cosine) = refracted.ok_or(RayLossReason::TotalReflection)?;
     journey.crosses(index, element, &hit, &Crossing { n, cosine })?;
     Ok(LensRay { point: hit.point + element.vertex(), direction })
 }
 
 /// Intersection of a ray with a surface, relative to its vertex.
 #[inline]
-fn meet(element: &Element, way: Way, ray: LensRay) -> Result<Hit, Loss> {
-    element.shape.hit(ray.point - element.vertex(), ray.direction, way.sense()).ok_or(Loss::Missed)
+fn meet(element: &Element, direction: TravelDirection, ray: LensRay) -> Result<SurfaceHit, RayLossReason> {
+    element.shape.hit(ray.point - element.vertex(), ray.direction, direction.sense()).ok_or(RayLossReason::Missed)
 }
 
 /// A ray in direction `way` reflected by a surface: d′ = d − 2 (d·n) n; with the reflectance.
 #[inline]
 pub(super) fn bounce(
     element: &Element,
-    way: Way,
+    travel: TravelDirection,
     media: &Media,
     ray: LensRay,
     nm: f64,
-) -> Result<(LensRay, Hit, f64), Loss> {
-    let hit = meet(element, way, ray)?;
-    let n = element.indices(way, media);
-    let reflectance = match refract(ray.direction, &hit, n[0] / n[1], way.sense()) {
+) -> Result<(LensRay, SurfaceHit, f64), RayLossReason> {
+    let hit = meet(element, travel, ray)?;
+    let n = element.indices(travel, media);
+    let reflectance = match refract(ray.direction, &hit, n[0] / n[1], travel.sense()) {
         Some((_, cosine)) => 1.0 - element.coating.transmittance(&Crossing { n, cosine }, nm),
         None => 1.0,
     };
@@ -207,7 +207,7 @@ pub(super) fn bounce(
 /// Snell's law: d′ = μ d + (± √(1 − μ²(1 − (d·n)²)) − μ d·n) n with μ = n₁/n₂; and both cosines. `None` for total
 /// reflection.
 #[inline]
-pub(super) fn refract(d: DVec3, hit: &Hit, mu: f64, sense: f64) -> Option<(DVec3, [f64; 2])> {
+pub(super) fn refract(d: DVec3, hit: &SurfaceHit, mu: f64, sense: f64) -> Option<(DVec3, [f64; 2])> {
     let along = d.dot(hit.normal);
     if mu == 1.0 {
         return Some((d, [along.abs(); 2]));
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn refraction_keeps_n_sine_and_the_plane_of_incidence() {
-        let hit = Hit { point: DVec3::ZERO, normal: DVec3::new(0.1, -0.2, 1.0).normalize() };
+        let hit = SurfaceHit { point: DVec3::ZERO, normal: DVec3::new(0.1, -0.2, 1.0).normalize() };
         let d = DVec3::new(0.3, 0.1, 1.0).normalize();
         let (out, cosine) = refract(d, &hit, 1.0 / 1.5, 1.0).expect("into glass");
         let sines = [d, out].map(|v| v.cross(hit.normal).length());
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn beyond_the_critical_angle_nothing_comes_through() {
-        let hit = Hit { point: DVec3::ZERO, normal: DVec3::Z };
+        let hit = SurfaceHit { point: DVec3::ZERO, normal: DVec3::Z };
         let at = |sine: f64| refract(DVec3::new(sine, 0.0, (1.0 - sine * sine).sqrt()), &hit, 1.5, 1.0);
         assert!(at(1.0 / 1.5 + 1e-9).is_none() && at(1.0 / 1.5 - 1e-9).is_some());
     }

@@ -13,7 +13,7 @@ use etendue_projection::Raster;
 use glam::DVec2;
 
 use super::cube::{BORDER_PX, Cube, Window};
-use super::projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
+use super::projection::{PupilProjection, MAX_RECTILINEAR_RAD};
 use super::{survey::Survey, view::Face};
 use crate::{error::OpticsError, lens::Lens};
 
@@ -36,10 +36,10 @@ impl PupilProjection {
         lens.check(raster)?;
         let raster = raster.widened(margin_px);
         let survey = Survey::new(lens, &raster, range);
-        if survey.looks.is_empty() {
+        if survey.samples.is_empty() {
             return Err(OpticsError::SeesNothing);
         }
-        if survey.widest_rad() <= WIDEST_RECTILINEAR_RAD {
+        if survey.widest_rad() <= MAX_RECTILINEAR_RAD {
             one_view(lens, &raster, &survey)
         } else {
             six_views(&survey)
@@ -56,15 +56,15 @@ pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
 }
 
 /// True if the sensor image is rectilinear itself.
-fn is_plain(lens: &Lens) -> bool {
+fn is_rectilinear(lens: &Lens) -> bool {
     let paraxial = matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_));
     paraxial && lens.distortion().is_none() && !lens.spreads_colours()
 }
 
 fn one_view(lens: &Lens, raster: &Raster, survey: &Survey) -> Result<PupilProjection, OpticsError> {
-    let plain = is_plain(lens);
+    let plain = is_rectilinear(lens);
     let central = raster.pitch_mm().min_element() / lens.principal_distance_mm();
-    let sides = || survey.looks.iter().filter_map(|look| look.sides_tan(Face::Front)).flatten();
+    let sides = || survey.samples.iter().filter_map(|sample| sample.sides_tan(Face::Front)).flatten();
     let pitch_tan = if plain { central } else { sides().fold(central, f64::min) };
     let [low, high] = bounds(survey, Face::Front, f64::INFINITY).ok_or(OpticsError::SeesNothing)?;
     let margin = if plain { 0.0 } else { 1.0 };
@@ -77,11 +77,11 @@ fn one_view(lens: &Lens, raster: &Raster, survey: &Survey) -> Result<PupilProjec
 }
 
 fn six_views(survey: &Survey) -> Result<PupilProjection, OpticsError> {
-    let longer = |look: &super::survey::Look| {
-        let [a, b] = look.sides_tan(Face::towards(look.direction))?;
+    let longer = |sample: &super::survey::SurveySample| {
+        let [a, b] = sample.sides_tan(Face::towards(sample.direction))?;
         Some(a.max(b))
     };
-    let finest = survey.looks.iter().filter_map(longer).fold(1.0, f64::min);
+    let finest = survey.samples.iter().filter_map(longer).fold(1.0, f64::min);
     let face_px = 2 * (1.0 / finest - ROUNDING_PX).ceil() as usize;
     Cube::new(face_px, Face::ALL.map(|face| window(survey, face, face_px))).map(PupilProjection::Cube)
 }
@@ -109,9 +109,9 @@ fn window(survey: &Survey, face: Face, face_px: usize) -> Option<Window> {
 fn bounds(survey: &Survey, face: Face, reach: f64) -> Option<[DVec2; 2]> {
     let step = survey.step_px as f64;
     let mut bounds: Option<[DVec2; 2]> = None;
-    for look in &survey.looks {
-        let Some(tangent) = face.tangent(look.direction) else { continue };
-        let side = look.sides_tan(face).map_or(0.0, |[a, b]| a.max(b));
+    for sample in &survey.samples {
+        let Some(tangent) = face.tangent(sample.direction) else { continue };
+        let side = sample.sides_tan(face).map_or(0.0, |[a, b]| a.max(b));
         // Sides grow without limit towards a right angle from the face's axis.
         if tangent.abs().max_element() > reach + (step * side).min(1.0) {
             continue;

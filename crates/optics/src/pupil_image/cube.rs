@@ -51,10 +51,10 @@ impl Cube {
             return Err(OpticsError::NoViews);
         }
         let widest = windows.iter().flatten().map(|w| w.width).max().unwrap_or(0);
-        let mut shelf = Shelf { limit: widest * 5 / 4, x: 0, y: 0, tallest: 0, width: 0 };
+        let mut packing = RowPacking { limit: widest * 5 / 4, x: 0, y: 0, row_height: 0, width: 0 };
         let view = |(face, window): (Face, Option<Window>)| {
             let window = window?;
-            let [x, y] = shelf.place(&window);
+            let [x, y] = packing.place(&window);
             let left = x as f64 - window.left as f64;
             let top = y as f64 - window.top as f64;
             Some(View {
@@ -67,7 +67,7 @@ impl Cube {
         };
         let mut placed = Face::ALL.into_iter().zip(windows).map(view);
         let views = core::array::from_fn(|_| placed.next().flatten());
-        Ok(Self { face_px, width: shelf.width, height: shelf.y + shelf.tallest, views })
+        Ok(Self { face_px, width: packing.width, height: packing.y + packing.row_height, views })
     }
 
     /// Columns and rows of a face.
@@ -127,24 +127,24 @@ fn grown(first: i64, length: usize, by: usize, face_px: usize) -> [i64; 2] {
 }
 
 /// Places rectangles in rows.
-struct Shelf {
+struct RowPacking {
     limit: usize,
     x: usize,
     y: usize,
-    tallest: usize,
+    row_height: usize,
     width: usize,
 }
 
-impl Shelf {
+impl RowPacking {
     fn place(&mut self, window: &Window) -> [usize; 2] {
         if self.x + window.width > self.limit {
-            self.y += self.tallest;
-            (self.x, self.tallest) = (0, 0);
+            self.y += self.row_height;
+            (self.x, self.row_height) = (0, 0);
         }
         let at = [self.x, self.y];
         self.x += window.width;
         self.width = self.width.max(self.x);
-        self.tallest = self.tallest.max(window.height);
+        self.row_height = self.row_height.max(window.height);
         at
     }
 }

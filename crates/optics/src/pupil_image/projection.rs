@@ -21,7 +21,7 @@ use crate::overlap::{finite, positive};
 
 /// The angle from the axis up to which one rectilinear view is used: 65°. There its pixels are 2.4 times as dense along the radius as a direction
 /// needs, and 5.6 times as many.
-pub const WIDEST_RECTILINEAR_RAD: f64 = 65.0 * core::f64::consts::PI / 180.0;
+pub const MAX_RECTILINEAR_RAD: f64 = 65.0 * core::f64::consts::PI / 180.0;
 
 /// The geometry of a radiance image as seen from the entrance pupil: the closed list.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,12 +63,12 @@ impl PupilProjection {
 
     /// [`Self::widened`] by a fraction of the view, or of the cube's faces.
     #[must_use]
-    pub fn overscanned(&self, share: f64) -> Self {
+    pub fn overscanned(&self, fraction: f64) -> Self {
         let [columns, rows] = match self {
             Self::Rectilinear(view) => view.size,
             Self::Cube(cube) => [cube.face_px(); 2],
         };
-        let pixels = |n: usize| (share * n as f64).ceil() as usize;
+        let pixels = |n: usize| (fraction * n as f64).ceil() as usize;
         self.widened(pixels(columns), pixels(rows))
     }
 

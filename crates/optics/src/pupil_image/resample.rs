@@ -20,7 +20,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::irradiance::{check_plane, check_size};
-use super::survey::{Aim, REACH, Survey};
+use super::survey::{ChiefRaySource, REACH, Survey};
 use super::view::{Face, View};
 use super::{covering::serves, projection::PupilProjection};
 use crate::{error::OpticsError, lens::Lens};
@@ -71,9 +71,9 @@ impl<'a> Resampling<'a> {
         let survey = Survey::new(lens, &raster, bands.range());
         check_covers(&stored, &survey)?;
         let widest = survey
-            .looks
+            .samples
             .iter()
-            .filter_map(|look| look.sides_tan(stored.view(look.direction)?.face()).map(|[a, b]| a.max(b)));
+            .filter_map(|sample| sample.sides_tan(stored.view(sample.direction)?.face()).map(|[a, b]| a.max(b)));
         let widest_px = widest.fold(0.0, f64::max) / stored.pitch_tan();
         let cells = ((widest_px / CELL_PX).ceil() as usize).clamp(CELLS.0, CELLS.1);
         Ok(Self { stored, lens, raster, cells })
@@ -110,12 +110,12 @@ impl<'a> Resampling<'a> {
         let mut result: Vec<Plane<Radiance>> = radiance.iter().map(empty).collect();
         let reach_mm = self.raster.max_radius_mm() * REACH;
         if !self.lens.spreads_colours() {
-            let aim = Aim::principal(self.lens, reach_mm);
+            let aim = ChiefRaySource::principal(self.lens, reach_mm);
             self.apply_to(&aim, radiance, &mut result)?;
             return Ok(result);
         }
         for (i, (from, to)) in radiance.iter().zip(&mut result).enumerate() {
-            let aim = Aim::new(self.lens, reach_mm, centre_nm(i));
+            let aim = ChiefRaySource::new(self.lens, reach_mm, centre_nm(i));
             self.apply_to(&aim, core::slice::from_ref(from), core::slice::from_mut(to))?;
         }
         Ok(result)
@@ -128,7 +128,7 @@ impl<'a> Resampling<'a> {
     /// If the plane's size is not that of the geometry.
     pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
         check_plane(plane, self.stored.width(), self.stored.height())?;
-        let aim = Aim::principal(self.lens, self.raster.max_radius_mm() * REACH);
+        let aim = ChiefRaySource::principal(self.lens, self.raster.max_radius_mm() * REACH);
         let mut result = Plane::filled(self.raster.width(), self.raster.height(), nothing);
         for y in 0..self.raster.height() {
             for x in 0..self.raster.width() {
@@ -141,7 +141,7 @@ impl<'a> Resampling<'a> {
     }
 
     /// Resamples planes by the chief rays of one wavelength, rows independently of each other.
-    fn apply_to(&self, aim: &Aim<'_>, from: &[Plane<Radiance>], to: &mut [Plane<Radiance>]) -> Result<(), OpticsError> {
+    fn apply_to(&self, aim: &ChiefRaySource<'_>, from: &[Plane<Radiance>], to: &mut [Plane<Radiance>]) -> Result<(), OpticsError> {
         let width = self.raster.width();
         let rows = (0..self.raster.height()).into_par_iter().map(|y| self.row(aim, y, from));
         let rows: Vec<Vec<f32>> = rows.collect::<Result<_, _>>()?;
@@ -154,31 +154,31 @@ impl<'a> Resampling<'a> {
     }
 
     /// A row of the sensor image in all planes, plane after plane.
-    fn row(&self, aim: &Aim<'_>, y: usize, from: &[Plane<Radiance>]) -> Result<Vec<f32>, OpticsError> {
+    fn row(&self, aim: &ChiefRaySource<'_>, y: usize, from: &[Plane<Radiance>]) -> Result<Vec<f32>, OpticsError> {
         let (n, width) = (self.cells, self.raster.width());
         let lines: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, y * n + i)).collect();
         let mut row = vec![0.0; from.len() * width];
         let mut taps = Vec::new();
         for x in 0..width {
             taps.clear();
-            let mut seen = 0;
+            let mut count = 0;
             for pair in lines.windows(2) {
-                seen += self.add_cells([&pair[0], &pair[1]], x * n, &mut taps)?;
+                count += self.add_cells([&pair[0], &pair[1]], x * n, &mut taps)?;
             }
-            if seen == 0 {
+            if count == 0 {
                 taps.extend(self.single_tap(aim, DVec2::new(x as f64, y as f64) + 0.5));
-                seen = taps.len();
+                count = taps.len();
             }
-            let share = 1.0 / seen.max(1) as f64;
+            let fraction = 1.0 / count.max(1) as f64;
             for (i, plane) in from.iter().enumerate() {
-                row[i * width + x] = weighted(plane, &taps, share);
+                row[i * width + x] = weighted(plane, &taps, fraction);
             }
         }
         Ok(row)
     }
 
     /// Directions at the corners of the cells along the line `index` cells below the top.
-    fn corner_row(&self, aim: &Aim<'_>, index: usize) -> Vec<Option<DVec3>> {
+    fn corner_row(&self, aim: &ChiefRaySource<'_>, index: usize) -> Vec<Option<DVec3>> {
         let side = 1.0 / self.cells as f64;
         let at = |i: usize| aim.direction(self.raster.sensor_mm(DVec2::new(i as f64, index as f64) * side));
         (0..=self.raster.width() * self.cells).map(at).collect()
@@ -187,15 +187,15 @@ impl<'a> Resampling<'a> {
     /// Adds the stored pixels of one row of a pixel's cells, from the cell `first` on; the weights of each cell sum to one. Returns the number of lit
     /// cells.
     fn add_cells(&self, rows: Corners<'_>, first: usize, taps: &mut Vec<Tap>) -> Result<usize, OpticsError> {
-        let mut seen = 0;
+        let mut count = 0;
         for i in first..first + self.cells {
             let [above, below] = rows;
             if let [Some(a), Some(b), Some(c), Some(d)] = [above[i], above[i + 1], below[i], below[i + 1]] {
                 self.add_cell([a, b, c, d], taps)?;
-                seen += 1;
+                count += 1;
             }
         }
-        Ok(seen)
+        Ok(count)
     }
 
     fn add_cell(&self, corners: [DVec3; 4], taps: &mut Vec<Tap>) -> Result<(), OpticsError> {
@@ -220,11 +220,11 @@ impl<'a> Resampling<'a> {
     }
 
     /// The stored pixel for a pixel at the edge of the image circle whose centre is lit but none of whose cells is.
-    fn single_tap(&self, aim: &Aim<'_>, raster_px: DVec2) -> Option<Tap> {
+    fn single_tap(&self, aim: &ChiefRaySource<'_>, raster_px: DVec2) -> Option<Tap> {
         self.nearest_index(aim, raster_px).map(|index| Tap { index, weight: 1.0 })
     }
 
-    fn nearest_index(&self, aim: &Aim<'_>, raster_px: DVec2) -> Option<usize> {
+    fn nearest_index(&self, aim: &ChiefRaySource<'_>, raster_px: DVec2) -> Option<usize> {
         let direction = aim.direction(self.raster.sensor_mm(raster_px))?;
         let view = self.stored.view(direction)?;
         let px = view.px(direction)?;
@@ -237,11 +237,11 @@ impl<'a> Resampling<'a> {
 /// Refuses a sensor image that needs directions outside the stored image.
 fn check_covers(stored: &PupilProjection, survey: &Survey) -> Result<(), OpticsError> {
     let mut worst: Option<(f64, OpticsError)> = None;
-    for look in &survey.looks {
-        let Err(error) = stored.check_holds(look.direction) else { continue };
+    for sample in &survey.samples {
+        let Err(error) = stored.check_holds(sample.direction) else { continue };
         let missing_rad =
             if let OpticsError::MissingDirections { missing_rad, .. } = &error { *missing_rad } else { 0.0 };
-        if worst.as_ref().is_none_or(|(most, _)| missing_rad > *most) {
+        if worst.as_ref().is_none_or(|(maximum, _)| missing_rad > *maximum) {
             worst = Some((missing_rad, error));
         }
     }
@@ -275,7 +275,7 @@ fn overlaps(low: f64, high: f64, first: usize, count: usize) -> impl Iterator<It
     })
 }
 
-fn weighted(plane: &Plane<Radiance>, taps: &[Tap], share: f64) -> f32 {
+fn weighted(plane: &Plane<Radiance>, taps: &[Tap], fraction: f64) -> f32 {
     let samples = plane.samples();
-    (taps.iter().map(|tap| f64::from(samples[tap.index]) * tap.weight).sum::<f64>() * share) as f32
+    (taps.iter().map(|tap| f64::from(samples[tap.index]) * tap.weight).sum::<f64>() * fraction) as f32
 }

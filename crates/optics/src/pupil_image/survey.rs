@@ -20,7 +20,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::view::Face;
-use crate::lens::{DIRECTIONS, FieldAngles, Lens, Prescribed};
+use crate::lens::{DIRECTIONS, FieldAngles, Lens, PrescriptionLens};
 use crate::overlap::PRINCIPAL_NM;
 
 /// Minimum number of samples along a side of the sensor image; its border is sampled pixel by pixel.
@@ -30,13 +30,13 @@ const WAVELENGTHS: usize = 5;
 
 /// One sample of a sensor image.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct SurveySample {
     pub(super) direction: DVec3,
     /// Directions half a pixel to the left, right, above and below, if all exist.
     around: Option<[DVec3; 4]>,
 }
 
-impl Look {
+impl SurveySample {
     /// Sides of the pixel about the sample on the plane at unit distance of a face: across columns and across rows.
     pub(super) fn sides_tan(&self, face: Face) -> Option<[f64; 2]> {
         let [left, right, above, below] = self.around?;
@@ -48,7 +48,7 @@ impl Look {
 /// Samples of a sensor image.
 #[derive(Clone, Debug)]
 pub(super) struct Survey {
-    pub(super) looks: Vec<Look>,
+    pub(super) samples: Vec<SurveySample>,
     /// Pixels between samples inside the sensor image.
     pub(super) step_px: usize,
     /// True if some samples have no direction.
@@ -59,15 +59,15 @@ impl Survey {
     /// Samples a lens and a raster, at several wavelengths of a range if they differ.
     pub(super) fn new(lens: &Lens, raster: &Raster, range: WavelengthRange) -> Self {
         let step_px = raster.width().max(raster.height()).div_ceil(SAMPLES);
-        let mut survey = Self { looks: Vec::new(), step_px, dark: false };
+        let mut survey = Self { samples: Vec::new(), step_px, dark: false };
         for nm in wavelengths(lens, range) {
-            let aim = Aim::new(lens, raster.max_radius_mm() * REACH, nm);
+            let aim = ChiefRaySource::new(lens, raster.max_radius_mm() * REACH, nm);
             points(raster, step_px).for_each(|px| survey.add(&aim, raster, px));
         }
         survey
     }
 
-    fn add(&mut self, aim: &Aim<'_>, raster: &Raster, px: DVec2) {
+    fn add(&mut self, aim: &ChiefRaySource<'_>, raster: &Raster, px: DVec2) {
         let at = |x: f64, y: f64| aim.direction(raster.sensor_mm(px + DVec2::new(x, y)));
         let Some(direction) = at(0.0, 0.0) else {
             self.dark = true;
@@ -75,13 +75,13 @@ impl Survey {
         };
         let around = [at(-0.5, 0.0), at(0.5, 0.0), at(0.0, -0.5), at(0.0, 0.5)];
         let around = if let [Some(a), Some(b), Some(c), Some(d)] = around { Some([a, b, c, d]) } else { None };
-        self.looks.push(Look { direction, around });
+        self.samples.push(SurveySample { direction, around });
     }
 
     /// The largest angle from the axis, rad.
     pub(super) fn widest_rad(&self) -> f64 {
-        let angle = |look: &Look| atan2(look.direction.truncate().length(), look.direction.z);
-        self.looks.iter().map(angle).fold(0.0, f64::max).min(PI)
+        let angle = |sample: &SurveySample| atan2(sample.direction.truncate().length(), sample.direction.z);
+        self.samples.iter().map(angle).fold(0.0, f64::max).min(PI)
     }
 }
 
@@ -113,7 +113,7 @@ const KNOTS: usize = 512;
 
 /// The chief rays of a wavelength.
 #[derive(Clone, Debug)]
-pub(crate) enum Aim<'a> {
+pub(crate) enum ChiefRaySource<'a> {
     /// Queried from the lens, point by point.
     Lens {
         /// The lens.
@@ -125,7 +125,7 @@ pub(crate) enum Aim<'a> {
     Table(FieldAngles),
 }
 
-impl<'a> Aim<'a> {
+impl<'a> ChiefRaySource<'a> {
     /// Creates the chief rays of points up to `reach_mm` from the axis.
     pub(crate) fn new(lens: &'a Lens, reach_mm: f64, nm: f64) -> Self {
         match lens {
@@ -153,7 +153,7 @@ const RADIAL_KNOTS: usize = 257;
 /// Step between the radii used for the ratio at other wavelengths.
 const STRIDE: usize = 8;
 /// Directions of the quadrature if only the ratio matters: its own error is nearly the same at both wavelengths.
-const FEWER: usize = 24;
+const RATIO_DIRECTIONS: usize = 24;
 
 /// Étendue (sr) at radii 0, step, 2 step, … mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,25 +164,25 @@ pub(super) struct RadialEtendue {
 
 impl RadialEtendue {
     /// Étendue at 587.56 nm, up to `reach_mm` from the axis.
-    pub(super) fn new(lens: &Prescribed, reach_mm: f64) -> Self {
+    pub(super) fn new(lens: &PrescriptionLens, reach_mm: f64) -> Self {
         let step_mm = reach_mm / (RADIAL_KNOTS - 1) as f64;
         let at = |i: usize| lens.projected_solid_angle_at_sr(step_mm * i as f64, PRINCIPAL_NM, DIRECTIONS);
         Self { step_mm, values: (0..KNOTS).into_par_iter().map(at).collect() }
     }
 
     /// The same at another wavelength, for each radius that is lit at 587.56 nm.
-    pub(super) fn at_wavelength(&self, lens: &Prescribed, nm: f64) -> Self {
-        let at = |i: usize, nm: f64| lens.projected_solid_angle_at_sr(self.step_mm * i as f64, nm, FEWER);
+    pub(super) fn at_wavelength(&self, lens: &PrescriptionLens, nm: f64) -> Self {
+        let at = |i: usize, nm: f64| lens.projected_solid_angle_at_sr(self.step_mm * i as f64, nm, RATIO_DIRECTIONS);
         let lit = |i: usize| Some(at(i, PRINCIPAL_NM)).filter(|sr| *sr > 0.0);
         let knots = (0..KNOTS).into_par_iter().step_by(STRIDE);
-        let found: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
-        if found.iter().all(Option::is_none) {
+        let actual: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
+        if actual.iter().all(Option::is_none) {
             // A filter that is opaque at 587.56 nm gives no information on other wavelengths.
             let values = (0..KNOTS).into_par_iter().map(|i| at(i, nm)).collect();
             return Self { step_mm: self.step_mm, values };
         }
         // At radii that are dark at 587.56 nm the ratio only serves the interpolation of their neighbours.
-        let ratios: Vec<f64> = found
+        let ratios: Vec<f64> = actual
             .into_iter()
             .scan(0.0, |last, ratio| {
                 *last = ratio.unwrap_or(*last);
@@ -207,17 +207,17 @@ fn linear(values: &[f64], place: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use etendue_spectra::{Outside, Spectrum};
+    use etendue_spectra::{Extrapolation, Spectrum};
 
     use super::*;
     use crate::prescription::coating::InterferenceFilter;
     use crate::prescription::{Focus, Prescription, PrescriptionParameters, published};
 
-    fn lens(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> Prescribed {
+    fn lens(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> PrescriptionLens {
         let surfaces = published::named(name).expect("a published lens").surfaces();
         let focus = Focus::Sensor { distance_m: f64::INFINITY };
         let lens = Prescription::new(PrescriptionParameters::new(surfaces, focus));
-        Prescribed::new(lens.expect("a lens"), filter, radius_mm).expect("lit")
+        PrescriptionLens::new(lens.expect("a lens"), filter, radius_mm).expect("lit")
     }
 
     #[test]
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_filter_s_edge_moves_with_the_radius_and_the_table_follows() {
-        let edge = Spectrum::from_points(&[(640.0, 1.0), (660.0, 0.0)], Outside::Hold).expect("a table");
+        let edge = Spectrum::from_points(&[(640.0, 1.0), (660.0, 0.0)], Extrapolation::Hold).expect("a table");
         let filter = InterferenceFilter::new(edge, 1.8).expect("legal");
         let lens = lens("wide-angle", 19.2, Some(filter));
         let table = RadialEtendue::new(&lens, 19.2);
@@ -256,10 +256,10 @@ mod tests {
     #[test]
     fn a_filter_that_is_shut_at_the_reference_shuts_no_other_wavelength() {
         let points = [(800.0, 0.0), (820.0, 1.0), (880.0, 1.0), (900.0, 0.0)];
-        let pass = Spectrum::from_points(&points, Outside::Zero).expect("a table");
+        let pass = Spectrum::from_points(&points, Extrapolation::Zero).expect("a table");
         let lens = lens("double-gauss", 21.6, Some(InterferenceFilter::new(pass, 1.8).expect("legal")));
         let band = RadialEtendue::new(&lens, 21.6).at_wavelength(&lens, 850.0);
-        let exact = lens.projected_solid_angle_at_sr(0.0, 850.0, FEWER);
+        let exact = lens.projected_solid_angle_at_sr(0.0, 850.0, RATIO_DIRECTIONS);
         assert!(exact > 0.01 && band.values[0] == exact, "{} for {exact}", band.values[0]);
     }
 }

@@ -56,16 +56,16 @@ impl Face {
     /// The face through which a direction leaves the cube; of two that share an edge, the earlier one.
     #[must_use]
     pub fn towards(direction: DVec3) -> Self {
-        let most = direction.abs().max_element();
-        if direction.z == most {
+        let maximum = direction.abs().max_element();
+        if direction.z == maximum {
             Self::Front
-        } else if direction.x == most {
+        } else if direction.x == maximum {
             Self::Right
-        } else if -direction.x == most {
+        } else if -direction.x == maximum {
             Self::Left
-        } else if -direction.y == most {
+        } else if -direction.y == maximum {
             Self::Top
-        } else if direction.y == most {
+        } else if direction.y == maximum {
             Self::Bottom
         } else {
             Self::Back

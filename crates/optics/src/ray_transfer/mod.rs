@@ -36,7 +36,7 @@ pub struct RayTransfer {
     thickness_mm: f64,
     input_offset_mm: f64,
     transfers: Vec<Transfer>,
-    greatest_power: usize,
+    max_power: usize,
 }
 
 /// A ray from the sensor, mm.
@@ -60,10 +60,10 @@ impl RayTransfer {
             return Err(RayTransferError::Wavelengths);
         }
         let powers = |t: &Transfer| {
-            t.point.iter().chain(&t.direction).chain(&t.forwards).map(Polynomial::greatest_power).max().unwrap_or(0)
+            t.point.iter().chain(&t.direction).chain(&t.forwards).map(Polynomial::max_power).max().unwrap_or(0)
         };
-        let greatest_power = transfers.iter().map(powers).max().unwrap_or(0);
-        Ok(Self { thickness_mm, input_offset_mm, transfers, greatest_power })
+        let max_power = transfers.iter().map(powers).max().unwrap_or(0);
+        Ok(Self { thickness_mm, input_offset_mm, transfers, max_power: greatest_power: max_power })
     }
 
     /// Distance from the rear vertex to the front vertex, mm.
@@ -107,22 +107,22 @@ impl RayTransfer {
     /// The ray that leaves the lens at a wavelength, whether it passes or not. Linear between two wavelengths, constant beyond the ends. `None` if
     /// the functions give no direction.
     #[inline]
-    pub(crate) fn leaving(&self, from: &Entry, sensor_mm: f64, nm: f64) -> Option<TransferRay> {
+    pub(crate) fn exit_ray(&self, from: &Entry, sensor_mm: f64, nm: f64) -> Option<TransferRay> {
         let numbers = [from.height_mm, from.direction.x, from.direction.y];
-        let powers = Powers::new(numbers, self.greatest_power);
+        let powers = Powers::new(numbers, self.max_power);
         let after = self.transfers.partition_point(|t| t.wavelength_nm < nm);
         let (first, last) = (after.saturating_sub(1), after.min(self.transfers.len() - 1));
         let [a, b] = [first, last].map(|i| &self.transfers[i]);
         let (mut point, mut slope, mut sign) = a.at(&powers);
         if first != last {
-            let share = (nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm);
+            let fraction = (nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm);
             let (other_point, other_slope, other_sign) = b.at(&powers);
-            (point, slope) = (point.lerp(other_point, share), slope.lerp(other_slope, share));
-            sign = if share < 0.5 { sign } else { other_sign };
+            (point, slope) = (point.lerp(other_point, fraction), slope.lerp(other_slope, fraction));
+            sign = if fraction < 0.5 { sign } else { other_sign };
         }
         let rest = 1.0 - slope.length_squared();
-        let direction = from.turned_back(slope).extend(if rest > 0.0 { rest.sqrt() * sign } else { return None });
-        let across = from.turned_back(point.truncate());
+        let direction = from.to_frame(slope).extend(if rest > 0.0 { rest.sqrt() * sign } else { return None });
+        let across = from.to_frame(point.truncate());
         let point_mm = across.extend(sensor_mm + self.thickness_mm + point.z);
         (point_mm.is_finite() && direction.is_finite()).then_some(TransferRay { point_mm, direction })
     }
@@ -165,7 +165,7 @@ pub(crate) struct Entry {
 
 impl Entry {
     /// Transforms a vector from this frame to that of the lens.
-    fn turned_back(&self, v: DVec2) -> DVec2 {
+    fn to_frame(&self, v: DVec2) -> DVec2 {
         DVec2::new(self.meridian.y, -self.meridian.x) * v.x + self.meridian * v.y
     }
 }
@@ -245,7 +245,7 @@ impl RayPass {
 
     /// The height on the input plane beyond which nothing passes, mm; infinite if there is none.
     #[must_use]
-    pub fn greatest_height_mm(&self) -> f64 {
+    pub fn max_height_mm(&self) -> f64 {
         match &self.region {
             PassRegion::Ellipses(list) => list.last().map_or(0.0, |last| last.height_mm),
             PassRegion::Circles(_) => f64::INFINITY,
@@ -267,8 +267,8 @@ fn ellipse(list: &[PassEllipse], height_mm: f64) -> Option<(DVec2, DVec2)> {
     let after = list.partition_point(|e| e.height_mm < height_mm);
     let right = list.get(after)?;
     let Some(left) = after.checked_sub(1).map(|i| &list[i]) else { return Some((right.centre_mm, right.radii_mm)) };
-    let share = (height_mm - left.height_mm) / (right.height_mm - left.height_mm);
-    Some((left.centre_mm.lerp(right.centre_mm, share), left.radii_mm.lerp(right.radii_mm, share)))
+    let fraction = (height_mm - left.height_mm) / (right.height_mm - left.height_mm);
+    Some((left.centre_mm.lerp(right.centre_mm, fraction), left.radii_mm.lerp(right.radii_mm, fraction)))
 }
 
 /// The highest power that is evaluated.
@@ -307,11 +307,11 @@ impl Polynomial {
 
     #[inline]
     fn at(&self, powers: &Powers) -> f64 {
-        let value = |t: &Term| t.coefficient * powers.of(0, t) * powers.of(1, t) * powers.of(2, t);
+        let value = |t: &Term| t.coefficient * powers.power(0, t) * powers.power(1, t) * powers.power(2, t);
         self.terms.iter().map(value).sum()
     }
 
-    fn greatest_power(&self) -> usize {
+    fn max_power(&self) -> usize {
         self.terms.iter().flat_map(|t| t.powers).max().map_or(0, usize::from)
     }
 }
@@ -321,16 +321,16 @@ struct Powers([[f64; MAX_POWER + 1]; 3]);
 
 impl Powers {
     #[inline]
-    fn new(numbers: [f64; 3], greatest: usize) -> Self {
+    fn new(numbers: [f64; 3], maximum: usize) -> Self {
         Self(numbers.map(|number| {
             let mut powers = [1.0; MAX_POWER + 1];
-            (1..=greatest).for_each(|i| powers[i] = powers[i - 1] * number);
+            (1..=maximum).for_each(|i| powers[i] = powers[i - 1] * number);
             powers
         }))
     }
 
     #[inline]
-    fn of(&self, which: usize, term: &Term) -> f64 {
+    fn power(&self, which: usize, term: &Term) -> f64 {
         self.0[which][usize::from(term.powers[which])]
     }
 }

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_optics::{
-    CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilProjection, PupilStance,
+    CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilProjection, PupilOrientation,
     TelecentricParameters,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
@@ -110,7 +110,7 @@ fn fisheyes_see_behind_themselves_and_a_flat_pupil_does_not() {
     let ray = wide.principal_ray(at).expect("114.6° from the axis");
     assert!(ray.direction.z < 0.0 && ray.weight_sr > 0.0);
     let flat =
-        CalibratedParameters { pupil: Some(PupilStance::Flat), ..parameters(Model::Ideal(Ideal::Equidistant), 150.0) };
+        CalibratedParameters { pupil: Some(PupilOrientation::Flat), ..parameters(Model::Ideal(Ideal::Equidistant), 150.0) };
     let flat = Lens::calibrated(flat).expect("a camera");
     assert!(
         flat.principal_ray(at).is_none() && flat.truth_ray(at).is_none() && flat.projected_solid_angle_sr(at) == 0.0
@@ -123,19 +123,19 @@ fn fisheyes_see_behind_themselves_and_a_flat_pupil_does_not() {
 
 #[test]
 fn defocus_meets_where_it_is_sharp_and_weighs_as_the_principal_ray() {
-    for (model, pupil) in [(Ideal::Rectilinear, PupilStance::Flat), (Ideal::Equidistant, PupilStance::Turning)] {
+    for (model, pupil) in [(Ideal::Rectilinear, PupilOrientation::Flat), (Ideal::Equidistant, PupilOrientation::Oriented)] {
         let sharp = CalibratedParameters { focus_distance_m: Some(3.0), ..parameters(Model::Ideal(model), 400.0) };
         let lens = Lens::calibrated(CalibratedParameters { pupil: Some(pupil), ..sharp }).expect("a camera");
         assert!((lens.entrance_pupil_radius_m() - 0.001).abs() < 1e-12, "4 mm / (2 · 2)");
         for s in points() {
             let principal = lens.principal_ray(s).expect("seen");
-            let along = if pupil == PupilStance::Flat { 3.0 / principal.direction.z } else { 3.0 };
+            let along = if pupil == PupilOrientation::Flat { 3.0 / principal.direction.z } else { 3.0 };
             let target = principal.direction * along;
             for u in [DVec2::new(0.1, 0.9), DVec2::new(0.7, 0.3)] {
                 let ray = lens.ray(s, u, 550.0).expect("open");
                 let miss = (target - ray.origin_m).cross(ray.direction).length();
                 assert!(miss < 1e-14 && ray.weight_sr == principal.weight_sr && ray.origin_m.length() <= 0.001 + 1e-15);
-                let tilt = if pupil == PupilStance::Flat { DVec3::Z } else { principal.direction };
+                let tilt = if pupil == PupilOrientation::Flat { DVec3::Z } else { principal.direction };
                 assert!(ray.origin_m.dot(tilt).abs() < 1e-15);
             }
         }

@@ -4,7 +4,7 @@ use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_optics::defocus::{Physical, PinholeView};
 use etendue_optics::{
-    ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters, PupilStatements, Rim,
+    ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters, PupilParameters, ClippingAperture,
     ThickParameters, ThinParameters,
 };
 use etendue_projection::Raster;
@@ -28,16 +28,16 @@ fn clipped() -> Lens {
         focus_distance_m: 3.0,
         transmittance: 1.0,
         principal_separation_mm: 0.0,
-        pupils: PupilStatements::default(),
+        pupils: PupilParameters::default(),
         constant_pupil: ConstantPupil::Exit,
-        front_aperture: Some(Rim { position_mm: -30.0, radius_mm: 14.0 }),
+        front_aperture: Some(ClippingAperture { position_mm: -30.0, radius_mm: 14.0 }),
         rear_aperture: None,
     })
     .expect("legal")
 }
 
 /// An image seen along principal rays: the scene by the tangents of the direction.
-fn seen(
+fn visible(
     lens: &Lens,
     raster: &Raster,
     margin: usize,
@@ -64,7 +64,7 @@ fn physical(
     margin: usize,
     scene: impl Fn(DVec2) -> (f64, f64),
 ) -> SpectralCube<Radiance> {
-    let (radiance, distance) = seen(lens, raster, margin, scene);
+    let (radiance, distance) = visible(lens, raster, margin, scene);
     let view = PinholeView::new(lens, raster, margin, &radiance, &distance).expect("sizes");
     DepthOfField::Physical.apply(&view)
 }
@@ -99,19 +99,19 @@ fn a_uniform_radiance_stays_uniform_whatever_the_distances() {
     let steps = |t: DVec2| (if t.x > 0.05 { 0.8 } else { 3.0 + 40.0 * (t.y + 0.2) }, 0.37);
     let sky = |t: DVec2| (if t.y < 0.0 { f64::INFINITY } else { 1.2 }, 0.37);
     for lens in [thin(), clipped()] {
-        for picture in [physical(&lens, &raster, 6, steps), physical(&lens, &raster, 0, sky)] {
-            for l in picture.planes()[0].samples() {
+        for image in [physical(&lens, &raster, 6, steps), physical(&lens, &raster, 0, sky)] {
+            for l in image.planes()[0].samples() {
                 assert!((l / 0.37 - 1.0).abs() < 1e-6, "{l}");
             }
         }
     }
     let blend =
         FastParameters { sharp_near_m: 2.0, sharp_far_m: 4.0, blurred_near_m: 1.0, blurred_far_m: 9.0, blur_px: 7.0 };
-    let (radiance, distance) = seen(&thin(), &raster, 4, steps);
+    let (radiance, distance) = visible(&thin(), &raster, 4, steps);
     let lens = thin();
     let view = PinholeView::new(&lens, &raster, 4, &radiance, &distance).expect("sizes");
-    let picture = DepthOfField::Fast(FastBlend::new(blend).expect("legal")).apply(&view);
-    assert!(picture.planes()[0].samples().iter().all(|l| (l / 0.37 - 1.0).abs() < 1e-6));
+    let image = DepthOfField::Fast(FastBlend::new(blend).expect("legal")).apply(&view);
+    assert!(image.planes()[0].samples().iter().all(|l| (l / 0.37 - 1.0).abs() < 1e-6));
 }
 
 #[test]
@@ -121,13 +121,13 @@ fn what_is_in_focus_and_what_blurs_below_a_pixel_stays_as_it_is() {
     for depth_m in [3.0, 2.9, 3.2] {
         let scene = |t: DVec2| (depth_m, texture(t));
         assert!(thin().circle_of_confusion_mm(depth_m) < 0.9 * 0.05);
-        let (radiance, _) = seen(&thin(), &raster, 0, scene);
+        let (radiance, _) = visible(&thin(), &raster, 0, scene);
         assert_eq!(physical(&thin(), &raster, 0, scene), radiance);
     }
     let sharp = Lens::pinhole(PinholeParameters { focal_length_mm: 50.0, f_number: 2.0, transmittance: 1.0 });
     let scene = |t: DVec2| (0.2, texture(t));
     let sharp = sharp.expect("legal");
-    assert_eq!(physical(&sharp, &raster, 3, scene), seen(&sharp, &raster, 0, scene).0);
+    assert_eq!(physical(&sharp, &raster, 3, scene), visible(&sharp, &raster, 0, scene).0);
 }
 
 /// Anything that wiggles.
@@ -192,12 +192,12 @@ fn edge_errors(near_m: f64, far_m: f64) -> (f64, f64) {
     let raster = Raster::centred(80, 9, 0.02).expect("legal");
     let lens = thin();
     let margin = 30;
-    let picture = physical(&lens, &raster, margin, |t| if t.x < 0.0 { (near_m, 0.0) } else { (far_m, 1.0) });
+    let image = physical(&lens, &raster, margin, |t| if t.x < 0.0 { (near_m, 0.0) } else { (far_m, 1.0) });
     let errors: Vec<f64> = (0..80)
         .map(|x| {
             let sensor_mm = raster.sensor_mm(DVec2::new(x as f64 + 0.5, 4.5));
             let through_lens = 1.0 - covered(&lens, sensor_mm, near_m, 0.0);
-            (f64::from(picture.planes()[0].at(x, 4)) - through_lens).abs()
+            (f64::from(image.planes()[0].at(x, 4)) - through_lens).abs()
         })
         .collect();
     (errors.iter().copied().fold(0.0, f64::max), errors.iter().sum::<f64>() / 80.0)
@@ -207,9 +207,9 @@ fn edge_errors(near_m: f64, far_m: f64) -> (f64, f64) {
 fn an_edge_in_front_of_a_wall_is_as_through_the_lens() {
     // A blurred edge in front of a sharp wall and of blurred ones, and a sharp edge in front of a blurred wall. The tolerance is a quarter of a pixel
     // of the ramp, which is as wide as the blur (20 to 60 px).
-    for (near_m, far_m, most) in [(1.2, 3.0, 0.01), (1.2, 20.0, 0.03), (2.0, 6.0, 0.03)] {
+    for (near_m, far_m, maximum) in [(1.2, 3.0, 0.01), (1.2, 20.0, 0.03), (2.0, 6.0, 0.03)] {
         let (largest, mean) = edge_errors(near_m, far_m);
-        assert!(largest < most && mean < 0.003, "{near_m} m before {far_m} m: {largest}, mean {mean}");
+        assert!(largest < maximum && mean < 0.003, "{near_m} m before {far_m} m: {largest}, mean {mean}");
     }
     let (largest, mean) = edge_errors(3.0, 20.0);
     assert!(largest < 1e-3 && mean < 1e-4, "a sharp edge: {largest}, mean {mean}");
@@ -219,10 +219,10 @@ fn an_edge_in_front_of_a_wall_is_as_through_the_lens() {
 fn a_bright_blur_behind_does_not_light_a_sharp_thing_in_front() {
     let raster = Raster::centred(60, 20, 0.02).expect("legal");
     let scene = |t: DVec2| if t.x < 0.0 { (3.0, 0.25) } else { (f64::INFINITY, 1000.0) };
-    let picture = physical(&thin(), &raster, 20, scene);
+    let image = physical(&thin(), &raster, 20, scene);
     for y in 0..20 {
         for x in 0..30 {
-            assert_eq!(picture.planes()[0].at(x, y), 0.25, "{x} {y}");
+            assert_eq!(image.planes()[0].at(x, y), 0.25, "{x} {y}");
         }
     }
 }
@@ -232,13 +232,13 @@ fn all_bands_have_the_same_weights_and_strips_join_to_the_same_bits() {
     let raster = Raster::centred(50, 70, 0.02).expect("legal");
     let lens = thin();
     let scene = |t: DVec2| if t.x + 0.3 * t.y < 0.0 { (1.5, t.y.abs() + 0.1) } else { (30.0, 1.0 + t.x) };
-    let (one, distance) = seen(&lens, &raster, 10, scene);
+    let (one, distance) = visible(&lens, &raster, 10, scene);
     let plane = &one.planes()[0];
     let three = vec![plane.clone(), plane.map(|l| 2.0 * l), plane.clone()];
     let three = SpectralCube::from_planes(bands(3), three).expect("sizes");
     let view = PinholeView::new(&lens, &raster, 10, &three, &distance).expect("sizes");
-    let picture = Physical::new(view).picture();
-    let [a, b, c] = picture.planes() else { panic!("three bands") };
+    let image = Physical::new(view).image();
+    let [a, b, c] = image.planes() else { panic!("three bands") };
     assert_eq!(a, c);
     for (a, b) in a.samples().iter().zip(b.samples()) {
         assert!((b / a - 2.0).abs() < 1e-6);
@@ -246,21 +246,21 @@ fn all_bands_have_the_same_weights_and_strips_join_to_the_same_bits() {
     let prepared = Physical::new(view);
     let rows: Vec<_> = (0..70).rev().map(|y| prepared.rows(y..y + 1)).collect();
     let rows: Vec<_> = rows.into_iter().rev().collect();
-    assert_eq!(prepared.joined(&rows), picture);
+    assert_eq!(prepared.join(&rows), image);
 }
 
 #[test]
 fn pixels_without_a_ray_are_no_light_and_radiance_must_be_numbers() {
     let raster = Raster::centred(30, 30, 0.02).expect("legal");
     let lens = thin();
-    let (mut radiance, mut distance) = seen(&lens, &raster, 0, |_| (1.2, 1.0));
+    let (mut radiance, mut distance) = visible(&lens, &raster, 0, |_| (1.2, 1.0));
     for y in 0..30 {
         distance.set(29, y, f32::NAN);
         radiance.planes_mut()[0].set(29, y, f32::NAN);
     }
     let view = PinholeView::new(&lens, &raster, 0, &radiance, &distance).expect("no ray, no light");
-    let picture = DepthOfField::Physical.apply(&view);
-    assert!((0..29).all(|x| (picture.planes()[0].at(x, 15) - 1.0).abs() < 1e-6));
+    let image = DepthOfField::Physical.apply(&view);
+    assert!((0..29).all(|x| (image.planes()[0].at(x, 15) - 1.0).abs() < 1e-6));
     radiance.planes_mut()[0].set(3, 4, f32::INFINITY);
     let refused = PinholeView::new(&lens, &raster, 0, &radiance, &distance);
     assert!(matches!(refused, Err(OpticsError::RadianceNotFinite { x: 3, y: 4 })));
@@ -282,7 +282,7 @@ fn the_fast_blend_has_its_diameter_where_it_is_whole_and_none_where_it_is_sharp(
     let margin = DepthOfField::Fast(blend).reach_px(&lens, &raster, 1.0);
     for (depth_m, diameter_px) in [(1.2, 9.0), (3.0, 0.0), (50.0, 9.0)] {
         let point = |t: DVec2| (depth_m, if t.length() < 1e-6 { 1.0 } else { 0.0 });
-        let (radiance, distance) = seen(&lens, &raster, margin, point);
+        let (radiance, distance) = visible(&lens, &raster, margin, point);
         let view = PinholeView::new(&lens, &raster, margin, &radiance, &distance).expect("sizes");
         let (_, _, deviation) = spot(&DepthOfField::Fast(blend).apply(&view));
         assert!((4.0 * deviation - diameter_px).abs() < 1e-3, "{depth_m} m: {deviation}");

@@ -15,7 +15,7 @@ const TEXELS: usize = 2000;
 fn half_plane() -> Dirt {
     let row = (0..TEXELS).map(|x| if x < TEXELS / 2 { 1.0 } else { 0.0 }).collect();
     let mask = Mask::new(TEXELS, 1, row).expect("a mask");
-    let placement = Placement::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
+    let placement = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
     Dirt::new(DirtParameters { placement, size_mm: DVec2::splat(SIZE_MM), mask }).expect("dirt")
 }
 
@@ -78,7 +78,7 @@ fn both_routes_agree() {
 #[test]
 fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
     let mask = Mask::new(2, 2, vec![0.0, 0.25, 0.5, 1.0]).expect("a mask");
-    let placement = Placement::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
+    let placement = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
     let dirt = Dirt::new(DirtParameters { placement, size_mm: DVec2::splat(8.0), mask }).expect("dirt");
     let front = Front::new(Some(dirt), None).expect("dirt");
     // Close to a pinhole: the view of the pupil's centre.
@@ -89,7 +89,7 @@ fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
         transmittance: 1.0,
     };
     let lens = Lens::thin(p).expect("a lens");
-    let seen = |x_mm: f64, y_mm: f64| {
+    let transmittance_at = |x_mm: f64, y_mm: f64| {
         let at = DVec2::new(x_mm, y_mm) / DISTANCE_MM * FOCAL_MM;
         let bare = lens.ray(at, DVec2::splat(0.5), 550.0).expect("light").weight_sr;
         front.ray(&lens, at, DVec2::splat(0.5), 550.0).map_or(0.0, |ray| ray.ray.weight_sr / bare)
@@ -97,9 +97,9 @@ fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
     // Right is right and down is down, as in the image.
     for (x, y, expected) in [(-3.0, -3.0, 0.0), (3.0, -3.0, 0.25), (-3.0, 3.0, 0.5), (3.0, 3.0, 1.0), (-5.0, -3.0, 1.0)]
     {
-        assert!((seen(x, y) - expected).abs() < 1e-12, "{x} {y}: {}", seen(x, y));
+        assert!((transmittance_at(x, y) - expected).abs() < 1e-12, "{x} {y}: {}", transmittance_at(x, y));
     }
-    assert!((seen(0.0, -3.0) - 0.125).abs() < 1e-7, "linear between texels");
+    assert!((transmittance_at(0.0, -3.0) - 0.125).abs() < 1e-7, "linear between texels");
 }
 
 #[test]

@@ -44,8 +44,8 @@ fn mesh(rings: u32, spokes: u32, with_normals: bool) -> MeshMirror {
 }
 
 fn front(shape: MirrorShape, degrees: [f64; 3]) -> Front {
-    let placement = Placement::turned(DVec3::new(0.0, 0.0, 100.0), degrees);
-    let reflectance = Reflectance::Share(Curve::Constant(1.0));
+    let placement = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 100.0), degrees);
+    let reflectance = Reflectance::Fraction(Curve::Constant(1.0));
     let mirror = Mirror::new(MirrorParameters { shape, placement, reflectance }).expect("a mirror");
     Front::new(None, Some(Optic::Mirror(Box::new(mirror)))).expect("a mirror")
 }
@@ -59,19 +59,19 @@ fn errors(mesh: MeshMirror) -> (f64, f64) {
     let quadric = QuadricKind::Conic { radius_mm: RADIUS_MM, conic: CONIC };
     let exact = front(MirrorShape::Quadric(Quadric::new(quadric, RIM_MM, 0.0).expect("a mirror")), [0.0; 3]);
     let (mesh, lens) = (front(MirrorShape::Mesh(Box::new(mesh)), [0.0; 3]), lens());
-    let (mut most, mut sum) = (0.0_f64, 0.0);
+    let (mut maximum, mut sum) = (0.0_f64, 0.0);
     for i in 1..=2000 {
         let (s, c) = sin_cos(2.4 * f64::from(i));
         let at = DVec2::new(c, s) * (1.55 * (f64::from(i) / 2000.0).sqrt());
-        let seen = |front: &Front| {
+        let rays = |front: &Front| {
             let ray = front.ray(&lens, at, DVec2::splat(0.5), 550.0).expect("light");
             assert!(ray.mirror_m.is_some(), "a leak at {at}");
             ray.ray.direction
         };
-        let apart = (seen(&mesh) - seen(&exact)).length();
-        (most, sum) = (most.max(apart), sum + apart);
+        let apart = (rays(&mesh) - rays(&exact)).length();
+        (maximum, sum) = (maximum.max(apart), sum + apart);
     }
-    (most, sum / 2000.0)
+    (maximum, sum / 2000.0)
 }
 
 #[test]

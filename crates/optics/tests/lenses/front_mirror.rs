@@ -17,13 +17,13 @@ const SPHERE: QuadricKind = QuadricKind::Conic { radius_mm: 30.0, conic: 0.0 };
 
 fn front(kind: QuadricKind, placement: Placement, rim_mm: f64, hole_mm: f64) -> Front {
     let shape = MirrorShape::Quadric(Quadric::new(kind, rim_mm, hole_mm).expect("a legal mirror"));
-    let reflectance = Reflectance::Share(Curve::Constant(0.8));
+    let reflectance = Reflectance::Fraction(Curve::Constant(0.8));
     let mirror = Mirror::new(MirrorParameters { shape, placement, reflectance }).expect("a legal mirror");
     Front::new(None, Some(Optic::Mirror(Box::new(mirror)))).expect("a mirror")
 }
 
 fn on_axis(distance_mm: f64) -> Placement {
-    Placement::turned(DVec3::new(0.0, 0.0, distance_mm), [0.0; 3])
+    Placement::with_rotation_deg(DVec3::new(0.0, 0.0, distance_mm), [0.0; 3])
 }
 
 fn pinhole() -> Lens {
@@ -48,7 +48,7 @@ fn points(radius_mm: f64) -> impl Iterator<Item = DVec2> {
     })
 }
 
-fn seen(front: &Front, lens: &Lens, s_mm: DVec2) -> FrontRay {
+fn front_ray(front: &Front, lens: &Lens, s_mm: DVec2) -> FrontRay {
     front.ray(lens, s_mm, DVec2::splat(0.5), 550.0).expect("a ray")
 }
 
@@ -66,7 +66,7 @@ fn a_hyperboloid_whose_outer_focus_is_the_pupil_has_one_viewpoint() {
     let (front, lens) = (front(HYPERBOLOID, on_axis(distance_mm), 35.0, 0.0), pinhole());
     let viewpoint_m = DVec3::new(0.0, 0.0, 0.048);
     for s_mm in points(4.0) {
-        let ray = seen(&front, &lens, s_mm);
+        let ray = front_ray(&front, &lens, s_mm);
         assert!(ray.mirror_m.is_some() && off(&ray, viewpoint_m) < 1e-12, "{s_mm}: {}", off(&ray, viewpoint_m));
         // It leaves away from the viewpoint, and its weight is the lens's weight times the reflectance.
         assert!((ray.ray.origin_m - viewpoint_m).dot(ray.ray.direction) > 0.0);
@@ -82,7 +82,7 @@ fn a_paraboloid_under_parallel_rays_has_one_viewpoint() {
     // The focus lies half the vertex's radius behind the vertex.
     let focus_m = DVec3::new(0.0, 0.0, 0.120);
     for s_mm in points(5.0) {
-        let ray = seen(&front, &lens, s_mm);
+        let ray = front_ray(&front, &lens, s_mm);
         assert!(ray.mirror_m.is_some() && off(&ray, focus_m) < 1e-12);
     }
 }
@@ -97,7 +97,7 @@ fn a_sphere_reflects_where_alhazen_says() {
         let (s, c) = sin_cos(phi);
         let psi = atan2(radius_mm * s, distance_mm - radius_mm * c);
         let tangent = sin(psi) / (1.0 - sin(psi) * sin(psi)).sqrt();
-        let ray = seen(&front, &lens, DVec2::new(FOCAL_MM * tangent, 0.0));
+        let ray = front_ray(&front, &lens, DVec2::new(FOCAL_MM * tangent, 0.0));
         let point_m = DVec3::new(radius_mm * s, 0.0, distance_mm - radius_mm * c) * 1e-3;
         assert!((ray.mirror_m.expect("met") - point_m).length() < 1e-15);
         let left = acos(-ray.ray.direction.z);
@@ -110,7 +110,7 @@ fn a_cone_reflects_as_the_plane_that_touches_it() {
     // At 45° a ray along the axis leaves perpendicular to it.
     let (front, lens) = (front(QuadricKind::Cone { half_angle_deg: 45.0 }, on_axis(50.0), 30.0, 0.0), telecentric());
     for s_mm in points(2.9) {
-        let ray = seen(&front, &lens, s_mm);
+        let ray = front_ray(&front, &lens, s_mm);
         let outward = s_mm.normalize().extend(0.0);
         assert!((ray.ray.direction - outward).length() < 1e-14, "{}", ray.ray.direction);
     }
@@ -119,17 +119,17 @@ fn a_cone_reflects_as_the_plane_that_touches_it() {
 #[test]
 fn rays_beside_the_mirror_and_through_its_hole_look_past() {
     let (front, lens) = (front(PARABOLOID, on_axis(100.0), 20.0, 5.0), telecentric());
-    let met = |x_mm: f64| seen(&front, &lens, DVec2::new(x_mm, 0.0)).mirror_m.is_some();
-    assert!(!met(0.0) && !met(0.49) && met(0.51) && met(1.99) && !met(2.01));
-    let past = seen(&front, &lens, DVec2::new(2.5, 0.0));
-    assert_eq!(past, FrontRay::bare(lens.ray(DVec2::new(2.5, 0.0), DVec2::splat(0.5), 550.0).expect("a ray")));
+    let hits_mirror = |x_mm: f64| front_ray(&front, &lens, DVec2::new(x_mm, 0.0)).mirror_m.is_some();
+    assert!(!hits_mirror(0.0) && !hits_mirror(0.49) && hits_mirror(0.51) && hits_mirror(1.99) && !hits_mirror(2.01));
+    let past = front_ray(&front, &lens, DVec2::new(2.5, 0.0));
+    assert_eq!(past, FrontRay::without_front(lens.ray(DVec2::new(2.5, 0.0), DVec2::splat(0.5), 550.0).expect("a ray")));
 }
 
 #[test]
 fn a_turned_mirror_turns_what_is_seen_by_twice_the_angle() {
-    let placement = |degrees| Placement::turned(DVec3::new(0.0, 0.0, 100.0), [degrees, 0.0, 0.0]);
+    let placement = |degrees| Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 100.0), [degrees, 0.0, 0.0]);
     let lens = pinhole();
-    let axis = |degrees| seen(&front(SPHERE, placement(degrees), 29.0, 0.0), &lens, DVec2::ZERO).ray.direction;
+    let axis = |degrees| front_ray(&front(SPHERE, placement(degrees), 29.0, 0.0), &lens, DVec2::ZERO).ray.direction;
     assert!((axis(0.0) + DVec3::Z).length() < 1e-15);
     // About its vertex: the normal there was −z and now is (0, sin 10°, −cos 10°).
     let (s, c) = sin_cos(20.0 * PI / 180.0);
@@ -146,20 +146,20 @@ fn what_cannot_be_seen_is_refused() {
         "the pupil within the other sheet is right"
     );
     assert_eq!(check(&front(SPHERE, on_axis(-5.0), 25.0, 0.0)), Err(FrontError::SeenFromInside));
-    let turned = Placement::turned(DVec3::new(0.0, 0.0, 50.0), [180.0, 0.0, 0.0]);
+    let turned = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 50.0), [180.0, 0.0, 0.0]);
     assert_eq!(check(&front(PARABOLOID, turned, 25.0, 0.0)), Err(FrontError::SeenFromInside));
     assert_eq!(
         check(&front(PARABOLOID, on_axis(-500.0), 5.0, 0.0)),
         Err(FrontError::SeenFromInside),
         "far within its axis"
     );
-    let aside = Placement::turned(DVec3::new(500.0, 0.0, 50.0), [0.0; 3]);
+    let aside = Placement::with_rotation_deg(DVec3::new(500.0, 0.0, 50.0), [0.0; 3]);
     assert_eq!(check(&front(SPHERE, aside, 25.0, 0.0)), Err(FrontError::NotVisible));
 }
 
 #[test]
 fn mirrors_that_cannot_be_are_refused() {
-    let refused = |kind, rim, hole| Quadric::new(kind, rim, hole).expect_err("no mirror").to_string();
+    let refused = |kind, outer_mm, hole| Quadric::new(kind, outer_mm, hole).expect_err("no mirror").to_string();
     assert!(refused(SPHERE, 31.0, 0.0).contains("reaches only 30.000000 mm"));
     assert!(refused(SPHERE, 10.0, 10.0).contains("leaves nothing"));
     assert!(refused(QuadricKind::Cone { half_angle_deg: 90.0 }, 10.0, 0.0).contains("half_angle_deg is 90"));

@@ -15,7 +15,7 @@ const THICK_MM: f64 = 5.0;
 
 fn plate(tilt_deg: f64) -> WindscreenParameters {
     WindscreenParameters {
-        placement: Placement::turned(DVec3::new(0.0, 0.0, 300.0), [tilt_deg, 0.0, 0.0]),
+        placement: Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 300.0), [tilt_deg, 0.0, 0.0]),
         radius_across_mm: f64::INFINITY,
         radius_upright_mm: f64::INFINITY,
         layers: vec![Layer { thickness_mm: THICK_MM, index: Curve::Constant(INDEX) }],
@@ -46,7 +46,7 @@ fn doubled_axis(parameters: WindscreenParameters) -> FrontRay {
 }
 
 /// Fraction of the light that passes on the axis.
-fn share(ray: &FrontRay) -> f64 {
+fn weight_fraction(ray: &FrontRay) -> f64 {
     ray.ray.weight_sr / pinhole().principal_ray(DVec2::ZERO).expect("a ray").weight_sr
 }
 
@@ -82,22 +82,22 @@ fn layers_of_one_index_are_one_layer() {
     let split = WindscreenParameters { layers: vec![layer(2.1), layer(0.8), layer(2.1)], ..plate(60.0) };
     let (one, three) = (axis(plate(60.0)), axis(split.clone()));
     assert!((one.truth_origin_m() - three.truth_origin_m()).length() < 1e-15);
-    assert!((share(&one) - share(&three)).abs() < 1e-14);
+    assert!((weight_fraction(&one) - weight_fraction(&three)).abs() < 1e-14);
     let (one, three) = (doubled_axis(plate(60.0)), doubled_axis(split));
-    assert!((share(&one) - share(&three)).abs() < 1e-14);
+    assert!((weight_fraction(&one) - weight_fraction(&three)).abs() < 1e-14);
 }
 
 #[test]
 fn bare_glass_lets_through_what_fresnel_says() {
     for tilt in [0.0, 30.0, 60.0, 70.0] {
         let r = fresnel(INDEX, radians(tilt));
-        assert!((share(&axis(plate(tilt))) - (1.0 - r) * (1.0 - r)).abs() < 1e-13, "{tilt}");
+        assert!((weight_fraction(&axis(plate(tilt))) - (1.0 - r) * (1.0 - r)).abs() < 1e-13, "{tilt}");
         // Two more reflections, at half the samples.
-        let doubled = share(&doubled_axis(plate(tilt)));
+        let doubled = weight_fraction(&doubled_axis(plate(tilt)));
         assert!((doubled - 2.0 * (1.0 - r) * (1.0 - r) * r * r).abs() < 1e-13, "{tilt}");
     }
     // 4.26 % at each face: 91.7 % in all.
-    assert!((share(&axis(plate(0.0))) - 0.9167).abs() < 1e-4);
+    assert!((weight_fraction(&axis(plate(0.0))) - 0.9167).abs() < 1e-4);
 }
 
 #[test]
@@ -127,13 +127,13 @@ fn absorption_follows_the_path_in_the_glass() {
     let tinted = WindscreenParameters { tint: tint(0.8), ..plate(60.0) };
     let (s, _) = sin_cos(radians(60.0));
     let longer = 1.0 / (1.0 - s * s / (INDEX * INDEX)).sqrt();
-    let ratio = share(&axis(tinted.clone())) / share(&axis(plate(60.0)));
+    let ratio = weight_fraction(&axis(tinted.clone())) / weight_fraction(&axis(plate(60.0)));
     assert!((ratio - pow(0.8, longer)).abs() < 1e-13, "{ratio}");
     // The double image passes three times.
-    let ratio = share(&doubled_axis(tinted)) / share(&doubled_axis(plate(60.0)));
+    let ratio = weight_fraction(&doubled_axis(tinted)) / weight_fraction(&doubled_axis(plate(60.0)));
     assert!((ratio - pow(0.8, 3.0 * longer)).abs() < 1e-13);
     let half = Some(Tint { transmittance: Curve::Constant(0.8), thickness_mm: Some(2.0 * THICK_MM) });
-    let ratio = share(&axis(WindscreenParameters { tint: half, ..plate(0.0) })) / share(&axis(plate(0.0)));
+    let ratio = weight_fraction(&axis(WindscreenParameters { tint: half, ..plate(0.0) })) / weight_fraction(&axis(plate(0.0)));
     assert!((ratio - 0.8_f64.sqrt()).abs() < 1e-14);
 }
 
@@ -160,13 +160,13 @@ fn under_uniform_light_a_pixel_gets_both_ways_whatever_their_shares() {
     assert!((mean_sr(&front(open.clone()), &lens, s_mm, 32) / clear(32) - 1.0).abs() < 1e-12);
     // A constant coating of transmittance T: T² (1 + (1 − T)²).
     let t: f64 = 0.7;
-    for share in [None, Some(0.125), Some(0.5)] {
+    for fraction in [None, Some(0.125), Some(0.5)] {
         let coated =
-            WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: share, ..open.clone() };
+            WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: fraction, ..open.clone() };
         let mean = mean_sr(&front(coated), &lens, s_mm, 64) / clear(64);
         let expected = t * t * (1.0 + (1.0 - t) * (1.0 - t));
         // The strata of the rescaled sample are not exactly uniform if the fraction is not a multiple of them: 1/64 of the split.
-        assert!((mean / expected - 1.0).abs() < 0.003, "{share:?}: {mean} against {expected}");
+        assert!((mean / expected - 1.0).abs() < 0.003, "{fraction:?}: {mean} against {expected}");
     }
 }
 
@@ -189,16 +189,16 @@ fn curved_glass_of_constant_thickness_is_a_weak_negative_lens() {
 #[test]
 fn rays_that_do_not_meet_the_glass_pass_it() {
     let sideways = WindscreenParameters {
-        placement: Placement::turned(DVec3::new(0.0, 0.0, 300.0), [80.0, 0.0, 0.0]),
+        placement: Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 300.0), [80.0, 0.0, 0.0]),
         double_image_fraction: Some(0.25),
         ..plate(0.0)
     };
     let (front, lens) = (front(sideways), pinhole());
     // 15° downwards is 5° from the other side of glass at 10° to the axis.
     let down = DVec2::new(0.0, 6.0 * 0.268);
-    let seen = |u: f64| front.ray(&lens, down, DVec2::new(u, 0.5), 550.0);
-    assert!(seen(0.1).is_none(), "no double image of what passes by");
-    let weight = seen(0.9).expect("it passes").ray.weight_sr;
+    let ray_at = |u: f64| front.ray(&lens, down, DVec2::new(u, 0.5), 550.0);
+    assert!(ray_at(0.1).is_none(), "no double image of what passes by");
+    let weight = ray_at(0.9).expect("it passes").ray.weight_sr;
     let bare = lens.ray(down, DVec2::splat(0.5), 550.0).expect("a ray").weight_sr;
     assert!((0.75 * weight / bare - 1.0).abs() < 1e-15, "three quarters of the samples carry it all");
 }
@@ -208,9 +208,9 @@ fn glass_that_cannot_be_is_refused() {
     let raster = Raster::new(80, 80, DVec2::splat(0.1), DVec2::splat(40.0)).expect("a raster");
     let check =
         |placement: Placement| front(WindscreenParameters { placement, ..plate(0.0) }).check(&pinhole(), &raster);
-    assert_eq!(check(Placement::turned(DVec3::new(0.0, 0.0, 300.0), [60.0, 0.0, 0.0])), Ok(()));
-    assert_eq!(check(Placement::turned(DVec3::new(0.0, 0.0, -1.0), [0.0; 3])), Err(FrontError::ThroughLens));
-    let steep = Placement::turned(DVec3::new(0.0, 0.0, 1.0), [60.0, 0.0, 0.0]);
+    assert_eq!(check(Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 300.0), [60.0, 0.0, 0.0])), Ok(()));
+    assert_eq!(check(Placement::with_rotation_deg(DVec3::new(0.0, 0.0, -1.0), [0.0; 3])), Err(FrontError::ThroughLens));
+    let steep = Placement::with_rotation_deg(DVec3::new(0.0, 0.0, 1.0), [60.0, 0.0, 0.0]);
     let thin = ThinParameters { focal_length_mm: 6.0, f_number: 2.0, focus_distance_m: 10.0, transmittance: 1.0 };
     let wide = Lens::thin(thin).expect("a lens");
     let close = front(WindscreenParameters { placement: steep, ..plate(0.0) });

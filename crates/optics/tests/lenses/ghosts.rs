@@ -8,7 +8,7 @@ use etendue_optics::prescription::ghost::GhostPair;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_spectra::glass::Dispersion;
 use glam::{DVec2, DVec3};
@@ -139,7 +139,7 @@ const PIXELS: usize = 120;
 const PITCH_MM: f64 = 0.3;
 
 /// An image of 36 mm with one bright pixel, and its ghosts, for two bands.
-fn ghosts_of(lens: &Prescribed, pixel: [usize; 2], sensor: f64) -> SpectralCube<Irradiance> {
+fn ghosts_of(lens: &PrescriptionLens, pixel: [usize; 2], sensor: f64) -> SpectralCube<Irradiance> {
     let raster = Raster::centred(PIXELS, PIXELS, PITCH_MM).expect("a raster");
     let bands = Bands::new(560.0, 20.0, 2).expect("bands");
     let mut cube = SpectralCube::new(PIXELS, PIXELS, bands);
@@ -147,19 +147,19 @@ fn ghosts_of(lens: &Prescribed, pixel: [usize; 2], sensor: f64) -> SpectralCube<
     layer(&cube, lens, &raster, GhostSettings::new(sensor).expect("legal")).expect("of this size")
 }
 
-fn prescribed(lens: Prescription) -> Prescribed {
-    Prescribed::new(lens, None, 26.0).expect("lit")
+fn prescribed(lens: Prescription) -> PrescriptionLens {
+    PrescriptionLens::new(lens, None, 26.0).expect("lit")
 }
 
 /// Light of the pixel's ghosts on the image by a plain sum over a fine grid of rays over the whole front, without tables: its sum and centroid,
 /// relative to the light of the pixel.
-fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVec2) {
+fn plain_sum(lens: &PrescriptionLens, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVec2) {
     const SIDE: i32 = 160;
     let p = lens.prescription();
     let through = Lens::prescription(lens.clone());
-    let seen = through.direction(at_mm).expect("a direction");
+    let actual = through.direction(at_mm).expect("a direction");
     // From the camera frame, towards the scene, to the lens frame, towards the sensor.
-    let travel = DVec3::new(-seen.x, -seen.y, seen.z).normalize();
+    let travel = DVec3::new(-actual.x, -actual.y, actual.z).normalize();
     let half = PITCH_MM / 2.0;
     let direction = |x: f64, y: f64| through.direction(at_mm + DVec2::new(x, y)).expect("a direction").normalize();
     let solid =
@@ -219,12 +219,12 @@ fn a_layer_turns_with_its_source_and_grows_with_it() {
     let lens = prescribed(double_gauss(Coating::QuarterWave { design_nm: 550.0 }));
     let [a, b] = [[90, 40], [PIXELS - 1 - 40, 90]].map(|pixel| ghosts_of(&lens, pixel, 0.0));
     let (a, b) = (&a.planes()[0], &b.planes()[0]);
-    let most = a.samples().iter().copied().fold(0.0, f32::max);
+    let maximum = a.samples().iter().copied().fold(0.0, f32::max);
     for y in 0..PIXELS {
         for x in 0..PIXELS {
             // Single-precision rounding of point positions.
             let difference = a.at(x, y) - b.at(PIXELS - 1 - y, x);
-            assert!(difference.abs() < 2e-3 * most, "{x} {y}: {} {}", a.at(x, y), b.at(PIXELS - 1 - y, x));
+            assert!(difference.abs() < 2e-3 * maximum, "{x} {y}: {} {}", a.at(x, y), b.at(PIXELS - 1 - y, x));
         }
     }
 }

@@ -14,13 +14,13 @@ fn glare(scatter: f64, core_um: f64, exponent: f64, reach_mm: Option<f64>) -> Gl
 }
 
 fn effects(glare: Glare, margin: f64, width: usize, height: usize) -> (Effects, Raster) {
-    let picture = Raster::centred(width, height, PITCH_MM).expect("legal");
+    let raster = Raster::centred(width, height, PITCH_MM).expect("legal");
     let parameters = EffectsParameters { glare: Some(glare), margin: Some(margin), ..Default::default() };
-    (Effects::new(parameters, &picture).expect("legal"), picture)
+    (Effects::new(parameters, &raster).expect("legal"), raster)
 }
 
 /// The image of a film that is filled by a function of its pixels.
-fn picture(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f32) -> Plane<Irradiance> {
+fn glare_image(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f32) -> Plane<Irradiance> {
     let film = effects.film(raster);
     let samples = (0..film.width() * film.height()).map(|i| light(i % film.width(), i / film.width())).collect();
     let film = Plane::from_samples(film.width(), film.height(), samples).expect("a sample a pixel");
@@ -41,28 +41,28 @@ fn a_black_spot_in_a_white_field_is_veiled_by_its_closed_form() {
             let (x, y) = (x as f64 - 256.0, y as f64 - 256.0);
             f32::from(x * x + y * y > radius_px * radius_px)
         };
-        let veil = f64::from(picture(&effects, &raster, spot).at(256, 256));
-        let expected = 0.03 * (1.0 - glare.within(radius_px * PITCH_MM));
+        let veil = f64::from(glare_image(&effects, &raster, spot).at(256, 256));
+        let expected = 0.03 * (1.0 - glare.light_within(radius_px * PITCH_MM));
         // The spot's edge is jagged: half a pixel in forty at worst, far less on average over its border.
         assert!((veil / expected - 1.0).abs() < 3e-3, "{core_um} {exponent}: {veil} for {expected}");
     }
 }
 
 #[test]
-fn a_square_outside_the_picture_lights_it() {
+fn a_square_outside_the_image_lights_it() {
     // Between the centres of square and pixel the density is nearly linear over the square.
     let glare = glare(0.02, 20.0, 2.6, None);
     let (effects, raster) = effects(glare, 0.25, 200, 120);
     assert_eq!(effects.margin_px(), [50, 30]);
     let lit = |x: usize, y: usize| if x < 10 && (70..80).contains(&y) { 1000.0 } else { 0.0 };
-    let picture = picture(&effects, &raster, lit);
+    let image = glare_image(&effects, &raster, lit);
     for (x, y) in [(0, 44), (60, 20), (199, 119)] {
         let (dx, dy) = ((x + 50) as f64 - 4.5, (y + 30) as f64 - 74.5);
         let distance_mm = PITCH_MM * (dx * dx + dy * dy).sqrt();
         let expected = 1000.0 * 0.02 * glare.density_per_mm2(distance_mm) * (10.0 * PITCH_MM) * (10.0 * PITCH_MM);
-        let found = f64::from(picture.at(x, y));
+        let actual = f64::from(image.at(x, y));
         // Second order in the square's side over the distance: (10/45)² p²/24 = 1.4 % at the nearest.
-        assert!((found / expected - 1.0).abs() < 0.015, "at ({x}, {y}): {found} for {expected}");
+        assert!((actual / expected - 1.0).abs() < 0.015, "at ({x}, {y}): {actual} for {expected}");
     }
 }
 
@@ -71,11 +71,11 @@ fn energy_is_kept_where_the_kernel_ends_within_the_film() {
     for (core_um, exponent) in [(0.5, 3.5), (7.0, 2.0), (60.0, 1.0)] {
         let glare = glare(0.4, core_um, exponent, Some(0.4));
         let (effects, raster) = effects(glare, 0.0, 101, 101);
-        let picture = picture(&effects, &raster, |x, y| f32::from(u8::from(x == 50 && y == 50)));
-        let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
+        let image = glare_image(&effects, &raster, |x, y| f32::from(u8::from(x == 50 && y == 50)));
+        let sum: f64 = image.samples().iter().map(|v| f64::from(*v)).sum();
         // Rounding of ten thousand pixels to 32 bits.
         assert!((sum - 1.0).abs() < 1e-6, "{core_um} {exponent}: {sum}");
-        assert!(picture.samples().iter().all(|v| *v >= 0.0));
+        assert!(image.samples().iter().all(|v| *v >= 0.0));
     }
 }
 
@@ -83,14 +83,14 @@ fn energy_is_kept_where_the_kernel_ends_within_the_film() {
 fn the_kernel_within_a_circle_is_its_closed_form() {
     let glare = glare(0.5, 15.0, 2.4, None);
     let (effects, raster) = effects(glare, 0.0, 401, 401);
-    let picture = picture(&effects, &raster, |x, y| f32::from(u8::from(x == 200 && y == 200)));
+    let image = glare_image(&effects, &raster, |x, y| f32::from(u8::from(x == 200 && y == 200)));
     for radius_px in [5.0, 20.0, 60.0, 150.0] {
         let inside = |i: &usize| {
             let (x, y) = ((i % 401) as f64 - 200.0, (i / 401) as f64 - 200.0);
             x * x + y * y <= radius_px * radius_px
         };
-        let sum: f64 = (0..401 * 401).filter(inside).map(|i| f64::from(picture.samples()[i])).sum();
-        let expected = 0.5 + 0.5 * glare.within(radius_px * PITCH_MM);
+        let sum: f64 = (0..401 * 401).filter(inside).map(|i| f64::from(image.samples()[i])).sum();
+        let expected = 0.5 + 0.5 * glare.light_within(radius_px * PITCH_MM);
         // The circle's jagged edge: lattice points in a circle differ from its area by some of its border.
         assert!((sum - expected).abs() < 0.5 / radius_px / radius_px.sqrt(), "{radius_px}: {sum} for {expected}");
     }
@@ -122,14 +122,14 @@ fn variances_go_through_the_squared_kernel() {
 
 #[test]
 fn what_scatters_nothing_is_absent() {
-    let picture = Raster::centred(40, 30, PITCH_MM).expect("legal");
+    let raster = Raster::centred(40, 30, PITCH_MM).expect("legal");
     let clean = EffectsParameters { glare: Some(glare(0.0, 10.0, 3.0, None)), ..Default::default() };
-    let effects = Effects::new(clean.clone(), &picture).expect("legal");
+    let effects = Effects::new(clean.clone(), &raster).expect("legal");
     assert!(effects.is_idle() && effects.margin_px() == [0, 0]);
-    let idle = Effects::new(EffectsParameters { margin: Some(0.1), ..clean }, &picture);
+    let idle = Effects::new(EffectsParameters { margin: Some(0.1), ..clean }, &raster);
     assert_eq!(idle, Err(EffectsError::IdleMargin));
     let dirty = EffectsParameters { glare: Some(glare(0.1, 10.0, 3.0, None)), ..Default::default() };
-    assert_eq!(Effects::new(dirty, &picture).expect("legal").margin_px(), [10, 8]);
+    assert_eq!(Effects::new(dirty, &raster).expect("legal").margin_px(), [10, 8]);
 }
 
 #[test]

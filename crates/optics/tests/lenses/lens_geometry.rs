@@ -2,9 +2,9 @@
 
 use etendue_core::ray::PupilRay;
 use etendue_optics::{
-    ConstantPupil, Lens, OpticsError, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, ThinParameters,
+    ConstantPupil, Lens, OpticsError, PinholeParameters, PupilParameters, ClippingAperture, Thick, ThickParameters, ThinParameters,
 };
-use etendue_projection::{RadialDistortion, Raster, Sense};
+use etendue_projection::{RadialDistortion, Raster, DistortionDirection};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn thick_parameters() -> ThickParameters {
         focus_distance_m: 0.6,
         transmittance: 0.9,
         principal_separation_mm: 5.0,
-        pupils: PupilStatements { entrance_pupil_mm: Some(-3.2), ..PupilStatements::default() },
+        pupils: PupilParameters { entrance_pupil_mm: Some(-3.2), ..PupilParameters::default() },
         constant_pupil: ConstantPupil::Exit,
         front_aperture: None,
         rear_aperture: None,
@@ -41,7 +41,7 @@ fn at_depth(ray: &PupilRay, z_m: f64) -> DVec3 {
 
 #[test]
 fn all_rays_of_a_sensor_point_meet_in_the_plane_in_focus() {
-    let distortion = RadialDistortion::new(Sense::ObservedToIdeal, 0.1, 0.0, 16.0).expect("legal");
+    let distortion = RadialDistortion::new(DistortionDirection::ObservedToIdeal, 0.1, 0.0, 16.0).expect("legal");
     for lens in
         [thin(0.6), Lens::Thick(thick()), Lens::Thick(thick()).with_distortion(distortion).expect("a paraxial lens")]
     {
@@ -91,8 +91,8 @@ fn both_sides_of_a_thick_lens_meet_its_principal_planes_at_one_height() {
     // H lies at z = + entrance position (positive positions are towards the sensor) in the camera frame.
     let at_h_mm = at_depth(&ray, lens.entrance_pupil_position_mm() / 1000.0).truncate() * 1000.0;
     let exit_point = ray.origin_m.truncate() * 1000.0 * lens.pupil_magnification();
-    let share = (5.0 - exit_mm) / exit_to_sensor_mm;
-    let at_h2_mm = exit_point + (-sensor - exit_point) * share;
+    let fraction = (5.0 - exit_mm) / exit_to_sensor_mm;
+    let at_h2_mm = exit_point + (-sensor - exit_point) * fraction;
     assert!((at_h_mm - at_h2_mm).length() < 1e-6, "{at_h_mm} {at_h2_mm}");
     // And sensor and plane in focus are conjugate: 1/v + 1/u = 1/f from H′ and H.
     let (v, u) = (lens.sensor_position_mm() - 5.0, 600.0 - lens.entrance_pupil_position_mm());
@@ -105,15 +105,15 @@ fn one_statement_about_the_pupils_fixes_the_others() {
     assert!((lens.pupil_magnification() - 16.0 / 12.8).abs() < 1e-15);
     assert!((lens.exit_pupil_position_mm() - (5.0 + 16.0 * (1.0 - 1.25))).abs() < 1e-12);
     let agreeing =
-        PupilStatements { entrance_pupil_mm: Some(-3.2), exit_pupil_mm: Some(1.0), pupil_magnification: Some(1.25) };
+        PupilParameters { entrance_pupil_mm: Some(-3.2), exit_pupil_mm: Some(1.0), pupil_magnification: Some(1.25) };
     assert!(Thick::new(ThickParameters { pupils: agreeing, ..thick_parameters() }).is_ok());
-    let pupils = PupilStatements { pupil_magnification: Some(1.3), ..agreeing };
+    let pupils = PupilParameters { pupil_magnification: Some(1.3), ..agreeing };
     let refused = Thick::new(ThickParameters { pupils, ..thick_parameters() }).expect_err("contradiction");
     assert!(matches!(refused, OpticsError::Pupils { second: "pupil_magnification", .. }));
     let text = refused.to_string();
     assert!(text.contains("entrance_pupil_mm = -3.2") && text.contains("1.3"), "{text}");
     for entrance in [-16.0, -20.0] {
-        let pupils = PupilStatements { entrance_pupil_mm: Some(entrance), ..PupilStatements::default() };
+        let pupils = PupilParameters { entrance_pupil_mm: Some(entrance), ..PupilParameters::default() };
         let refused = Thick::new(ThickParameters { pupils, ..thick_parameters() }).expect_err("telecentric");
         assert!(matches!(refused, OpticsError::PupilBeyondFocus { .. }));
     }
@@ -133,19 +133,19 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(refused(faster), OpticsError::Faster { .. }));
     let bright = ThinParameters { transmittance: 1.1, ..base };
     assert!(matches!(refused(bright), OpticsError::Transmittance { .. }));
-    let rim = Some(Rim { position_mm: -10.0, radius_mm: 3.0 });
+    let aperture = Some(ClippingAperture { position_mm: -10.0, radius_mm: 3.0 });
     let narrow =
-        Thick::new(ThickParameters { front_aperture: rim, ..thick_parameters() }).expect_err("the rim is the stop");
+        Thick::new(ThickParameters { front_aperture: aperture, ..thick_parameters() }).expect_err("the rim is the stop");
     assert!(matches!(narrow, OpticsError::RimIsStop { rim: "front_aperture", .. }), "{narrow}");
-    let rim = Some(Rim { position_mm: 25.0, radius_mm: 30.0 });
+    let aperture = Some(ClippingAperture { position_mm: 25.0, radius_mm: 30.0 });
     let behind =
-        Thick::new(ThickParameters { rear_aperture: rim, ..thick_parameters() }).expect_err("behind the sensor");
+        Thick::new(ThickParameters { rear_aperture: aperture, ..thick_parameters() }).expect_err("behind the sensor");
     assert!(matches!(behind, OpticsError::RimMisplaced { plane: "sensor", .. }), "{behind}");
 }
 
 #[test]
-fn a_fold_inside_the_picture_is_refused() {
-    let fold = RadialDistortion::new(Sense::ObservedToIdeal, -3.0, 0.0, 16.0).expect("legal");
+fn a_fold_inside_the_image_is_refused() {
+    let fold = RadialDistortion::new(DistortionDirection::ObservedToIdeal, -3.0, 0.0, 16.0).expect("legal");
     let raster = Raster::centred(1000, 1000, 0.01).expect("legal");
     assert!(matches!(
         thin(1.0).with_distortion(fold).expect("a paraxial lens").check(&raster),
@@ -194,7 +194,7 @@ fn the_field_of_view_is_the_textbook_s() {
 
 #[test]
 fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
-    let front_aperture = Some(Rim { position_mm: -40.0, radius_mm: 4.5 });
+    let front_aperture = Some(ClippingAperture { position_mm: -40.0, radius_mm: 4.5 });
     let lens = Lens::thick(ThickParameters { front_aperture, ..thick_parameters() }).expect("legal");
     let at = DVec2::new(2.1, 0.0);
     assert!(lens.principal_ray(at).is_none());
@@ -209,7 +209,7 @@ fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
 proptest! {
     #[test]
     fn project_inverts_the_principal_ray(x in -6.0..6.0f64, y in -6.0..6.0f64, k1 in -0.2..0.2f64, k2 in -0.05..0.05f64, forward: bool) {
-        let sense = if forward { Sense::IdealToObserved } else { Sense::ObservedToIdeal };
+        let sense = if forward { DistortionDirection::IdealToObserved } else { DistortionDirection::ObservedToIdeal };
         let distortion = RadialDistortion::new(sense, k1, k2, 16.0).expect("legal");
         for lens in [pinhole(), thin(0.6), Lens::Thick(thick())] {
             let lens = lens.with_distortion(distortion).expect("a paraxial lens");

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, cos, tan};
-use etendue_optics::{ConstantPupil, Lens, PinholeParameters, PupilStatements, Rim, ThickParameters, ThinParameters};
-use etendue_projection::{RadialDistortion, Sense};
+use etendue_optics::{ConstantPupil, Lens, PinholeParameters, PupilParameters, ClippingAperture, ThickParameters, ThinParameters};
+use etendue_projection::{RadialDistortion, DistortionDirection};
 use glam::DVec2;
 
 const FOCAL_MM: f64 = 25.0;
@@ -24,7 +24,7 @@ fn thick_parameters(f_number: f64) -> ThickParameters {
         focus_distance_m: f64::INFINITY,
         transmittance: 1.0,
         principal_separation_mm: 0.0,
-        pupils: PupilStatements::default(),
+        pupils: PupilParameters::default(),
         constant_pupil: ConstantPupil::Exit,
         front_aperture: None,
         rear_aperture: None,
@@ -32,7 +32,7 @@ fn thick_parameters(f_number: f64) -> ThickParameters {
 }
 
 fn magnified(f_number: f64, pupil_magnification: f64) -> ThickParameters {
-    let pupils = PupilStatements { pupil_magnification: Some(pupil_magnification), ..PupilStatements::default() };
+    let pupils = PupilParameters { pupil_magnification: Some(pupil_magnification), ..PupilParameters::default() };
     ThickParameters { pupils, ..thick_parameters(f_number) }
 }
 
@@ -182,7 +182,7 @@ fn the_constant_pupil_rules_the_fall_off() {
 
 #[test]
 fn a_constant_entrance_pupil_conserves_etendue_through_distortion() {
-    let distortion = RadialDistortion::new(Sense::IdealToObserved, -0.2, 0.03, FOCAL_MM).expect("legal");
+    let distortion = RadialDistortion::new(DistortionDirection::IdealToObserved, -0.2, 0.03, FOCAL_MM).expect("legal");
     let parameters = ThickParameters { constant_pupil: ConstantPupil::Entrance, ..magnified(200.0, 1.6) };
     let lens = thick(parameters).with_distortion(distortion).expect("a paraxial lens");
     let (at, h) = (DVec2::new(8.0, -5.0), 1e-4);
@@ -205,34 +205,34 @@ fn two_circles(r1: f64, r2: f64, d: f64) -> f64 {
 }
 
 #[test]
-fn a_rim_cuts_the_area_of_two_circles() {
+fn an_aperture_cuts_the_area_of_two_circles() {
     let pupil_mm = FOCAL_MM / 128.0;
-    let rim = Rim { position_mm: -10.0, radius_mm: 0.15 };
+    let aperture = ClippingAperture { position_mm: -10.0, radius_mm: 0.15 };
     let open = thick(thick_parameters(64.0));
-    let lens = thick(ThickParameters { front_aperture: Some(Rim { radius_mm: 0.3, ..rim }), ..thick_parameters(64.0) });
+    let lens = thick(ThickParameters { front_aperture: Some(ClippingAperture { radius_mm: 0.3, ..aperture }), ..thick_parameters(64.0) });
     for tangent in [0.012, 0.02, 0.03, 0.045] {
         let at = DVec2::new(-0.6, 0.8) * FOCAL_MM * tangent;
-        let share = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
+        let fraction = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
         let expected = two_circles(pupil_mm, 0.3, 10.0 * tangent) / (PI * pupil_mm * pupil_mm);
         // The integrand varies over the pupil by 4 T a = 4 · 0.045/128.
-        assert!((share - expected).abs() < 1.5e-3, "{tangent}: {share} against {expected}");
+        assert!((fraction - expected).abs() < 1.5e-3, "{tangent}: {fraction} against {expected}");
     }
     assert_eq!(lens.projected_solid_angle_sr(DVec2::new(FOCAL_MM * 0.05, 0.0)), 0.0, "the circles no longer meet");
 }
 
 #[test]
-fn a_rear_rim_cuts_from_the_other_side() {
+fn a_rear_aperture_cuts_from_the_other_side() {
     // Small pupil, telescope-like: the rear aperture's projection from the sensor point, by similar triangles.
-    let rim = Rim { position_mm: 10.0, radius_mm: 0.2 };
-    let lens = thick(ThickParameters { rear_aperture: Some(rim), ..thick_parameters(64.0) });
+    let aperture = ClippingAperture { position_mm: 10.0, radius_mm: 0.2 };
+    let lens = thick(ThickParameters { rear_aperture: Some(aperture), ..thick_parameters(64.0) });
     let open = thick(thick_parameters(64.0));
     let (pupil_mm, at) = (FOCAL_MM / 128.0, DVec2::new(0.5, 0.0));
     let left = 1.0 - 10.0 / FOCAL_MM;
     let (radius, centre) = (0.2 / left, 0.5 * (10.0 / FOCAL_MM) / left);
     let expected = two_circles(pupil_mm, radius, centre) / (PI * pupil_mm * pupil_mm);
-    let share = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
+    let fraction = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
     // The integrand varies over the pupil by 4 T a = 4 · 0.02/128.
-    assert!((share - expected).abs() < 7e-4, "{share} against {expected}");
+    assert!((fraction - expected).abs() < 7e-4, "{fraction} against {expected}");
 }
 
 #[test]
@@ -240,12 +240,12 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
     let parameters = ThickParameters {
         focus_distance_m: 0.8,
         principal_separation_mm: 4.0,
-        front_aperture: Some(Rim { position_mm: -18.0, radius_mm: 9.5 }),
-        rear_aperture: Some(Rim { position_mm: 19.0, radius_mm: 5.0 }),
+        front_aperture: Some(ClippingAperture { position_mm: -18.0, radius_mm: 9.5 }),
+        rear_aperture: Some(ClippingAperture { position_mm: 19.0, radius_mm: 5.0 }),
         ..magnified(2.0, 0.8)
     };
     let lens = thick(parameters);
-    let mut shares = Vec::new();
+    let mut fractions = Vec::new();
     for field_mm in [0.5, 2.0, 4.0, 6.0, 8.0, 10.0] {
         let at = DVec2::new(0.28, 0.96) * field_mm;
         let exact = lens.projected_solid_angle_sr(at);
@@ -253,8 +253,8 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
         let scale = thick(ThickParameters { front_aperture: None, rear_aperture: None, ..parameters })
             .projected_solid_angle_sr(at);
         assert!((sampled_sr(&lens, at, 512) - exact).abs() < 1e-3 * scale, "{field_mm} mm");
-        shares.push(exact / scale);
+        fractions.push(exact / scale);
     }
-    assert!(shares[0] == 1.0 && shares[5] < 0.8, "the rims are there: {shares:?}");
-    assert!(shares.windows(2).all(|pair| pair[1] <= pair[0]));
+    assert!(fractions[0] == 1.0 && fractions[5] < 0.8, "the rims are there: {fractions:?}");
+    assert!(fractions.windows(2).all(|pair| pair[1] <= pair[0]));
 }

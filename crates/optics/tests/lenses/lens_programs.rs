@@ -5,7 +5,7 @@ use etendue_optics::prescription::ghost::GhostPair;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
 use etendue_spectra::glass;
 use glam::{DVec2, DVec3};
 use serde_json::Value;
@@ -30,7 +30,7 @@ fn vector(value: &Value) -> DVec3 {
     DVec3::from_slice(&list(value))
 }
 
-fn of_each(figures: &Value) -> impl Iterator<Item = (&Value, Prescription)> {
+fn published_lenses(figures: &Value) -> impl Iterator<Item = (&Value, Prescription)> {
     figures["lenses"].as_array().expect("lenses").iter().map(|lens| {
         let published = published::named(lens["name"].as_str().expect("a name")).expect("a published lens");
         let clear = |s: Surface| Surface { coating: Coating::Constant(1.0), ..s };
@@ -43,7 +43,7 @@ fn of_each(figures: &Value) -> impl Iterator<Item = (&Value, Prescription)> {
 
 #[test]
 fn paraxial_quantities_agree() {
-    for (figures, lens) in of_each(&figures()) {
+    for (figures, lens) in published_lenses(&figures()) {
         for row in figures["paraxial"].as_array().expect("rows") {
             let p = lens.paraxial_at(number(&row["nm"]));
             let to_image = number(&figures["back_mm"]);
@@ -69,7 +69,7 @@ fn paraxial_quantities_agree() {
 
 #[test]
 fn real_rays_agree() {
-    for (figures, lens) in of_each(&figures()) {
+    for (figures, lens) in published_lenses(&figures()) {
         let mut compared = 0;
         for row in figures["rays"].as_array().expect("rays") {
             let ray = LensRay { point: vector(&row["point_mm"]), direction: vector(&row["direction"]).normalize() };
@@ -107,7 +107,7 @@ fn agrees(lens: &Prescription, out: LensRay, row: &Value) {
 fn aspheric_surface(row: &Value, stop: bool) -> Surface {
     let glass = match &row["glass"] {
         Value::Null => glass::Dispersion::AIR,
-        of_abbe => glass::Dispersion::of_abbe(number(&of_abbe[0]), number(&of_abbe[1])).expect("a glass"),
+        of_abbe => glass::Dispersion::from_abbe(number(&of_abbe[0]), number(&of_abbe[1])).expect("a glass"),
     };
     let radius_mm = row["radius_mm"].as_f64().unwrap_or(f64::INFINITY);
     let plain = Surface::sphere(radius_mm, number(&row["thickness_mm"]), glass, number(&row["semi_aperture_mm"]));
@@ -152,10 +152,10 @@ fn ghosts_agree() {
 
 #[test]
 fn relative_illumination_agrees() {
-    for (figures, lens) in of_each(&figures()) {
+    for (figures, lens) in published_lenses(&figures()) {
         let illumination = &figures["illumination"];
         let heights = list(&illumination["heights_mm"]);
-        let lens = Lens::prescription(Prescribed::new(lens, None, heights[heights.len() - 1] * 1.05).expect("lit"));
+        let lens = Lens::prescription(PrescriptionLens::new(lens, None, heights[heights.len() - 1] * 1.05).expect("lit"));
         let axis = lens.projected_solid_angle_sr(DVec2::ZERO);
         let (relative, absolute) = (list(&illumination["relative"]), list(&illumination["projected_sr"]));
         for ((height, relative), absolute) in heights.iter().zip(relative).zip(absolute) {
@@ -174,7 +174,7 @@ fn relative_illumination_agrees() {
 #[test]
 fn catalogue_indices_agree() {
     for row in figures()["catalogue"].as_array().expect("rows") {
-        let glass = glass::named(row["glass"].as_str().expect("a name")).expect("in the catalogue");
+        let glass = glass::by_name(row["glass"].as_str().expect("a name")).expect("in the catalogue");
         let own = glass.dispersion.index(number(&row["nm"]));
         for program in ["optiland", "opticalglass"] {
             assert!((own - number(&row[program])).abs() < 2e-6, "{row}: {own}");

@@ -6,9 +6,9 @@ use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
 use etendue_spectra::glass::{Dispersion, LINE_C_NM, LINE_F_NM};
-use etendue_spectra::{Outside, Spectrum};
+use etendue_spectra::{Extrapolation, Spectrum};
 use glam::{DVec2, DVec3};
 
 /// The published lenses with the image radius of each, mm.
@@ -23,7 +23,7 @@ const FAR: Focus = Focus::Sensor { distance_m: f64::INFINITY };
 
 fn published(name: &str, radius_mm: f64) -> Lens {
     let surfaces = published::named(name).expect("a published lens").surfaces();
-    Lens::prescription(Prescribed::new(focused(surfaces, FAR), None, radius_mm).expect("lit"))
+    Lens::prescription(PrescriptionLens::new(focused(surfaces, FAR), None, radius_mm).expect("lit"))
 }
 
 /// Low-discrepancy points of the unit square (the generalised golden ratio).
@@ -41,7 +41,7 @@ fn stopped_singlet(focus: Focus) -> Lens {
         clear(Surface::sphere(50.0, 4.0, glass, 8.0)),
         clear(Surface::sphere(-50.0, 0.0, Dispersion::AIR, 8.0)),
     ];
-    Lens::prescription(Prescribed::new(focused(surfaces, focus), None, 5.0).expect("lit"))
+    Lens::prescription(PrescriptionLens::new(focused(surfaces, focus), None, 5.0).expect("lit"))
 }
 
 #[test]
@@ -67,8 +67,8 @@ fn few_proposals_fail_and_the_mean_weight_is_the_etendue() {
                 "{name} {s_mm}: {mean_sr} {projected_solid_angle_sr}"
             );
         }
-        let share = failed / all;
-        assert!(share < 0.05, "{name}: {share} of the proposals fail");
+        let fraction = failed / all;
+        assert!(fraction < 0.05, "{name}: {fraction} of the proposals fail");
     }
 }
 
@@ -169,7 +169,7 @@ fn stopped_down_it_is_the_lens_of_first_order() {
 fn light_obeys_the_sine_condition_that_the_double_gauss_is_corrected_for() {
     let surfaces = published::named("double-gauss").expect("a published lens").surfaces();
     let clear = surfaces.into_iter().map(|s| Surface { coating: Coating::Constant(1.0), ..s }).collect();
-    let lens = Lens::prescription(Prescribed::new(focused(clear, FAR), None, 21.6).expect("lit"));
+    let lens = Lens::prescription(PrescriptionLens::new(focused(clear, FAR), None, 21.6).expect("lit"));
     let n = lens.f_number();
     let (sine, disc) = (PI / (4.0 * n * n), PI / (1.0 + 4.0 * n * n));
     let e = lens.projected_solid_angle_sr(DVec2::ZERO);
@@ -193,7 +193,7 @@ fn clipped_principal_rays_give_way_to_the_middle_of_what_is_open() {
 #[test]
 fn a_prescription_keeps_its_own_distortion() {
     let lens = published("telephoto", 6.3);
-    let own = etendue_projection::RadialDistortion::new(etendue_projection::Sense::IdealToObserved, 0.1, 0.0, 1.0);
+    let own = etendue_projection::RadialDistortion::new(etendue_projection::DistortionDirection::IdealToObserved, 0.1, 0.0, 1.0);
     let message = lens.with_distortion(own.expect("legal")).expect_err("refused").to_string();
     assert!(message.contains("have their own distortion"), "{message}");
 }
@@ -207,9 +207,9 @@ fn the_report_obeys_third_order_theory() {
     let height_mm = report.fields[1].height_mm;
     // The Petzval surface lies beyond the sagittal focus by half the distance between the tangential and the sagittal focus.
     let petzval_mm = height_mm * height_mm / (2.0 * report.first_order.petzval_radius_mm);
-    let found = 0.5 * (3.0 * field.sagittal_mm - field.tangential_mm);
+    let sagitta = 0.5 * (3.0 * field.sagittal_mm - field.tangential_mm);
     // At 1 mm of 49 mm the next order is some 1e-3.
-    assert!((found / petzval_mm - 1.0).abs() < 5e-3, "{found} {petzval_mm}");
+    assert!((sagitta / petzval_mm - 1.0).abs() < 5e-3, "{sagitta} {petzval_mm}");
     // Rays cross the axis of a defocused fan at the stop's image: the spot is that of the tangential and sagittal blur.
     let spot = field.spot.expect("lit");
     assert!(spot.rms_mm < spot.radius_mm && (spot.centroid_mm - height_mm).abs() < 1e-4);
@@ -219,13 +219,13 @@ fn the_report_obeys_third_order_theory() {
 
 #[test]
 fn axial_colour_of_a_thin_lens_is_that_of_its_power() {
-    let glass = Dispersion::of_abbe(1.5, 50.0).expect("a glass");
+    let glass = Dispersion::from_abbe(1.5, 50.0).expect("a glass");
     let surfaces = vec![
         Surface::stop(0.01, 3.0),
         Surface::sphere(100.0, 0.2, glass, 4.0),
         Surface::sphere(-100.0, 0.0, Dispersion::AIR, 4.0),
     ];
-    let report = Prescribed::new(focused(surfaces, FAR), None, 1.0).expect("lit").report(2);
+    let report = PrescriptionLens::new(focused(surfaces, FAR), None, 1.0).expect("lit").report(2);
     let longitudinal_mm = report.axial_colour_c_mm - report.axial_colour_f_mm;
     // f is proportional to 1/(n − 1) for a lens of zero thickness: 0.2 mm of 100 mm change it by 1e-3.
     let power = |nm: f64| glass.index(nm) - 1.0;
@@ -235,21 +235,21 @@ fn axial_colour_of_a_thin_lens_is_that_of_its_power() {
 }
 
 #[test]
-fn an_ir_cut_darkens_its_edge_towards_the_picture_s_corner() {
+fn an_ir_cut_darkens_its_edge_towards_the_image_s_corner() {
     let table = [(300.0, 1.0), (640.0, 1.0), (660.0, 0.0), (1100.0, 0.0)];
-    let edge = Spectrum::from_points(&table, Outside::Hold).expect("a table");
+    let edge = Spectrum::from_points(&table, Extrapolation::Hold).expect("a table");
     let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
     let surfaces = published::named("double-gauss").expect("a published lens").surfaces();
-    let bare = Lens::prescription(Prescribed::new(focused(surfaces.clone(), FAR), None, 21.6).expect("lit"));
-    let cut = Lens::prescription(Prescribed::new(focused(surfaces, FAR), Some(filter.clone()), 21.6).expect("lit"));
+    let bare = Lens::prescription(PrescriptionLens::new(focused(surfaces.clone(), FAR), None, 21.6).expect("lit"));
+    let cut = Lens::prescription(PrescriptionLens::new(focused(surfaces, FAR), Some(filter.clone()), 21.6).expect("lit"));
     for s_mm in [0.0, 12.0, 20.0] {
         for pupil in points(40) {
             let sensor_mm = DVec2::new(0.0, s_mm);
             let at = |lens: &Lens, nm: f64| lens.ray(sensor_mm, pupil, nm);
             let (Some(a), Some(b)) = (at(&bare, 645.0), at(&cut, 645.0)) else { continue };
             // The same ray; its weight is multiplied by the filter's transmittance at the angle of arrival, within the edge's 20 nm.
-            let share = b.weight_sr / a.weight_sr;
-            assert!(a.direction == b.direction && share <= filter.transmittance(645.0, 1.0) + 1e-6, "{share}");
+            let fraction = b.weight_sr / a.weight_sr;
+            assert!(a.direction == b.direction && fraction <= filter.transmittance(645.0, 1.0) + 1e-6, "{fraction}");
             let open = [(500.0, 1.0), (700.0, 0.0)];
             for (nm, expected) in open {
                 let (Some(a), Some(b)) = (at(&bare, nm), at(&cut, nm)) else { continue };

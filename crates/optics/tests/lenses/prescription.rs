@@ -1,8 +1,8 @@
 //! Prescriptions compared with closed forms.
 
-use etendue_optics::lens::Prescribed;
+use etendue_optics::lens::PrescriptionLens;
 use etendue_optics::prescription::surface::Surface;
-use etendue_optics::prescription::trace::{LensRay, Loss};
+use etendue_optics::prescription::trace::{LensRay, RayLossReason};
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{Lens, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_spectra::glass::Dispersion;
@@ -57,7 +57,7 @@ fn the_exit_pupil_lies_where_the_f_number_says() {
         let surfaces = published::named(name).expect("published").surfaces();
         let prescription = lens(surfaces);
         let radius_mm = prescription.paraxial().exit_radius_mm;
-        let lens = Lens::prescription(Prescribed::new(prescription, None, 1.0).expect("lit"));
+        let lens = Lens::prescription(PrescriptionLens::new(prescription, None, 1.0).expect("lit"));
         let ratio = lens.exit_pupil_distance_mm() / (2.0 * radius_mm) / lens.working_f_number();
         // The published back focus is rounded to 1e-4 of the focal length or so, and focusing is by the sensor.
         assert!((ratio - 1.0).abs() < 1e-6, "{name}: {ratio}");
@@ -169,14 +169,14 @@ fn focusing_refuses_what_cannot_be() {
 #[test]
 fn lost_rays_say_where() {
     let lens = lens(biconvex());
-    let beside = LensRay { point: DVec3::new(0.0, 11.0, lens.sensor_position_mm()), direction: DVec3::NEG_Z };
-    let lost = lens.to_scene(beside, 550.0).expect_err("beside the lens");
-    assert_eq!((lost.surface, lost.loss), (2, Loss::Clipped));
+    let outside = LensRay { point: DVec3::new(0.0, 11.0, lens.sensor_position_mm()), direction: DVec3::NEG_Z };
+    let lost = lens.to_scene(outside, 550.0).expect_err("beside the lens");
+    assert_eq!((lost.surface, lost.loss), (2, RayLossReason::Clipped));
     let away = LensRay {
         point: DVec3::new(0.0, 0.0, lens.sensor_position_mm()),
         direction: DVec3::new(0.95, 0.0, -0.1).normalize(),
     };
-    assert_eq!(lens.to_scene(away, 550.0).expect_err("beside the sphere").loss, Loss::Missed);
+    assert_eq!(lens.to_scene(away, 550.0).expect_err("beside the sphere").loss, RayLossReason::Missed);
 }
 
 #[test]

@@ -42,10 +42,10 @@ fn point(raster: &Raster, x: usize, y: usize) -> Plane<Irradiance> {
 
 const BAND: WavelengthRange = WavelengthRange::new(540.0, 560.0);
 
-fn centroid(picture: &Plane<Irradiance>) -> DVec2 {
-    let place = |i: usize| DVec2::new((i % picture.width()) as f64, (i / picture.width()) as f64);
-    let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
-    let moment: DVec2 = picture.samples().iter().enumerate().map(|(i, v)| place(i) * f64::from(*v)).sum();
+fn centroid(image: &Plane<Irradiance>) -> DVec2 {
+    let place = |i: usize| DVec2::new((i % image.width()) as f64, (i / image.width()) as f64);
+    let sum: f64 = image.samples().iter().map(|v| f64::from(*v)).sum();
+    let moment: DVec2 = image.samples().iter().enumerate().map(|(i, v)| place(i) * f64::from(*v)).sum();
     moment / sum
 }
 
@@ -53,10 +53,10 @@ fn centroid(picture: &Plane<Irradiance>) -> DVec2 {
 fn a_point_keeps_its_light_and_its_place() {
     let raster = Raster::centred(121, 101, 0.003).expect("legal");
     let effects = effects(PsfParameters { reach_mm: Some(0.1), blades: 6, ..round() }, &lens(50.0, 8.0), &raster);
-    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 60, 50), None).0;
-    let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
+    let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 60, 50), None).0;
+    let sum: f64 = image.samples().iter().map(|v| f64::from(*v)).sum();
     // 32-bit pixels; the lattice of the pattern has one more row on the side of the image's origin.
-    assert!((sum - 1.0).abs() < 1e-6 && (centroid(&picture) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
+    assert!((sum - 1.0).abs() < 1e-6 && (centroid(&image) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
 }
 
 #[test]
@@ -67,10 +67,10 @@ fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
     let parameters = PsfParameters { wavefront: vec![coma], reach_mm: Some(0.05), ..round() };
     let effects = effects(PsfParameters { patches: Some([3, 2]), ..parameters }, &lens(0.4, 4.0), &raster);
     let film = Plane::filled(90, 70, 2.0);
-    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &film, None).0;
+    let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &film, None).0;
     for y in 10..60 {
         for x in 10..80 {
-            assert!((picture.at(x, y) - 2.0).abs() < 1e-6, "({x}, {y}): {}", picture.at(x, y));
+            assert!((image.at(x, y) - 2.0).abs() < 1e-6, "({x}, {y}): {}", image.at(x, y));
         }
     }
 }
@@ -79,9 +79,9 @@ fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
 fn a_spread_much_smaller_than_a_pixel_is_nearly_the_identity() {
     let raster = Raster::centred(31, 31, 0.5).expect("legal");
     let effects = effects(round(), &lens(50.0, 2.0), &raster);
-    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 15, 15), None).0;
+    let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 15, 15), None).0;
     // Mean |x| + |y| of the pattern in units of a pixel: λN = 1.1 µm, reach 140 µm of 500.
-    assert!(picture.at(15, 15) > 0.99, "{}", picture.at(15, 15));
+    assert!(image.at(15, 15) > 0.99, "{}", image.at(15, 15));
 }
 
 #[test]
@@ -89,9 +89,9 @@ fn away_from_the_axis_the_pattern_is_wider_towards_it() {
     // θ′ = 45° at the node on the right: cos³ and cos differ by two.
     let raster = Raster::new(61, 61, DVec2::splat(0.002), DVec2::new(-970.0, 30.5)).expect("legal");
     let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(2.001, 8.0), &raster);
-    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 30, 30), None).0;
-    let half = |at: &dyn Fn(usize) -> f32| (0..30).map(at).take_while(|v| *v > 0.5 * picture.at(30, 30)).count();
-    let (wide, tall) = (half(&|i| picture.at(30 + i, 30)), half(&|i| picture.at(30, 30 + i)));
+    let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 30, 30), None).0;
+    let half = |at: &dyn Fn(usize) -> f32| (0..30).map(at).take_while(|v| *v > 0.5 * image.at(30, 30)).count();
+    let (wide, tall) = (half(&|i| image.at(30 + i, 30)), half(&|i| image.at(30, 30 + i)));
     // The half width of Airy's pattern is 0.51 λN: 2.27 µm here, times 2.83 and 1.41: 3.2 and 1.6 pixels.
     assert_eq!((wide, tall), (4, 2));
 }
@@ -107,9 +107,9 @@ fn coma_points_outwards_and_turns_with_the_field() {
     let bright = |patches: [usize; 2], x: usize, y: usize| {
         let parameters = PsfParameters { wavefront: vec![coma(0.3)], patches: Some(patches), ..round() };
         let effects = effects(parameters, &lens(50.0, 8.0), &raster);
-        let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, x, y), None).0;
+        let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, x, y), None).0;
         let brightest =
-            (0..81 * 81).max_by(|a, b| picture.samples()[*a].total_cmp(&picture.samples()[*b])).expect("some");
+            (0..81 * 81).max_by(|a, b| image.samples()[*a].total_cmp(&image.samples()[*b])).expect("some");
         DVec2::new((brightest % 81) as f64, (brightest / 81) as f64) - DVec2::new(x as f64, y as f64)
     };
     // The bright core of W = a √8 (3r³ − 2r) cos θ lies where the rays of its centre land: 2N ∂W/∂x(0) = −2N 2√8 a = −27 µm.
@@ -174,18 +174,18 @@ fn diffraction_has_the_modulation_of_a_circle_along_rows_and_columns() {
     for (pitch_mm, f_number) in [(0.003, 2.0), (0.003, 2.8), (0.0083, 2.8), (0.0083, 8.0), (0.0014, 2.8)] {
         let raster = Raster::centred(301, 301, pitch_mm).expect("legal");
         let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(50.0, f_number), &raster);
-        let picture = effects.prepared(&raster, band, FilmPart::Whole).apply(band, &point(&raster, 150, 150), None).0;
-        assert!(picture.samples().iter().all(|v| *v >= -1e-9), "no light is negative, to rounding");
+        let image = effects.prepared(&raster, band, FilmPart::Whole).apply(band, &point(&raster, 150, 150), None).0;
+        assert!(image.samples().iter().all(|v| *v >= -1e-9), "no light is negative, to rounding");
         for f in [0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5] {
             let v = f * 550e-6 * f_number / pitch_mm;
             let expected = 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt());
             let wave = |i: usize, of: fn(usize) -> usize| {
-                f64::from(picture.samples()[i]) * cos(TAU * f * (of(i) as f64 - 150.0))
+                f64::from(image.samples()[i]) * cos(TAU * f * (of(i) as f64 - 150.0))
             };
             let along = |of: fn(usize) -> usize| (0..301 * 301).map(|i| wave(i, of)).sum::<f64>();
-            for found in [along(|i| i % 301), along(|i| i / 301)] {
+            for profile in [along(|i| i % 301), along(|i| i / 301)] {
                 // The sinc's window mixes f and 1 − f near 0.5 (0.004), and a little light lies beyond the pattern's end.
-                assert!((found - expected).abs() < 0.005, "{pitch_mm} f/{f_number} at {f}: {found} for {expected}");
+                assert!((profile - expected).abs() < 0.005, "{pitch_mm} f/{f_number} at {f}: {profile} for {expected}");
             }
         }
     }

@@ -5,7 +5,7 @@ use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
 use etendue_core::wavelength::Bands;
 use etendue_optics::{Lens, OpticsError, PupilProjection, Resampling, ThinParameters, irradiance};
-use etendue_projection::{RadialDistortion, Raster, Sense};
+use etendue_projection::{RadialDistortion, Raster, DistortionDirection};
 use glam::DVec2;
 
 fn lens() -> Lens {
@@ -18,7 +18,7 @@ fn lens() -> Lens {
     .expect("legal")
 }
 
-fn distorted(sense: Sense, k1: f64) -> Lens {
+fn distorted(sense: DistortionDirection, k1: f64) -> Lens {
     lens().with_distortion(RadialDistortion::new(sense, k1, 0.01, 4.0).expect("legal")).expect("a paraxial lens")
 }
 
@@ -45,14 +45,14 @@ fn cube(geometry: &PupilProjection, value: impl Fn(DVec2) -> f64) -> SpectralCub
 }
 
 #[test]
-fn without_distortion_the_stored_pixels_are_the_picture_s() {
+fn without_distortion_the_stored_pixels_are_the_image_s() {
     let (lens, raster) = (lens(), raster());
     let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
     assert_eq!((geometry.width(), geometry.height()), (64, 48));
     let stored = cube(&geometry, |t| if (t.x * 80.0).floor() % 2.0 == 0.0 { 1.0 } else { 3.0 });
-    let picture =
+    let image =
         Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered").apply(&stored).expect("size");
-    for (a, b) in picture.planes().iter().zip(stored.planes()) {
+    for (a, b) in image.planes().iter().zip(stored.planes()) {
         for (a, b) in a.samples().iter().zip(b.samples()) {
             // Cell edges are found to about 1e-13 px.
             assert!((a - b).abs() <= 1e-6 * b.abs());
@@ -62,16 +62,16 @@ fn without_distortion_the_stored_pixels_are_the_picture_s() {
 
 #[test]
 fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
-    for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
+    for lens in [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)] {
         let raster = raster();
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
-        let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands())
+        let image = Resampling::new(geometry, &lens, &raster, [0, 0], bands())
             .expect("covered")
             .apply(&cube(&geometry, |_| 7.0))
             .expect("size");
         // Weights of f64 sum to one; the result is rounded to f32 once.
-        assert!(picture.planes()[0].samples().iter().all(|v| (v - 7.0).abs() < 1e-6));
-        let light = irradiance(&picture, &lens, &raster).expect("size");
+        assert!(image.planes()[0].samples().iter().all(|v| (v - 7.0).abs() < 1e-6));
+        let light = irradiance(&image, &lens, &raster).expect("size");
         for (x, y) in [(0, 0), (31, 25), (63, 47)] {
             let at = raster.sensor_mm(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
             let expected = 14.0 * lens.projected_solid_angle_sr(at);
@@ -82,11 +82,11 @@ fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
 
 #[test]
 fn a_gradient_lands_where_the_lens_looks() {
-    for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
+    for lens in [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)] {
         let raster = raster();
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         let stored = cube(&geometry, |t| 5.0 + 2.0 * t.x - 3.0 * t.y);
-        let picture =
+        let image =
             Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered").apply(&stored).expect("size");
         for (x, y) in [(0, 0), (12, 40), (31, 25), (63, 47)] {
             let ray = lens.principal_ray(raster.sensor_mm(DVec2::new(x as f64 + 0.5, y as f64 + 0.5))).expect("open");
@@ -95,7 +95,7 @@ fn a_gradient_lands_where_the_lens_looks() {
             // Stored pixels count as uniform: a footprint of the width of a pixel samples a linear ramp to within an
             // eighth of a pixel's step (times two axes), and the footprint's own curvature adds less.
             let step = 5.0 * geometry.pitch_tan();
-            assert!((f64::from(picture.planes()[0].at(x, y)) - expected).abs() < 0.25 * step);
+            assert!((f64::from(image.planes()[0].at(x, y)) - expected).abs() < 0.25 * step);
         }
     }
 }
@@ -104,16 +104,16 @@ fn a_gradient_lands_where_the_lens_looks() {
 fn overscan_grows_with_barrel_and_the_pixels_are_fine_enough() {
     let raster = raster();
     let barrel =
-        PupilProjection::covering(&distorted(Sense::IdealToObserved, -0.15), &raster, [0, 0], RANGE).expect("legal");
+        PupilProjection::covering(&distorted(DistortionDirection::IdealToObserved, -0.15), &raster, [0, 0], RANGE).expect("legal");
     assert!(barrel.width() > 66 && barrel.height() > 50, "{barrel:?}");
     assert!(barrel.pitch_tan() <= 0.05 / 4.0);
     let pincushion =
-        PupilProjection::covering(&distorted(Sense::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE).expect("legal");
+        PupilProjection::covering(&distorted(DistortionDirection::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE).expect("legal");
     assert!(pincushion.pitch_tan() < 0.05 / 4.0, "pincushion magnifies the corners");
 }
 
 #[test]
-fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
+fn an_image_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
     let raster = raster();
     let geometry = PupilProjection::covering(&lens(), &raster, [0, 0], RANGE).expect("legal");
     assert!(Resampling::new(geometry, &lens(), &raster, [0, 0], bands()).is_ok());

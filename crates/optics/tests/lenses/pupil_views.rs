@@ -9,12 +9,12 @@ use etendue_core::wavelength::Bands;
 use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{
-    BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescribed,
+    BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, PrescriptionLens,
     Prescription, PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window, irradiance,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
-use etendue_spectra::{Outside, Spectrum};
+use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, DistortionDirection};
+use etendue_spectra::{Extrapolation, Spectrum};
 use glam::{DVec2, DVec3};
 
 const PITCH_MM: f64 = 0.01;
@@ -35,7 +35,7 @@ fn limited(model: Model, f_px: f64, [width, height]: [usize; 2], angle_rad: f64)
     let matrix = CameraMatrix { fx: f_px, fy: f_px, skew: 0.0, cx, cy };
     let parameters = CalibratedParameters {
         calibration: Calibration::new(model, matrix, [width, height])
-            .and_then(|calibration| calibration.limited_to(angle_rad))
+            .and_then(|calibration| calibration.with_max_angle(angle_rad))
             .expect("a calibration"),
         pixel_pitch_mm: PITCH_MM,
         f_number: 2.0,
@@ -55,7 +55,7 @@ fn filtered(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> (
     let surfaces = published::named(name).expect("a published lens").surfaces();
     let focus = Focus::Sensor { distance_m: f64::INFINITY };
     let lens = Prescription::new(PrescriptionParameters::new(surfaces, focus));
-    let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), filter, radius_mm).expect("lit"));
+    let lens = Lens::prescription(PrescriptionLens::new(lens.expect("a lens"), filter, radius_mm).expect("lit"));
     (lens, Raster::centred(72, 48, radius_mm / 43.3).expect("a raster"))
 }
 
@@ -110,14 +110,14 @@ fn uniform_radiance_stays_uniform_whatever_the_lens() {
         for margin_px in [0, 5] {
             let geometry = PupilProjection::covering(&lens, &raster, [margin_px; 2], RANGE).expect(name);
             let resampling = Resampling::new(geometry, &lens, &raster, [margin_px; 2], bands()).expect(name);
-            let picture = resampling.apply(&stored(&geometry, |_| 7.0)).expect(name);
-            let mut seen = 0;
+            let image = resampling.apply(&stored(&geometry, |_| 7.0)).expect(name);
+            let mut count = 0;
             for (x, y, at) in centres(resampling.raster()) {
-                let value = picture.planes()[0].at(x, y);
+                let value = image.planes()[0].at(x, y);
                 // Weights of f64 sum to one within some 1e-14; the sum is rounded to f32 once.
                 let uniform = (f64::from(value) / 7.0 - 1.0).abs() < 1.2e-7;
                 if lens.direction(at).is_some() {
-                    seen += 1;
+                    count += 1;
                     // The last step of a prescription's table may lie inside a pixel at the image circle's edge.
                     let last = matches!(lens, Lens::Prescription(_)) && value == 0.0;
                     assert!(uniform || last, "{name} ({x}, {y}): {value}");
@@ -125,7 +125,7 @@ fn uniform_radiance_stays_uniform_whatever_the_lens() {
                     assert!(uniform || value == 0.0, "{name} ({x}, {y}): {value}");
                 }
             }
-            assert!(seen > 1000, "{name}: {seen} pixels");
+            assert!(count > 1000, "{name}: {count} pixels");
         }
     }
 }
@@ -140,7 +140,7 @@ fn a_smooth_radiance_has_no_seams() {
     for (name, lens, raster) in cameras() {
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect(name);
         let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
-        let picture = resampling.apply(&stored(&geometry, smooth)).expect(name);
+        let image = resampling.apply(&stored(&geometry, smooth)).expect(name);
         for (x, y, at) in centres(&raster) {
             let half = 0.5 * raster.pitch_mm().x;
             let corners = [(-half, -half), (half, -half), (-half, half), (half, half)];
@@ -152,7 +152,7 @@ fn a_smooth_radiance_has_no_seams() {
             // worst; the error by the pixel's own curvature is below its spread squared.
             let spread = spread.fold(0.0, f64::max);
             let allowed = 2.3 * 0.25 * geometry.pitch_tan() + 2.0 * spread * spread;
-            let value = f64::from(picture.planes()[0].at(x, y));
+            let value = f64::from(image.planes()[0].at(x, y));
             if matches!(lens, Lens::Prescription(_)) && value == 0.0 {
                 continue;
             }
@@ -162,7 +162,7 @@ fn a_smooth_radiance_has_no_seams() {
 }
 
 #[test]
-fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
+fn narrow_images_take_one_view_and_wide_ones_only_the_faces_they_see() {
     let views = |(lens, raster): (Lens, Raster)| {
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         (matches!(geometry, PupilProjection::Cube(_)), geometry.views().count())
@@ -176,7 +176,7 @@ fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
 }
 
 #[test]
-fn stored_pixels_are_no_wider_than_the_picture_s() {
+fn stored_pixels_are_no_wider_than_the_image_s() {
     let (lens, raster) = equidistant(PI);
     let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal") else {
         panic!("six views")
@@ -230,7 +230,7 @@ fn pixels_belong_to_one_view_and_look_where_they_are_found() {
 }
 
 #[test]
-fn a_wider_picture_than_the_stored_views_is_refused_and_overscan_helps() {
+fn a_wider_image_than_the_stored_views_is_refused_and_overscan_helps() {
     let (narrow, small) = equidistant(PI);
     let geometry = PupilProjection::covering(&narrow, &small, [0, 0], RANGE).expect("legal");
     let (wide, large) = limited(Model::Ideal(Ideal::Equidistant), 96.0 / PI, [104, 104], 0.5 * PI * 104.0 / 96.0);
@@ -253,10 +253,10 @@ fn distances_are_taken_and_never_averaged() {
     let mut plane = Plane::<Length>::new(geometry.width(), geometry.height());
     plane.samples_mut().copy_from_slice(cube.planes()[0].samples());
     let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
-    let seen = resampling.nearest(&plane, f32::NAN).expect("size");
+    let nearest = resampling.nearest(&plane, f32::NAN).expect("size");
     let mut sky = 0;
     for (x, y, at) in centres(&raster) {
-        let value = f64::from(seen.at(x, y));
+        let value = f64::from(nearest.at(x, y));
         let Some(direction) = lens.direction(at) else {
             assert!(value.is_nan());
             continue;
@@ -279,12 +279,12 @@ fn a_prescription_is_resampled_by_its_own_chief_rays() {
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect(name);
         // A radiance equal to the field angle, which a linear interpolation preserves.
         let angle = |d: DVec3| atan2(d.truncate().length(), d.z);
-        let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
-        let picture = picture.apply(&stored(&geometry, angle)).expect(name);
+        let image = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
+        let image = image.apply(&stored(&geometry, angle)).expect(name);
         for (x, y, at) in centres(&raster).filter(|(_, _, at)| at.length() < 0.97 * radius_mm && at.length() > 2.0) {
             let direct = angle(lens.direction(at).expect("seen"));
             // A quarter of a stored pixel (flat pixels), and the distortion's curvature over a pixel.
-            let value = f64::from(picture.planes()[1].at(x, y));
+            let value = f64::from(image.planes()[1].at(x, y));
             assert!((value - direct).abs() < 0.35 * geometry.pitch_tan(), "{name} ({x}, {y}): {value}, not {direct}");
         }
     }
@@ -306,7 +306,7 @@ fn sides_of_the_cube_are_where_the_axes_point() {
 fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
     let table = LateralColour::new(vec![(450.0, 1.02), (650.0, 0.98)]).expect("a table");
     let thin = ThinParameters { focal_length_mm: 0.5, f_number: 2.0, focus_distance_m: 3.0, transmittance: 1.0 };
-    let barrel = RadialDistortion::new(Sense::IdealToObserved, -0.1, 0.0, 0.5).expect("legal");
+    let barrel = RadialDistortion::new(DistortionDirection::IdealToObserved, -0.1, 0.0, 0.5).expect("legal");
     let raster = Raster::centred(60, 40, PITCH_MM).expect("legal");
     let thin = Lens::thin(thin).and_then(|lens| lens.with_distortion(barrel)).expect("legal");
     let cameras = [
@@ -322,14 +322,14 @@ fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
         let range = bands().range();
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], range).expect("legal");
         let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
-        let picture = resampling.apply(&stored(&geometry, smooth)).expect("size");
+        let image = resampling.apply(&stored(&geometry, smooth)).expect("size");
         let mut apart = 0.0_f64;
         for (x, y, at) in centres(&raster).filter(|(x, y, _)| (x + y) % 3 == 0) {
-            let seen: Vec<Option<f64>> = (0..2).map(|band| through(&lens, at, bands().centre_nm(band))).collect();
-            let [Some(a), Some(b)] = seen[..] else { continue };
+            let directions: Vec<Option<f64>> = (0..2).map(|band| through(&lens, at, bands().centre_nm(band))).collect();
+            let [Some(a), Some(b)] = directions[..] else { continue };
             apart = apart.max((a - b).abs());
             for (band, direct) in [a, b].into_iter().enumerate() {
-                let value = f64::from(picture.planes()[band].at(x, y));
+                let value = f64::from(image.planes()[band].at(x, y));
                 // As above; the mean over a pupil of f/2 and more differs from its centre by the field's curvature.
                 let spread = 2.0 * PI / 96.0;
                 let allowed = 2.3 * 0.25 * geometry.pitch_tan() + 2.0 * spread * spread;
@@ -365,7 +365,7 @@ fn pupil_point(i: u32) -> DVec2 {
 /// Films on disk are processed band by band.
 #[test]
 fn irradiance_band_by_band_is_that_of_the_whole_cube() {
-    let edge = Spectrum::from_points(&[(500.0, 1.0), (600.0, 0.2)], Outside::Hold).expect("a spectrum");
+    let edge = Spectrum::from_points(&[(500.0, 1.0), (600.0, 0.2)], Extrapolation::Hold).expect("a spectrum");
     let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
     let (lens, raster) = filtered("double-gauss", 21.6, Some(filter));
     for (name, lens, raster) in cameras().into_iter().chain([("double Gauss behind a filter", lens, raster)]) {
@@ -375,14 +375,14 @@ fn irradiance_band_by_band_is_that_of_the_whole_cube() {
             plane
         };
         let cube = SpectralCube::from_planes(bands(), vec![plane(1.0), plane(3.0)]).expect("two planes");
-        let whole = irradiance(&cube, &lens, &raster).expect(name);
+        let full_cube = irradiance(&cube, &lens, &raster).expect(name);
         let band = BandEtendue::new(&lens, &raster);
         for (i, radiance) in cube.planes().iter().enumerate() {
             let alone = band.irradiance(radiance, bands().centre_nm(i)).expect(name);
-            assert_eq!(alone.samples(), whole.planes()[i].samples(), "{name}, band {i}");
+            assert_eq!(alone.samples(), full_cube.planes()[i].samples(), "{name}, band {i}");
         }
         if name.ends_with("filter") {
-            let [first, second] = [0, 1].map(|i| whole.planes()[i].samples()[raster.width() * raster.height() / 2]);
+            let [first, second] = [0, 1].map(|i| full_cube.planes()[i].samples()[raster.width() * raster.height() / 2]);
             assert!(second < 2.5 * first, "the filter takes from the second band: {first} {second}");
         }
     }

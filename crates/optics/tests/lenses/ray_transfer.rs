@@ -9,7 +9,7 @@ use etendue_core::ray::PupilRay;
 use etendue_optics::ray_transfer::{
     PassCircle, PassEllipse, PassRegion, Polynomial, RayPass, RayTransfer, Term, Transfer,
 };
-use etendue_optics::{Lens, SensorPlace, Transferred};
+use etendue_optics::{Lens, SensorPlace, RayTransferLens};
 use glam::{DMat2, DVec2, DVec3};
 
 /// The sensor behind the lens, mm.
@@ -40,7 +40,7 @@ fn ideal(wavelength_nm: f64, power: f64, z_mm: f64, pass: RayPass) -> Transfer {
 
 fn lens(transfers: Vec<Transfer>) -> Lens {
     let transfer = RayTransfer::new(0.0, 0.0, transfers).expect("legal");
-    Lens::ray_transfer(Transferred::new(transfer, SensorPlace::Distance(SENSOR), 1.0, 6.0).expect("a lens"))
+    Lens::ray_transfer(RayTransferLens::new(transfer, SensorPlace::Distance(SENSOR), 1.0, 6.0).expect("a lens"))
 }
 
 /// Points of the sensor on all sides of the axis, on it, and pupil samples.
@@ -84,7 +84,7 @@ fn skew_rays_are_bent_as_by_an_ideal_lens() {
 }
 
 /// All features of a file, with terms that are odd in dx.
-fn crooked() -> Vec<Transfer> {
+fn asymmetric_transfers() -> Vec<Transfer> {
     let of = |wavelength_nm: f64, more: f64| {
         let ellipse = |height_mm: f64, centre: f64, x: f64, y: f64| PassEllipse {
             height_mm,
@@ -112,7 +112,7 @@ fn crooked() -> Vec<Transfer> {
 
 #[test]
 fn rays_that_are_turned_about_the_axis_come_out_turned() {
-    let lens = lens(crooked());
+    let lens = lens(asymmetric_transfers());
     let mut count = 0;
     for (sensor_mm, pupil) in samples().filter(|(sensor_mm, _)| sensor_mm.length() > 0.0) {
         for nm in [450.0, 520.0, 700.0] {
@@ -154,9 +154,9 @@ fn ellipses_lie_across_the_meridian() {
             let film = DVec2::new(-sensor_mm.x, sensor_mm.y);
             let beyond = at + (at - film) * (plane_mm / SENSOR);
             let along = at.normalize();
-            let seen = DVec2::new(beyond.perp_dot(along), beyond.dot(along));
-            assert!((seen / radii_mm).length() <= 1.0 + 1e-9, "{sensor_mm}: {seen}");
-            reach = reach.max(seen.abs());
+            let local = DVec2::new(beyond.perp_dot(along), beyond.dot(along));
+            assert!((local / radii_mm).length() <= 1.0 + 1e-9, "{sensor_mm}: {local}");
+            reach = reach.max(local.abs());
         }
         assert!(reach.x > 0.95 * radii_mm.x && reach.y > 0.9 * radii_mm.y, "{sensor_mm}: {reach} mm");
     }
@@ -171,14 +171,14 @@ fn rays_between_two_wavelengths_are_linear_between_theirs_and_beyond_them_theirs
     assert!(transferred.disperses());
     for (sensor_mm, pupil) in samples() {
         let Some(first) = lens.ray(sensor_mm, pupil, 450.0) else { continue };
-        for (nm, share) in [(380.0, 0.0), (450.0, 0.0), (500.0, 0.25), (600.0, 0.75), (650.0, 1.0), (900.0, 1.0)] {
+        for (nm, fraction) in [(380.0, 0.0), (450.0, 0.0), (500.0, 0.25), (600.0, 0.75), (650.0, 1.0), (900.0, 1.0)] {
             let ray = lens.ray(sensor_mm, pupil, nm).expect("the same rays pass at both");
             let (at, direction) = in_the_lens(&ray);
             assert!((at - in_the_lens(&first).0).length() < 1e-12);
-            let expected = ideal_direction(sensor_mm, at, powers[0] + share * (powers[1] - powers[0]));
+            let expected = ideal_direction(sensor_mm, at, powers[0] + fraction * (powers[1] - powers[0]));
             assert!((direction - expected).length() < 1e-12, "{sensor_mm} {at}, {nm} nm: {direction} for {expected}");
             let z_mm = (ray.origin_m.z - first.origin_m.z) * 1e3;
-            assert!((z_mm - 0.5 * share).abs() < 1e-12, "{nm} nm: {z_mm} mm");
+            assert!((z_mm - 0.5 * fraction).abs() < 1e-12, "{nm} nm: {z_mm} mm");
         }
     }
 }

@@ -3,7 +3,7 @@
 use etendue_optics::lens::{ImageReport, LensReport};
 use etendue_optics::prescription::Focus;
 use etendue_optics::prescription::surface::Surface;
-use etendue_optics::{Prescribed, Prescription, PrescriptionParameters};
+use etendue_optics::{PrescriptionLens, Prescription, PrescriptionParameters};
 use etendue_spectra::glass::Dispersion;
 use serde_json::Value;
 
@@ -21,7 +21,7 @@ fn surface(s: &Value, disperses: bool) -> Surface {
     let radius = s["radius"].as_f64().unwrap_or(f64::INFINITY);
     let glass = s["glass"].as_array().map_or(Dispersion::AIR, |glass| {
         let [n, v] = [number(&glass[0]), number(&glass[1])];
-        if disperses { Dispersion::of_abbe(n, v).expect("a glass") } else { Dispersion::Constant { n } }
+        if disperses { Dispersion::from_abbe(n, v).expect("a glass") } else { Dispersion::Constant { n } }
     });
     let stop = s["stop"].as_bool().expect("a flag");
     Surface { stop, ..Surface::sphere(radius, number(&s["thickness"]), glass, number(&s["open"])) }
@@ -32,7 +32,7 @@ fn report(lens: &Value, height_mm: f64, disperses: bool) -> LensReport {
     let focus = Focus::Fixed { back_focus_mm: number(&lens["back_mm"]) };
     let parameters = PrescriptionParameters::new(surfaces, focus);
     let lens = Prescription::new(parameters).expect("a lens");
-    Prescribed::new(lens, None, height_mm.max(0.01)).expect("lit").report(2)
+    PrescriptionLens::new(lens, None, height_mm.max(0.01)).expect("lit").report(2)
 }
 
 /// The image report of a field of the reference data.
@@ -103,20 +103,20 @@ fn a_retrofocus_lens_has_lateral_colour_of_the_right_sign() {
     let figures = figures();
     let of_retrofocus =
         fields(&figures).filter(|(lens, _)| lens["name"].as_str().is_some_and(|n| n.starts_with("retrofocus")));
-    let mut told = Vec::new();
+    let mut shifts_um = Vec::new();
     for (lens, field) in of_retrofocus {
         let image = image(lens, field, true);
         let [f, c] = [image.lateral_f, image.lateral_c].map(|shift| shift.expect("lit"));
         let um = [f.centroid_mm, f.chief_mm.expect("a ray"), c.centroid_mm, c.chief_mm.expect("a ray")];
-        told.push(um.map(|mm| (1e6 * mm).round() / 1e3));
+        shifts_um.push(um.map(|mm| (1e6 * mm).round() / 1e3));
     }
     // At 0°, 15° and 30°: F by centroid and chief ray, C likewise, µm; equal to optiland's and rayoptics's to the last digit except for the
     // centroids' 0.002.
-    assert_eq!(told, RETROFOCUS_UM);
+    assert_eq!(shifts_um, RETROFOCUS_UM);
 }
 
 #[test]
-fn every_bundle_that_the_lens_passes_is_told() {
+fn every_bundle_that_the_lens_passes_is_reported() {
     for (lens, field) in fields(&figures()) {
         let image = image(lens, field, true);
         let theirs = field["optiland"]["d"]["bundles"].as_array().expect("bundles");

@@ -43,9 +43,9 @@ fn point() -> Plane<Irradiance> {
 }
 
 /// Sum, centroid from the point and variance along x, px.
-fn moments(picture: &Plane<Irradiance>) -> (f64, DVec2, f64) {
+fn moments(image: &Plane<Irradiance>) -> (f64, DVec2, f64) {
     let place = |i: usize| DVec2::new((i % 41) as f64 - 20.0, (i / 41) as f64 - 15.0);
-    let all = || picture.samples().iter().enumerate().map(|(i, v)| (place(i), f64::from(*v)));
+    let all = || image.samples().iter().enumerate().map(|(i, v)| (place(i), f64::from(*v)));
     let sum: f64 = all().map(|(_, v)| v).sum();
     let centroid = all().map(|(p, v)| p * v).sum::<DVec2>() / sum;
     (sum, centroid, all().map(|(p, v)| (p.x - centroid.x) * (p.x - centroid.x) * v).sum::<f64>() / sum)
@@ -63,41 +63,41 @@ const SKEW: [f32; 9] = [1.0, 2.0, 0.0, 4.0, 5.0, 9.0, 0.0, 3.0, 1.0];
 #[test]
 fn three_by_three_samples_on_the_pixels_are_the_direct_convolution() {
     let variance: Plane<Variance> = film().map(|v| v);
-    let (found, spread_variance) = spread(image(3, &SKEW, PIXEL_UM, None), BAND, &film(), Some(&variance));
+    let (moments_found, spread_variance) = spread(image(3, &SKEW, PIXEL_UM, None), BAND, &film(), Some(&variance));
     let spread_variance = spread_variance.expect("given");
     for y in 1..30 {
         for x in 1..40 {
             let taps = || (0..9).map(|k| (SKEW[k] / 25.0, film().at(x + 1 - k % 3, y + 1 - k / 3)));
-            let wanted: f32 = taps().map(|(tap, v)| tap * v).sum();
+            let expected: f32 = taps().map(|(tap, v)| tap * v).sum();
             let wanted_variance: f32 = taps().map(|(tap, v)| tap * tap * v).sum();
             // Rounding of nine terms below 1 in 32 bits.
-            assert!((found.at(x, y) - wanted).abs() < 1e-6, "({x}, {y})");
+            assert!((moments_found.at(x, y) - expected).abs() < 1e-6, "({x}, {y})");
             assert!((spread_variance.at(x, y) - wanted_variance).abs() < 1e-6, "({x}, {y})");
         }
     }
 }
 
 #[test]
-fn a_sample_to_the_right_and_below_moves_the_picture_there() {
+fn a_sample_to_the_right_and_below_moves_the_image_there() {
     let right_below = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
-    let picture = spread(image(3, &right_below, PIXEL_UM, None), BAND, &point(), None).0;
+    let spread_plane = spread(image(3, &right_below, PIXEL_UM, None), BAND, &point(), None).0;
     // One column right, and half a row below the centre between two rows.
-    assert_eq!([picture.at(21, 15), picture.at(21, 16)], [0.5, 0.5]);
+    assert_eq!([spread_plane.at(21, 15), spread_plane.at(21, 16)], [0.5, 0.5]);
 }
 
 #[test]
-fn sum_and_centroid_are_those_of_the_picture_whatever_its_size_and_pitch() {
+fn sum_and_centroid_are_those_of_the_image_whatever_its_size_and_pitch() {
     let light: Vec<f32> = (0..12 * 7).map(|i| ((i * 37) % 19) as f32).collect();
     let place = |i: usize| DVec2::new((i % 12) as f64 - 5.5, (i / 12) as f64 - 3.0) * 2.6 / PIXEL_UM;
     let sum: f64 = light.iter().map(|v| f64::from(*v)).sum();
-    let wanted = light.iter().enumerate().map(|(i, v)| place(i) * f64::from(*v)).sum::<DVec2>() / sum;
+    let expected = light.iter().enumerate().map(|(i, v)| place(i) * f64::from(*v)).sum::<DVec2>() / sum;
     let (sum, centroid, _) = moments(&spread(image(12, &light, 2.6, None), BAND, &point(), None).0);
     // 32-bit pixels.
-    assert!((sum - 1.0).abs() < 1e-6 && (centroid - wanted).length() < 1e-5, "{sum} {centroid} {wanted}");
+    assert!((sum - 1.0).abs() < 1e-6 && (centroid - expected).length() < 1e-5, "{sum} {centroid} {expected}");
 }
 
 #[test]
-fn the_picture_grows_with_the_wavelength_where_one_is_stated() {
+fn the_image_grows_with_the_wavelength_where_one_is_stated() {
     let two = |band, at| {
         let mut light = [0.0; 9];
         (light[0], light[8]) = (1.0, 1.0);
@@ -114,16 +114,16 @@ fn the_picture_grows_with_the_wavelength_where_one_is_stated() {
 
 #[test]
 fn what_is_no_spread_is_refused() {
-    let fault = |parameters| SpreadImage::new(parameters, &raster()).expect_err("a fault");
-    let of = |light: &[f32]| fault(image(2, light, 2.0, None));
+    let error_of = |parameters| SpreadImage::new(parameters, &raster()).expect_err("a fault");
+    let of = |light: &[f32]| error_of(image(2, light, 2.0, None));
     assert_eq!(of(&[0.0; 4]), EffectsError::Dark);
     assert_eq!(of(&[1.0, 0.0, 0.5, -0.25]), EffectsError::NoLight { column: 1, row: 1, value: -0.25 });
     assert!(matches!(of(&[1.0, f32::NAN]), EffectsError::NoLight { column: 1, row: 0, .. }));
     assert_eq!(of(&[1.0; 3]), EffectsError::Samples { count: 3, width: 2 });
     assert!(matches!(of(&[]), EffectsError::Samples { .. }));
-    assert!(matches!(fault(image(1, &[1.0], 0.0, None)), EffectsError::NotPositive { key: "image_pitch_um", .. }));
-    assert!(matches!(fault(image(1, &[1.0], 1.0, Some(-1.0))), EffectsError::NotPositive { .. }));
-    assert!(matches!(fault(image(1, &[1.0], 4.1, None)), EffectsError::Coarse { .. }));
-    assert!(matches!(fault(image(1, &[1.0], 4.0, Some(550.0))), EffectsError::Coarse { .. }));
-    assert!(matches!(fault(image(1030, &[1.0; 1030], 4.0, None)), EffectsError::Wide { reach_px: 515, most_px: 512 }));
+    assert!(matches!(error_of(image(1, &[1.0], 0.0, None)), EffectsError::NotPositive { key: "image_pitch_um", .. }));
+    assert!(matches!(error_of(image(1, &[1.0], 1.0, Some(-1.0))), EffectsError::NotPositive { .. }));
+    assert!(matches!(error_of(image(1, &[1.0], 4.1, None)), EffectsError::Coarse { .. }));
+    assert!(matches!(error_of(image(1, &[1.0], 4.0, Some(550.0))), EffectsError::Coarse { .. }));
+    assert!(matches!(error_of(image(1030, &[1.0; 1030], 4.0, None)), EffectsError::Wide { reach_px: 515, most_px: 512 }));
 }

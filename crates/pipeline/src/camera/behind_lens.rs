@@ -3,10 +3,10 @@
 use crate::camera::defocus;
 use crate::camera::effects::{EffectsOutput, behind};
 use crate::camera::light::Light;
-use crate::camera::stored::Stored;
+use crate::camera::stored::StoredRadianceImage;
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, MeanElectrons};
-use etendue_core::{KeptCube, Plane, SpectralCube};
+use etendue_core::{StoredCube, Plane, SpectralCube};
 use etendue_optics::front::Front;
 use etendue_optics::{DepthOfField, OpticsError, irradiance};
 use glam::DVec2;
@@ -17,16 +17,16 @@ impl Light {
     ///
     /// # Errors
     /// The image does not contain directions that the camera needs, or the radiance is not finite.
-    pub(super) fn of_stored(
+    pub(super) fn from_stored(
         body: &CameraBody,
-        stored: &Stored<'_>,
+        stored: &StoredRadianceImage<'_>,
         depth_of_field: &DepthOfField,
     ) -> Result<Self, OpticsError> {
         body.check_front_on_picture()?;
-        let seen = defocus::seen(stored, body, depth_of_field)?;
-        let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
-        if let Some(shades) = dirt_shades(body) {
-            irradiance.planes_mut().iter_mut().for_each(|plane| shaded(plane, &shades));
+        let radiance = defocus::pupil_mean_radiance(stored, body, depth_of_field)?;
+        let mut irradiance = irradiance(&radiance, &body.lens, &body.film())?;
+        if let Some(transmittances) = dirt_shades(body) {
+            irradiance.planes_mut().iter_mut().for_each(|plane| shaded(plane, &transmittances));
         }
         let EffectsOutput { irradiance, ghosts, .. } = behind(body, body.effects.film_part(false), irradiance, None);
         Ok(Self {
@@ -34,7 +34,7 @@ impl Light {
             electrons: electrons(body, &irradiance),
             irradiance: Some(irradiance.into()),
             irradiance_variance: None,
-            ghosts: ghosts.map(KeptCube::from),
+            ghosts: ghosts.map(StoredCube::from),
             further_electrons: Vec::new(),
             electrons_variance: None,
         })
@@ -52,8 +52,8 @@ pub(super) fn dirt_shades(body: &CameraBody) -> Option<Vec<f64>> {
 }
 
 /// Multiplies each pixel by its dirt.
-pub(super) fn shaded(plane: &mut Plane<Irradiance>, shades: &[f64]) {
-    plane.samples_mut().iter_mut().zip(shades).for_each(|(e, shade)| *e = (f64::from(*e) * shade) as f32);
+pub(super) fn shaded(plane: &mut Plane<Irradiance>, transmittances: &[f64]) {
+    plane.samples_mut().iter_mut().zip(transmittances).for_each(|(e, shade)| *e = (f64::from(*e) * shade) as f32);
 }
 
 /// Electrons of an irradiance; `None` for a camera without electronics.

@@ -1,6 +1,6 @@
 //! Depth of field for stored radiance: the required margin, and the work on several threads.
 
-use crate::camera::stored::{PinholeImages, Stored};
+use crate::camera::stored::{PinholeImages, StoredRadianceImage};
 use crate::plan::CameraBody;
 use etendue_core::quantity::Radiance;
 use etendue_core::{Bands, SpectralCube};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// It does not contain the image itself.
-pub fn held_margin_px(
+pub fn available_margin_px(
     stored: &PupilProjection,
     body: &CameraBody,
     bands: Bands,
@@ -22,35 +22,35 @@ pub fn held_margin_px(
         let margin = body.whole_margin_px(margin);
         Resampling::new(*stored, &body.lens, &body.raster, margin, bands).map(|_| ())
     };
-    let wanted = body.blur_margin_px(depth_of_field);
-    if holds(wanted).is_ok() {
-        return Ok(wanted);
+    let needed = body.blur_margin_px(depth_of_field);
+    if holds(needed).is_ok() {
+        return Ok(needed);
     }
     holds(0)?;
-    let (mut held, mut missing) = (0, wanted);
-    while missing - held > 1 {
-        let middle = usize::midpoint(held, missing);
+    let (mut available, mut missing) = (0, needed);
+    while missing - available > 1 {
+        let middle = usize::midpoint(available, missing);
         if holds(middle).is_ok() {
-            held = middle;
+            available = middle;
         } else {
             missing = middle;
         }
     }
-    Ok(held)
+    Ok(available)
 }
 
 /// Radiance seen by the pixels of a camera's film, blurred as requested: each pixel is the mean over its pupil. Without distances there is no blur.
 ///
 /// # Errors
 /// The stored image does not contain the camera's image, or its radiance is not finite.
-pub fn seen(
-    stored: &Stored<'_>,
+pub fn pupil_mean_radiance(
+    stored: &StoredRadianceImage<'_>,
     body: &CameraBody,
     depth_of_field: &DepthOfField,
 ) -> Result<SpectralCube<Radiance>, OpticsError> {
     let method = if stored.distance.is_some() { *depth_of_field } else { DepthOfField::None };
-    let margin = held_margin_px(stored.projection, body, stored.radiance.bands(), &method)?;
-    let PinholeImages { radiance, distance } = stored.seen(body, body.whole_margin_px(margin))?;
+    let margin = available_margin_px(stored.projection, body, stored.radiance.bands(), &method)?;
+    let PinholeImages { radiance, distance } = stored.resample(body, body.whole_margin_px(margin))?;
     let (Some(distance), true) = (distance, method != DepthOfField::None) else { return Ok(radiance) };
     let film = body.film();
     let view = defocus::PinholeView::new(&body.lens, &film, margin, &radiance, &distance)?;
@@ -65,5 +65,5 @@ fn physical(view: defocus::PinholeView<'_>) -> SpectralCube<Radiance> {
     let prepared = Physical::new(view);
     let strips: Vec<_> = prepared.strips().collect();
     let strips: Vec<_> = strips.into_par_iter().map(|rows| prepared.rows(rows)).collect();
-    prepared.joined(&strips)
+    prepared.join(&strips)
 }

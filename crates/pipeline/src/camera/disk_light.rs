@@ -10,22 +10,22 @@
 //! Light that neither is delivered nor contributes to a product is not computed.
 
 use crate::camera::behind_lens::{dirt_shades, shaded};
-use crate::camera::defocus::held_margin_px;
-use crate::camera::effects::{EffectsOutput, behind, of_band, picture};
+use crate::camera::defocus::available_margin_px;
+use crate::camera::effects::{EffectsOutput, behind, apply_to_band, picture};
 use crate::camera::light::LightError;
-use crate::camera::light::{KeptEstimate, Light};
+use crate::camera::light::{StoredEstimate, Light};
 use crate::camera::plane_cube::PlaneCube;
-use crate::camera::stored::Stored;
+use crate::camera::stored::StoredRadianceImage;
 use crate::plan::film::{needs_all_bands, needs_electrons, needs_irradiance};
 use crate::plan::{CameraBody, CameraPlan, Route};
-use crate::render::band_views::{OverWeight, PartOfBands};
-use crate::render::film::{Estimate, Film, exposed};
+use crate::render::band_views::{BandsOverWeight, CroppedBands};
+use crate::render::film::{Estimate, Film, scaled_plane};
 use crate::render::pupil_depth::PupilDepth;
 use crate::render::tiled_cube::TiledCube;
 use etendue_core::quantity::{ElectronRate, Irradiance, Quantity, Radiance, SolidAngle, Variance};
 use etendue_core::storage::ScratchStore;
 use etendue_core::storage::{BandReader, CubeOnDisk};
-use etendue_core::{Bands, KeptCube, Plane};
+use etendue_core::{Bands, StoredCube, Plane};
 use etendue_optics::effects::FilmPart;
 use etendue_optics::{BandEtendue, DepthOfField, PupilProjection, Resampling};
 use std::sync::Arc;
@@ -34,18 +34,18 @@ use std::sync::Arc;
 const GROUP_BYTES: usize = 1 << 29;
 
 /// [`EffectsOutput`], in memory or on disk.
-struct KeptOutput {
-    irradiance: KeptCube<Irradiance>,
-    variance: Option<KeptCube<Variance>>,
-    ghosts: Option<KeptCube<Irradiance>>,
+struct ScratchOutput {
+    irradiance: StoredCube<Irradiance>,
+    variance: Option<StoredCube<Variance>>,
+    ghosts: Option<StoredCube<Irradiance>>,
 }
 
-impl From<EffectsOutput> for KeptOutput {
+impl From<EffectsOutput> for ScratchOutput {
     fn from(EffectsOutput { irradiance, variance, ghosts }: EffectsOutput) -> Self {
         Self {
             irradiance: irradiance.into(),
-            variance: variance.map(KeptCube::from),
-            ghosts: ghosts.map(KeptCube::from),
+            variance: variance.map(StoredCube::from),
+            ghosts: ghosts.map(StoredCube::from),
         }
     }
 }
@@ -54,7 +54,7 @@ impl From<EffectsOutput> for KeptOutput {
 ///
 /// # Errors
 /// As [`Light::of_film`], and on disk errors.
-pub(super) fn seen(
+pub(super) fn light_from_film(
     camera: &CameraPlan,
     film: Film,
     cube: &TiledCube,
@@ -64,22 +64,22 @@ pub(super) fn seen(
     // Unnamed planes are dropped at once.
     let (weight, electron_rate) = (Arc::new(film.weight), film.electron_rate);
     drop((film.watched, film.samples, film.not_finite));
-    let radiance = KeptEstimate {
-        mean: over_weight(cube, cube.mean(), &weight, |weight| weight),
-        variance: over_weight(cube, cube.variance(), &weight, |weight| weight * weight),
+    let radiance = StoredEstimate {
+        mean: bands_over_weight(cube, cube.mean(), &weight, |weight| weight),
+        variance: bands_over_weight(cube, cube.variance(), &weight, |weight| weight * weight),
     };
     drop(weight);
     match &camera.settings.route {
         Route::Pupil(projection) => {
-            let made = needs_irradiance(camera).then(|| at_pupil(camera, projection, &radiance.mean, cube, depth));
-            Ok(Light { radiance: Some(radiance), ..made.transpose()?.unwrap_or_default() })
+            let irradiance = needs_irradiance(camera).then(|| at_pupil(camera, projection, &radiance.mean, cube, depth));
+            Ok(Light { radiance: Some(radiance), ..irradiance.transpose()?.unwrap_or_default() })
         }
         Route::Lens => {
-            let KeptEstimate { mean, variance } = radiance;
-            let of_picture = |mean, variance| KeptEstimate { mean: part(body, mean), variance: part(body, variance) };
-            let radiance = products.needs_radiance().then(|| of_picture(mean, variance));
-            let variance = (products.irradiance && products.variance).then(|| kept(cube, cube.variance()));
-            let film = kept(cube, cube.mean());
+            let StoredEstimate { mean, variance } = radiance;
+            let of_image = |mean, variance| StoredEstimate { mean: part(body, mean), variance: part(body, variance) };
+            let radiance = products.needs_radiance().then(|| of_image(mean, variance));
+            let variance = (products.irradiance && products.variance).then(|| unchanged_bands(cube, cube.variance()));
+            let film = unchanged_bands(cube, cube.mean());
             let light = Light { radiance, ..folded(camera, electron_rate) };
             match needs_irradiance(camera) {
                 true => with_irradiance(
@@ -97,14 +97,14 @@ pub(super) fn seen(
 fn at_pupil(
     camera: &CameraPlan,
     projection: &PupilProjection,
-    radiance: &KeptCube<Radiance>,
+    radiance: &StoredCube<Radiance>,
     cube: &TiledCube,
     depth: Option<&PupilDepth>,
 ) -> Result<Light, LightError> {
     if needs_all_bands(camera).is_some() {
         let radiance = radiance.clone().load().map_err(LightError::Scratch)?;
-        let stored = Stored { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
-        return Ok(Light::of_stored(&camera.body, &stored, &camera.depth_of_field)?);
+        let stored = StoredRadianceImage { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
+        return Ok(Light::from_stored(&camera.body, &stored, &camera.depth_of_field)?);
     }
     camera.body.check_front_on_picture()?;
     let body = &camera.body;
@@ -117,45 +117,45 @@ fn at_pupil(
 fn through_lens(
     body: &CameraBody,
     projection: &PupilProjection,
-    radiance: &KeptCube<Radiance>,
+    radiance: &StoredCube<Radiance>,
     store: &dyn ScratchStore,
-) -> Result<KeptCube<Irradiance>, LightError> {
+) -> Result<StoredCube<Irradiance>, LightError> {
     let (bands, raster) = (radiance.bands(), body.film());
-    let margin = body.whole_margin_px(held_margin_px(projection, body, bands, &DepthOfField::None)?);
+    let margin = body.whole_margin_px(available_margin_px(projection, body, bands, &DepthOfField::None)?);
     let resampling = Resampling::new(*projection, &body.lens, &body.raster, margin, bands)?;
     let etendue = BandEtendue::new(&body.lens, &raster);
-    let shades = dirt_shades(body);
+    let transmittances = dirt_shades(body);
     let film = PlaneCube::new(store, bands, raster.width(), raster.height()).map_err(LightError::Scratch)?;
     let group = (GROUP_BYTES / (radiance.width() * radiance.height() * size_of::<f32>()).max(1)).max(1);
     for first in (0..bands.count()).step_by(group) {
         let of_group = first..(first + group).min(bands.count());
         let planes = of_group.clone().map(|band| radiance.plane(band).map(std::borrow::Cow::into_owned));
         let planes = planes.collect::<Result<Vec<_>, String>>().map_err(LightError::Scratch)?;
-        let seen = resampling.apply_to_bands(&planes, |i| bands.centre_nm(first + i))?;
+        let transmitted = resampling.apply_to_bands(&planes, |i| bands.centre_nm(first + i))?;
         drop(planes);
-        for (band, seen) in of_group.zip(seen) {
-            let mut plane = etendue.irradiance(&seen, bands.centre_nm(band))?;
-            shades.iter().for_each(|shades| shaded(&mut plane, shades));
+        for (band, plane_radiance) in of_group.zip(transmitted) {
+            let mut plane = etendue.irradiance(&plane_radiance, bands.centre_nm(band))?;
+            transmittances.iter().for_each(|transmittances| shaded(&mut plane, transmittances));
             film.write(band, &plane).map_err(LightError::Scratch)?;
         }
     }
-    Ok(film.kept())
+    Ok(film.into_cube())
 }
 
 /// Result of a camera's effects on a film.
 fn effects_on(
     body: &CameraBody,
     part: FilmPart,
-    film: KeptCube<Irradiance>,
-    variance: Option<KeptCube<Variance>>,
+    film: StoredCube<Irradiance>,
+    variance: Option<StoredCube<Variance>>,
     store: &dyn ScratchStore,
-) -> Result<KeptOutput, LightError> {
+) -> Result<ScratchOutput, LightError> {
     if body.effects.is_idle() {
-        return Ok(KeptOutput { irradiance: film, variance, ghosts: None });
+        return Ok(ScratchOutput { irradiance: film, variance, ghosts: None });
     }
     if body.effects.ghosts().is_some() {
         let film = film.load().map_err(LightError::Scratch)?;
-        let variance = variance.map(KeptCube::load).transpose().map_err(LightError::Scratch)?;
+        let variance = variance.map(StoredCube::load).transpose().map_err(LightError::Scratch)?;
         return Ok(behind(body, part, film, variance).into());
     }
     by_band(body, part, &film, variance.as_ref(), store).map_err(LightError::Scratch)
@@ -165,32 +165,32 @@ fn effects_on(
 fn by_band(
     body: &CameraBody,
     part: FilmPart,
-    film: &KeptCube<Irradiance>,
-    variance: Option<&KeptCube<Variance>>,
+    film: &StoredCube<Irradiance>,
+    variance: Option<&StoredCube<Variance>>,
     store: &dyn ScratchStore,
-) -> Result<KeptOutput, String> {
+) -> Result<ScratchOutput, String> {
     let bands = film.bands();
     let prepared = body.effects.prepared(&body.raster, bands.range(), part);
     let room = || PlaneCube::new(store, bands, body.raster.width(), body.raster.height());
     let (means, variances) = (room()?, variance.map(|_| room()).transpose()?);
     for band in 0..bands.count() {
         let of_variance = variance.map(|cube| cube.plane(band)).transpose()?;
-        let (mean, of_variance) = of_band(&prepared, bands, band, &*film.plane(band)?, of_variance.as_deref());
+        let (mean, of_variance) = apply_to_band(&prepared, bands, band, &*film.plane(band)?, of_variance.as_deref());
         means.write(band, &mean)?;
         if let (Some(to), Some(plane)) = (&variances, &of_variance) {
             to.write(band, plane)?;
         }
     }
-    Ok(KeptOutput { irradiance: means.kept(), variance: variances.map(PlaneCube::kept), ghosts: None })
+    Ok(ScratchOutput { irradiance: means.into_cube(), variance: variances.map(PlaneCube::into_cube), ghosts: None })
 }
 
 /// Light with its irradiance, and the electrons computed from it.
-fn with_irradiance(camera: &CameraPlan, output: KeptOutput, light: Light) -> Result<Light, LightError> {
-    let KeptOutput { irradiance, variance, ghosts } = output;
+fn with_irradiance(camera: &CameraPlan, output: ScratchOutput, light: Light) -> Result<Light, LightError> {
+    let ScratchOutput { irradiance, variance, ghosts } = output;
     let (body, products) = (&camera.body, &camera.products);
     let sensor = body.sensor.as_ref().filter(|_| light.electrons.is_none() && needs_electrons(body, products));
-    let made = sensor.map(|sensor| sensor.electrons_of(&irradiance)).transpose().map_err(LightError::Scratch)?;
-    let electrons = light.electrons.or(made);
+    let computed = sensor.map(|sensor| sensor.electrons_of(&irradiance)).transpose().map_err(LightError::Scratch)?;
+    let electrons = light.electrons.or(computed);
     Ok(Light { irradiance: Some(irradiance), irradiance_variance: variance, ghosts, electrons, ..light })
 }
 
@@ -201,43 +201,43 @@ fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
     };
     let exposure_s = sensor.parameters().exposure.exposure_s;
     let products = &camera.products;
-    let of_variance = (products.electrons && products.variance).then(|| exposed(variance, exposure_s * exposure_s));
-    Light { electrons: Some(exposed(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
+    let of_variance = (products.electrons && products.variance).then(|| scaled_plane(variance, exposure_s * exposure_s));
+    Light { electrons: Some(scaled_plane(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
 }
 
 /// Bands of a film, unchanged.
-fn kept<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> KeptCube<Q> {
+fn unchanged_bands<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> StoredCube<Q> {
     let (width, height) = cube.size();
-    of_size(cube.bands(), width, height, Arc::clone(reader))
+    cube_on_disk(cube.bands(), width, height, Arc::clone(reader))
 }
 
-fn of_size<Q: Quantity>(bands: Bands, width: usize, height: usize, reader: Arc<dyn BandReader>) -> KeptCube<Q> {
-    KeptCube::Disk(CubeOnDisk::new(bands, width, height, reader))
+fn cube_on_disk<Q: Quantity>(bands: Bands, width: usize, height: usize, reader: Arc<dyn BandReader>) -> StoredCube<Q> {
+    StoredCube::Disk(CubeOnDisk::new(bands, width, height, reader))
 }
 
 /// Bands of a film divided by the pupil's weight.
-fn over_weight<Q: Quantity>(
+fn bands_over_weight<Q: Quantity>(
     cube: &TiledCube,
     reader: &Arc<dyn BandReader>,
     weight: &Arc<Plane<SolidAngle>>,
     divisor: fn(f32) -> f32,
-) -> KeptCube<Q> {
-    let view = OverWeight { of: Arc::clone(reader), weight: Arc::clone(weight), divisor };
+) -> StoredCube<Q> {
+    let view = BandsOverWeight { bands: Arc::clone(reader), weight: Arc::clone(weight), divisor };
     let (width, height) = cube.size();
-    of_size(cube.bands(), width, height, Arc::new(view))
+    cube_on_disk(cube.bands(), width, height, Arc::new(view))
 }
 
 /// Image part of a film.
-fn part<Q: Quantity<Sample = f32>>(body: &CameraBody, film: KeptCube<Q>) -> KeptCube<Q> {
+fn part<Q: Quantity<Sample = f32>>(body: &CameraBody, film: StoredCube<Q>) -> StoredCube<Q> {
     let (bands, whole_width) = (film.bands(), film.width());
     match film {
-        KeptCube::Memory(cube) => picture(body, cube).into(),
-        KeptCube::Disk(cube) if body.effects.margin_px() == [0, 0] => KeptCube::Disk(cube),
-        KeptCube::Disk(cube) => {
+        StoredCube::Memory(cube) => picture(body, cube).into(),
+        StoredCube::Disk(cube) if body.effects.margin_px() == [0, 0] => StoredCube::Disk(cube),
+        StoredCube::Disk(cube) => {
             let (width, height) = (body.raster.width(), body.raster.height());
             let of = Arc::clone(cube.reader());
-            let part = PartOfBands { of, whole_width, first: body.effects.margin_px(), width };
-            of_size(bands, width, height, Arc::new(part))
+            let part = CroppedBands { bands: of, full_width: whole_width, first: body.effects.margin_px(), width };
+            cube_on_disk(bands, width, height, Arc::new(part))
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, Plane, SpectralCube, WavelengthRange};
-use etendue_optics::effects::{FilmPart, Prepared};
+use etendue_optics::effects::{FilmPart, PreparedEffects};
 use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ pub(crate) fn behind(
     let prepared = body.effects.prepared(&body.raster, bands.range(), part);
     let of_band = |band: usize| {
         let variance = variance.as_ref().map(|cube| &cube.planes()[band]);
-        of_band(&prepared, bands, band, &film.planes()[band], variance)
+        apply_to_band(&prepared, bands, band, &film.planes()[band], variance)
     };
     let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
     let mut irradiance = SpectralCube::from_planes(bands, means).expect("planes of one picture");
@@ -60,8 +60,8 @@ fn add(sum: &mut Plane<Irradiance>, plane: &Plane<Irradiance>) {
 }
 
 /// Result of effects on a band and its variance.
-pub(crate) fn of_band(
-    prepared: &Prepared,
+pub(crate) fn apply_to_band(
+    prepared: &PreparedEffects,
     bands: Bands,
     band: usize,
     film: &Plane<Irradiance>,
@@ -76,12 +76,12 @@ pub(crate) fn picture<Q: Quantity>(body: &CameraBody, film: SpectralCube<Q>) -> 
     if body.effects.margin_px() == [0, 0] {
         return film;
     }
-    let planes = film.planes().iter().map(|plane| plane_of_picture(body, plane)).collect();
+    let planes = film.planes().iter().map(|plane| crop_to_image(body, plane)).collect();
     SpectralCube::from_planes(film.bands(), planes).expect("planes of one picture")
 }
 
 /// Image part of a plane of a film.
-pub(crate) fn plane_of_picture<Q: Quantity>(body: &CameraBody, film: &Plane<Q>) -> Plane<Q> {
+pub(crate) fn crop_to_image<Q: Quantity>(body: &CameraBody, film: &Plane<Q>) -> Plane<Q> {
     let [x, y] = body.effects.margin_px();
     film.part(x, y, body.raster.width(), body.raster.height())
 }

@@ -17,7 +17,7 @@ use etendue_sensor::{OperatingPoint, Sensor, SensorState};
 use std::ops::Range;
 
 /// Last level relative to saturation: the largest temporal variance, which marks saturation, is within the series.
-const LAST_LEVEL: f64 = 1.05;
+const MAX_LEVEL: f64 = 1.05;
 
 /// Uniform illumination.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ impl FlatLight {
     ///
     /// # Errors
     /// [`FlatError::NoExposure`] if photons are requested for an exposure of zero.
-    pub fn of_photons(sensor: &Sensor, wavelength_nm: f64, photons: f64) -> Result<Self, FlatError> {
+    pub fn from_photons(sensor: &Sensor, wavelength_nm: f64, photons: f64) -> Result<Self, FlatError> {
         let exposure_s = sensor.parameters().exposure.exposure_s;
         let one = Self { wavelength_nm, irradiance_w_m2: 1.0 };
         match self::photons(sensor, one, exposure_s) {
@@ -99,7 +99,7 @@ pub enum FlatError {
 
 /// Consecutive frames of the same light and exposure.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stack {
+pub struct FrameStack {
     /// Exposure time, s.
     pub exposure_s: f64,
     /// Photons per pixel; 0 in the dark.
@@ -108,7 +108,7 @@ pub struct Stack {
     pub frames: Range<u32>,
 }
 
-impl Stack {
+impl FrameStack {
     /// State of the sensor before its next frame, after one that left `state`; before the first frame an idle sensor.
     #[must_use]
     pub fn state(&self, sensor: &Sensor, state: SensorState) -> SensorState {
@@ -123,7 +123,7 @@ pub struct PhotonTransfer {
     /// Light of the bright frames.
     pub light: FlatLight,
     /// All stacks, in the order of capture.
-    pub stacks: Vec<Stack>,
+    pub stacks: Vec<FrameStack>,
 }
 
 /// Series of a bare sensor: `levels` exposures up to the described one, at which the most sensitive channel is slightly above
@@ -145,17 +145,17 @@ pub fn photon_transfer(
     if p.exposure.exposure_s <= 0.0 {
         return Err(FlatError::NoTime);
     }
-    let most = sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
-    if most <= 0.0 {
+    let max_response = sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
+    if max_response <= 0.0 {
         return Err(FlatError::Blind);
     }
-    let light = FlatLight { wavelength_nm, irradiance_w_m2: LAST_LEVEL * saturation_e(sensor) / most };
+    let light = FlatLight { wavelength_nm, irradiance_w_m2: MAX_LEVEL * saturation_e(sensor) / max_response };
     let longest_s = p.exposure.exposure_s;
     let mut series = PhotonTransfer { light, stacks: Vec::new() };
     for level in 1..=levels {
         series.add(sensor, longest_s * f64::from(level) / f64::from(levels), 2);
     }
-    series.add(sensor, 0.5 * longest_s / LAST_LEVEL, many);
+    series.add(sensor, 0.5 * longest_s / MAX_LEVEL, many);
     Ok(series)
 }
 
@@ -171,7 +171,7 @@ impl PhotonTransfer {
     fn add(&mut self, sensor: &Sensor, exposure_s: f64, count: u32) {
         for photons in [photons(sensor, self.light, exposure_s), 0.0] {
             let first = self.stacks.last().map_or(0, |stack| stack.frames.end);
-            self.stacks.push(Stack { exposure_s, photons, frames: first..first + count });
+            self.stacks.push(FrameStack { exposure_s, photons, frames: first..first + count });
         }
     }
 }
@@ -209,8 +209,8 @@ mod tests {
         let photons = photons(sensor, light, 0.01);
         // Responsivities are f32. The fill factor is part of the standard's efficiency.
         for (x, y, efficiency) in [(0, 0, 0.2), (1, 0, 0.6), (2, 1, 0.6), (3, 1, 0.4)] {
-            let found = f64::from(electrons.at(x, y)) / photons;
-            assert!((found / (0.5 * efficiency) - 1.0).abs() < 3e-7, "{x} {y}: {found}");
+            let actual = f64::from(electrons.at(x, y)) / photons;
+            assert!((actual / (0.5 * efficiency) - 1.0).abs() < 3e-7, "{x} {y}: {actual}");
         }
         // 5 µm, 10 ms, 550 nm, 1 µW/cm²: the standard's numerical form.
         assert!((photons / (50.341_165_675_4 * 25.0 * 10.0 * 0.55) - 1.0).abs() < 1e-9, "{photons}");

@@ -3,20 +3,20 @@
 use crate::plan::RowExposure;
 use crate::render::film::CubeEstimate;
 use etendue_core::quantity::{Irradiance, MeanElectrons, Quantity, Radiance, Variance};
-use etendue_core::{KeptCube, Plane};
+use etendue_core::{StoredCube, Plane};
 use etendue_optics::OpticsError;
 use etendue_sensor::CaptureLight;
 
 /// A spectral cube of means and their variances, in memory or on disk.
 #[derive(Clone, Debug)]
-pub struct KeptEstimate<Q: Quantity> {
+pub struct StoredEstimate<Q: Quantity> {
     /// Band means.
-    pub mean: KeptCube<Q>,
+    pub mean: StoredCube<Q>,
     /// Variances of the band means.
-    pub variance: KeptCube<Variance>,
+    pub variance: StoredCube<Variance>,
 }
 
-impl<Q: Quantity> From<CubeEstimate<Q>> for KeptEstimate<Q> {
+impl<Q: Quantity> From<CubeEstimate<Q>> for StoredEstimate<Q> {
     fn from(estimate: CubeEstimate<Q>) -> Self {
         Self { mean: estimate.mean.into(), variance: estimate.variance.into() }
     }
@@ -26,13 +26,13 @@ impl<Q: Quantity> From<CubeEstimate<Q>> for KeptEstimate<Q> {
 #[derive(Clone, Debug, Default)]
 pub struct Light {
     /// Spectral radiance: through the lens, the mean over each pixel's pupil; at the pupil, as seen from its centre in the stored projection.
-    pub radiance: Option<KeptEstimate<Radiance>>,
+    pub radiance: Option<StoredEstimate<Radiance>>,
     /// Spectral irradiance on the sensor plane.
-    pub irradiance: Option<KeptCube<Irradiance>>,
+    pub irradiance: Option<StoredCube<Irradiance>>,
     /// Its variance; `None` on the pupil route, where only the radiance's is known.
-    pub irradiance_variance: Option<KeptCube<Variance>>,
+    pub irradiance_variance: Option<StoredCube<Variance>>,
     /// Ghosts, as part of the irradiance, if the camera has them.
-    pub ghosts: Option<KeptCube<Irradiance>>,
+    pub ghosts: Option<StoredCube<Irradiance>>,
     /// Mean electrons of each pixel in the first capture.
     pub electrons: Option<Plane<MeanElectrons>>,
     /// Mean electrons of the further captures, each in the exposure of the first; empty if all captures see the same light.
@@ -44,7 +44,7 @@ pub struct Light {
 impl Light {
     /// Applies each row's own exposure, and adds the electrons of `further` captures with rows exposed equally; without any, all captures see the light of
     /// the first.
-    pub(super) fn exposed(mut self, rows: &RowExposure, mut further: Vec<Plane<MeanElectrons>>) -> Self {
+    pub(super) fn with_row_exposures(mut self, rows: &RowExposure, mut further: Vec<Plane<MeanElectrons>>) -> Self {
         if !rows.is_even() {
             let Some(first) = &mut self.electrons else { return self };
             if further.is_empty() {

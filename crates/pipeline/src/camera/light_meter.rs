@@ -19,7 +19,7 @@ pub struct LightMeter<'a> {
 impl<'a> LightMeter<'a> {
     /// Light meter of a camera; `None` without electronics.
     #[must_use]
-    pub fn of(body: &'a CameraBody) -> Option<Self> {
+    pub fn new(body: &'a CameraBody) -> Option<Self> {
         let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
         let projected_solid_angle_sr = body.lens.projected_solid_angle_sr(body.raster.sensor_mm(size / 2.0));
         body.sensor.as_ref().map(|sensor| Self { sensor, projected_solid_angle_sr })

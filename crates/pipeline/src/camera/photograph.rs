@@ -4,16 +4,16 @@ use crate::camera::behind_lens::electrons;
 use crate::camera::disk_light;
 use crate::camera::effects::{EffectsOutput, behind, picture};
 pub use crate::camera::light::LightError;
-pub use crate::camera::light::{KeptEstimate, Light};
-use crate::camera::stored::Stored;
+pub use crate::camera::light::{StoredEstimate, Light};
+use crate::camera::stored::StoredRadianceImage;
 use crate::plan::{CameraBody, CameraPlan, Development, Route, RowExposure};
 use crate::render::film::{CubeEstimate, Film, FilmCube};
 use crate::render::pupil_depth::PupilDepth;
 use etendue_core::quantity::MeanElectrons;
 use etendue_core::random::FrameAddress;
-use etendue_core::{KeptCube, Plane};
-pub use etendue_isp::{DevelopError, Developed};
-use etendue_isp::{RawPicture, develop};
+use etendue_core::{StoredCube, Plane};
+pub use etendue_isp::{DevelopError, DevelopmentResult};
+use etendue_isp::{RawImage, develop};
 use etendue_optics::{DepthOfField, OpticsError};
 use etendue_sensor::{CaptureLight, Raw, SensorState, SignalBreakdown};
 
@@ -22,8 +22,8 @@ impl Light {
     ///
     /// # Errors
     /// Depth of field meets a radiance that is not finite (a compiled plan contains its own image), or a scratch file fails.
-    pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
-        Self::seen(camera, film, depth).map(|light| light.exposed(&camera.body.exposure, Vec::new()))
+    pub fn from_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
+        Self::light_from_film(camera, film, depth).map(|light| light.with_row_exposures(&camera.body.exposure, Vec::new()))
     }
 
     /// Light of a camera whose captures see different light: films of the distinct captures ([`RowExposure::distinct_captures`]) in order, or a single one
@@ -31,18 +31,18 @@ impl Light {
     ///
     /// # Errors
     /// As [`Light::of_film`].
-    pub fn of_captures(camera: &CameraPlan, films: Vec<Film>, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
+    pub fn from_captures(camera: &CameraPlan, films: Vec<Film>, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
         let rows = &camera.body.exposure;
         let mut lights =
-            films.into_iter().map(|film| Self::seen(camera, film, depth)).collect::<Result<Vec<_>, _>>()?;
+            films.into_iter().map(|film| Self::light_from_film(camera, film, depth)).collect::<Result<Vec<_>, _>>()?;
         let further = if lights.len() > 1 { further_electrons(rows, &lights) } else { Vec::new() };
-        Ok(lights.swap_remove(0).exposed(rows, further))
+        Ok(lights.swap_remove(0).with_row_exposures(rows, further))
     }
 
     /// Light of a film, with all rows exposed equally.
-    fn seen(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
+    fn light_from_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
         if let Some(cube) = film.disk().cloned() {
-            return disk_light::seen(camera, film, &cube, depth);
+            return disk_light::light_from_film(camera, film, &cube, depth);
         }
         match &camera.settings.route {
             Route::Lens => Ok(Self::through_lens(camera, film)),
@@ -50,8 +50,8 @@ impl Light {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
                 drop(film);
                 let distance = depth.map(|depth| &depth.distance);
-                let stored = Stored { projection, radiance: &radiance.mean, distance };
-                let light = Self::of_stored(&camera.body, &stored, &camera.depth_of_field)?;
+                let stored = StoredRadianceImage { projection, radiance: &radiance.mean, distance };
+                let light = Self::from_stored(&camera.body, &stored, &camera.depth_of_field)?;
                 Ok(Self { radiance: Some(radiance.into()), ..light })
             }
         }
@@ -71,15 +71,15 @@ impl Light {
             None => (None, None, None),
         };
         let exposure_s = body.sensor.as_ref().map(|sensor| sensor.parameters().exposure.exposure_s);
-        let exposed = film.electron_rate.zip(exposure_s).map(|(rate, exposure_s)| rate.exposed(exposure_s));
-        let (folded, electrons_variance) = exposed.map(|e| (e.mean, e.variance)).unzip();
-        let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
+        let exposed = film.electron_rate.zip(exposure_s).map(|(rate, exposure_s)| rate.electrons(exposure_s));
+        let (accumulates_electrons, electrons_variance) = exposed.map(|e| (e.mean, e.variance)).unzip();
+        let electrons = accumulates_electrons.or_else(|| electrons(body, irradiance.as_ref()?));
         let further_electrons = Vec::new();
         Self {
-            radiance: radiance.map(KeptEstimate::from),
-            irradiance: irradiance.map(KeptCube::from),
-            irradiance_variance: irradiance_variance.map(KeptCube::from),
-            ghosts: ghosts.map(KeptCube::from),
+            radiance: radiance.map(StoredEstimate::from),
+            irradiance: irradiance.map(StoredCube::from),
+            irradiance_variance: irradiance_variance.map(StoredCube::from),
+            ghosts: ghosts.map(StoredCube::from),
             electrons,
             further_electrons,
             electrons_variance,
@@ -92,10 +92,10 @@ impl Light {
     /// The image does not contain directions that the camera needs, or the radiance is not finite.
     pub fn at_pupil(
         body: &CameraBody,
-        stored: &Stored<'_>,
+        stored: &StoredRadianceImage<'_>,
         depth_of_field: &DepthOfField,
     ) -> Result<Self, OpticsError> {
-        Self::of_stored(body, stored, depth_of_field).map(|light| light.exposed(&body.exposure, Vec::new()))
+        Self::from_stored(body, stored, depth_of_field).map(|light| light.with_row_exposures(&body.exposure, Vec::new()))
     }
 }
 
@@ -114,53 +114,53 @@ pub struct Frame {
     /// Components of the digital numbers, if requested.
     pub signal_breakdown: Option<SignalBreakdown>,
     /// Developed image, if the camera has processing.
-    pub picture: Option<Developed>,
+    pub picture: Option<DevelopmentResult>,
 }
 
 /// Develops the part of a raw that receives light, from linear digital numbers, with the processing of a camera. Runs on the caller's pool.
 ///
 /// # Errors
 /// The raw is not of the camera's sensor.
-pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) -> Result<Developed, DevelopError> {
+pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) -> Result<DevelopmentResult, DevelopError> {
     let linear = raw.linear();
-    let picture = RawPicture {
+    let image = RawImage {
         plane: &linear.plane,
         black_level_dn: linear.black_level_dn,
         white_level_dn: linear.white_level_dn,
         mosaic: &development.mosaic,
         optical_black: linear.optical_black.as_ref(),
     };
-    develop(&picture, &development.processing, address)
+    develop(&image, &development.processing, address)
 }
 
 /// Developed image of a frame of the camera's own, if it has processing.
-fn own_picture(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Developed> {
+fn developed_image(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<DevelopmentResult> {
     let development = body.development.as_ref()?;
     Some(developed(development, raw, address).expect("a compiled plan's processing fits its sensor"))
 }
 
 /// Captures one frame of `light`; the state is passed from frame to frame. `None` for a camera without electronics.
 #[must_use]
-pub fn take(
+pub fn capture(
     body: &CameraBody,
     state: SensorState,
     light: CaptureLight<'_>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step_captures(state, light, address);
-    let picture = own_picture(body, &raw, address);
-    Some((state, Frame { raw, signal_breakdown: None, picture }))
+    let image = developed_image(body, &raw, address);
+    Some((state, Frame { raw, signal_breakdown: None, picture: image }))
 }
 
 /// Captures the same frame, with the components of each pixel's digital number.
 #[must_use]
-pub fn take_with_breakdown(
+pub fn capture_with_breakdown(
     body: &CameraBody,
     state: SensorState,
     light: CaptureLight<'_>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw, signal_breakdown) = body.sensor.as_ref()?.step_captures_with_breakdown(state, light, address);
-    let picture = own_picture(body, &raw, address);
-    Some((state, Frame { raw, signal_breakdown: Some(signal_breakdown), picture }))
+    let image = developed_image(body, &raw, address);
+    Some((state, Frame { raw, signal_breakdown: Some(signal_breakdown), picture: image }))
 }

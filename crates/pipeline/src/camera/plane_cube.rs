@@ -3,7 +3,7 @@
 use etendue_core::quantity::Quantity;
 use etendue_core::storage::{BandReader, CubeOnDisk};
 use etendue_core::storage::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
-use etendue_core::{Bands, KeptCube, Plane};
+use etendue_core::{Bands, StoredCube, Plane};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -29,9 +29,9 @@ impl PlaneCube {
     }
 
     /// The written cube.
-    pub(super) fn kept<Q: Quantity>(self) -> KeptCube<Q> {
+    pub(super) fn into_cube<Q: Quantity>(self) -> StoredCube<Q> {
         let (bands, size) = (self.bands, self.size);
-        KeptCube::Disk(CubeOnDisk::new(bands, size.0, size.1, Arc::new(self)))
+        StoredCube::Disk(CubeOnDisk::new(bands, size.0, size.1, Arc::new(self)))
     }
 
     /// Offset of a row of a band, bytes.

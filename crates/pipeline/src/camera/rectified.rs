@@ -40,22 +40,22 @@ impl RectifiedCamera {
 }
 
 /// Interpolated value of an image; up to half a pixel from its edge that of the outermost pixel, `None` outside.
-fn between(picture: &Plane<LinearRgb>, at: DVec2) -> Option<[f32; 3]> {
-    let last = DVec2::new((picture.width() - 1) as f64, (picture.height() - 1) as f64);
+fn between(image: &Plane<LinearRgb>, at: DVec2) -> Option<[f32; 3]> {
+    let last = DVec2::new((image.width() - 1) as f64, (image.height() - 1) as f64);
     let from_centre = at - 0.5;
     if !(from_centre.cmpge(DVec2::splat(-0.5)).all() && from_centre.cmple(last + 0.5).all()) {
         return None;
     }
     let place = from_centre.clamp(DVec2::ZERO, last);
     let low = place.floor();
-    let share = place - low;
+    let fraction = place - low;
     let [x0, y0] = [low.x as usize, low.y as usize];
-    let [x1, y1] = [(x0 + 1).min(picture.width() - 1), (y0 + 1).min(picture.height() - 1)];
+    let [x1, y1] = [(x0 + 1).min(image.width() - 1), (y0 + 1).min(image.height() - 1)];
     let mix = |a: f32, b: f32, t: f64| f64::from(a) * (1.0 - t) + f64::from(b) * t;
-    let (a, b, c, d) = (picture.at(x0, y0), picture.at(x1, y0), picture.at(x0, y1), picture.at(x1, y1));
+    let (a, b, c, d) = (image.at(x0, y0), image.at(x1, y0), image.at(x0, y1), image.at(x1, y1));
     Some(core::array::from_fn(|i| {
-        let (upper, lower) = (mix(a[i], b[i], share.x), mix(c[i], d[i], share.x));
-        (upper * (1.0 - share.y) + lower * share.y) as f32
+        let (upper, lower) = (mix(a[i], b[i], fraction.x), mix(c[i], d[i], fraction.x));
+        (upper * (1.0 - fraction.y) + lower * fraction.y) as f32
     }))
 }
 
@@ -73,8 +73,8 @@ mod tests {
             "format = 1\n[sensor]\nwidth_px = 64\nheight_px = 48\npixel_pitch_um = 100\n[lens]\nf_number = 4\n{lens}"
         );
         let camera = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());
-        let camera = camera.unwrap_or_else(|faults| panic!("{faults}"));
-        crate::compile_camera(&camera, &Assets::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+        let camera = camera.unwrap_or_else(|errors| panic!("{errors}"));
+        crate::compile_camera(&camera, &Assets::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
     }
 
     fn calibrated(projection: &str) -> CameraBody {
@@ -82,25 +82,25 @@ mod tests {
     }
 
     #[test]
-    fn the_twin_of_a_camera_without_distortion_is_itself() {
+    fn a_camera_without_distortion_is_its_own_rectified_camera() {
         for camera in [
             body("type = \"pinhole\"\nfocal_length_mm = 7\n"),
             body("type = \"thin\"\nfocal_length_mm = 7\nfocus_distance_m = 2\n"),
             calibrated("type = \"opencv\", fx_px = 70, fy_px = 71, cx_px = 30, cy_px = 25"),
         ] {
-            let twin = RectifiedCamera::of(&camera, 1.0).expect("a twin");
-            assert_eq!(ray_table(twin.body()), ray_table(&camera), "to the bit");
-            let picture = Plane::from_samples(64, 48, (0..64 * 48).map(|i| [i as f32, 0.5, (i % 7) as f32]).collect());
-            let picture = picture.expect("filled");
-            let same = twin.resampled(&camera, &picture);
+            let rectified = RectifiedCamera::new(&camera, 1.0).expect("a twin");
+            assert_eq!(ray_table(rectified.body()), ray_table(&camera), "to the bit");
+            let image = Plane::from_samples(64, 48, (0..64 * 48).map(|i| [i as f32, 0.5, (i % 7) as f32]).collect());
+            let image = image.expect("filled");
+            let same = rectified.resampled(&camera, &image);
             // Positions are recovered to 1e-12 px, over which neighbours differ by up to 64.
             let close = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).all(|i| (a[i] - b[i]).abs() <= 1e-6 * (1.0 + b[i]));
-            assert!(same.samples().iter().zip(picture.samples()).all(close));
+            assert!(same.samples().iter().zip(image.samples()).all(close));
         }
     }
 
     #[test]
-    fn a_twin_s_rays_are_those_of_its_matrix() {
+    fn rays_of_a_rectified_camera_are_those_of_its_matrix() {
         let cases = [
             (
                 "type = \"opencv\", fx_px = 70, fy_px = 71, cx_px = 30, cy_px = 25, distortion = [-0.3, 0.1, 0.001, 0.002]",
@@ -114,7 +114,7 @@ mod tests {
         for (projection, focal) in cases {
             for scale in [1.0, 0.5] {
                 let camera = calibrated(projection);
-                let RectifiedCamera { matrix, body } = RectifiedCamera::of(&camera, scale).expect("a twin");
+                let RectifiedCamera { matrix, body } = RectifiedCamera::new(&camera, scale).expect("a twin");
                 assert!(
                     (matrix.fx / (scale * focal[0]) - 1.0).abs() < 1e-12
                         && (matrix.fy / (scale * focal[1]) - 1.0).abs() < 1e-12
@@ -133,10 +133,10 @@ mod tests {
     #[test]
     fn an_even_picture_stays_even_and_what_is_not_seen_is_black() {
         let camera = calibrated("type = \"opencv\", fx_px = 50, distortion = [-0.2, 0.02, 0, 0]");
-        let even = Plane::filled(64, 48, [0.25, 0.5, 1.0]);
+        let uniform = Plane::filled(64, 48, [0.25, 0.5, 1.0]);
         // Barrel distortion is expanded: the rectified camera of the same scale shows a part of the image, that of half the scale the whole, with black
         // around it.
-        let of = |scale| RectifiedCamera::of(&camera, scale).expect("a twin").resampled(&camera, &even);
+        let of = |scale| RectifiedCamera::new(&camera, scale).expect("a twin").resampled(&camera, &uniform);
         assert!(of(1.0).samples().iter().all(|v| *v == [0.25, 0.5, 1.0]));
         let small = of(0.5);
         assert_eq!((small.at(0, 0), small.at(32, 24)), ([0.0; 3], [0.25, 0.5, 1.0]));
@@ -144,11 +144,11 @@ mod tests {
     }
 
     #[test]
-    fn cameras_without_a_twin_say_why() {
-        let refused =
-            |camera: &CameraBody| RectifiedCamera::of(camera, 1.0).map(|_| ()).expect_err("no twin").to_string();
-        let wide = refused(&calibrated("type = \"equidistant\", fx_px = 20"));
+    fn cameras_without_a_rectified_camera_state_the_reason() {
+        let reason =
+            |camera: &CameraBody| RectifiedCamera::new(camera, 1.0).map(|_| ()).expect_err("no twin").to_string();
+        let wide = reason(&calibrated("type = \"equidistant\", fx_px = 20"));
         assert!(wide.contains("114.6°") && wide.contains("85°"), "{wide}");
-        assert!(refused(&body("type = \"telecentric\"\nfield_width_m = 1\n")).contains("telecentric"));
+        assert!(reason(&body("type = \"telecentric\"\nfield_width_m = 1\n")).contains("telecentric"));
     }
 }

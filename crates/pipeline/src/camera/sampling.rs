@@ -1,6 +1,6 @@
 //! Sampling of an image: samples of each pixel, the resulting variance, and the variance of the sensor's noise.
 
-use crate::camera::effects::plane_of_picture;
+use crate::camera::effects::crop_to_image;
 use crate::plan::{CameraPlan, Route};
 use crate::render::film::Film;
 use crate::render::gather::stored_variance;
@@ -24,7 +24,7 @@ pub struct SamplingPlanes {
 impl SamplingPlanes {
     /// Planes of a camera's film.
     #[must_use]
-    pub fn of(camera: &CameraPlan, film: &Film) -> Self {
+    pub fn new(camera: &CameraPlan, film: &Film) -> Self {
         let noise = camera.body.sensor.as_ref().filter(|_| camera.settings.route == Route::Lens);
         let noise = noise.map(Sensor::temporal_noise);
         let exposure_s = noise.as_ref().map_or(1.0, |noise| noise.exposure_s());
@@ -53,7 +53,7 @@ fn scaled(variance: &Plane<Variance>, by: f64) -> Plane<Variance> {
 /// Removes the film's margin if the planes are those of the image.
 fn shown<Q: Quantity>(camera: &CameraPlan, plane: &Plane<Q>) -> Plane<Q> {
     match camera.settings.route {
-        Route::Lens => plane_of_picture(&camera.body, plane),
+        Route::Lens => crop_to_image(&camera.body, plane),
         Route::Pupil(_) => plane.clone(),
     }
 }

@@ -7,7 +7,7 @@ use etendue_optics::{OpticsError, PupilProjection, Resampling};
 
 /// A stored radiance image: the input of the pupil route.
 #[derive(Clone, Copy, Debug)]
-pub struct Stored<'a> {
+pub struct StoredRadianceImage<'a> {
     /// Its geometry.
     pub projection: &'a PupilProjection,
     /// Radiance as seen from the centre of the entrance pupil.
@@ -16,12 +16,12 @@ pub struct Stored<'a> {
     pub distance: Option<&'a Plane<Length>>,
 }
 
-impl Stored<'_> {
+impl StoredRadianceImage<'_> {
     /// Radiance and distance in the raster of a camera's image, with `margin_px` additional columns and rows on each side.
     ///
     /// # Errors
     /// The stored image does not contain directions that the camera needs.
-    pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<PinholeImages, OpticsError> {
+    pub fn resample(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<PinholeImages, OpticsError> {
         let (lens, bands) = (&body.lens, self.radiance.bands());
         let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
         let radiance = resampling.apply(self.radiance)?;

@@ -10,7 +10,7 @@ use etendue_tracer::media::{Media, Medium};
 use glam::Vec3;
 
 /// Albedo above which multiple scattering makes the limit of bounces significant.
-const BRIGHT: f32 = 0.5;
+const MIN_ALBEDO: f32 = 0.5;
 
 /// Bounces per optical depth plus one that include about 95 % of fog's light: with the forward peak of its phase function simulated, and with it treated as
 /// unscattered. Measured for water droplets of 12 µm in a layer of optical depth 2.2.
@@ -31,7 +31,7 @@ pub(super) fn layers(
         let Some(key) = setup.output.weather.as_ref().filter(|key| key.value) else { continue };
         if !has_media {
             let problem = "\"weather\" is requested, but the scene has neither [[media]] nor [precipitation]";
-            context.fault(
+            context.error(
                 ErrorCode::UnavailableOutput,
                 &key.place,
                 problem,
@@ -43,26 +43,26 @@ pub(super) fn layers(
 }
 
 /// Reports cameras that lose light in fog, and settings that are ignored.
-pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {
+pub(super) fn note_light_loss(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {
     if media.is_empty() {
         return;
     }
     for camera in cameras.iter().filter(|camera| camera.settings.paths.integrator == Integrator::Path) {
-        let about = || format!("camera \"{}\"", camera.name);
+        let subject = || format!("camera \"{}\"", camera.name);
         if camera.settings.blocks != Blocks::SINGLE {
-            context.remark_on(
-                about(),
+            context.note_on(
+                subject(),
                 "\"path_reuse_px\" is ignored: with scattering media, each pixel traces its own paths",
             );
         }
         let depth = depth_above(camera, media);
-        let wanted = BOUNCES[usize::from(!camera.settings.paths.caustics)] * (1.0 + depth);
+        let min_bounces = BOUNCES[usize::from(!camera.settings.paths.caustics)] * (1.0 + depth);
         // In an unbounded medium no number is reported: light of its lamps comes from nearby.
-        if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.paths.max_bounces) < wanted {
-            context.remark_on(about(), format!(
+        if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.paths.max_bounces) < min_bounces {
+            context.note_on(subject(), format!(
                 "it is in a medium of optical depth {depth:.1} towards the sky; light scattered more than max_bounces \
                  = {} times is missing, so the medium is too dark; about {:.0} bounces include nearly all of it",
-                camera.settings.paths.max_bounces, wanted.min(MAX_BOUNCES).ceil()
+                camera.settings.paths.max_bounces, min_bounces.min(MAX_BOUNCES).ceil()
             ));
         }
     }
@@ -74,7 +74,7 @@ fn depth_above(camera: &CameraPlan, media: &[Medium]) -> f64 {
     let interval = TimeInterval::at(start_s).unwrap_or_default();
     let columns_m =
         Media::new(media, camera.path.at(start_s).position_m, interval).columns_m(&Ray::new(Vec3::ZERO, Vec3::Z, 0.0));
-    let bright = media.iter().zip(columns_m).filter(|(medium, _)| medium.albedo().max_value() > BRIGHT);
+    let bright = media.iter().zip(columns_m).filter(|(medium, _)| medium.albedo().max_value() > MIN_ALBEDO);
     bright
         .map(|(medium, column_m)| f64::from(medium.extinction().max_value()) * column_m)
         .filter(|depth| !depth.is_nan())

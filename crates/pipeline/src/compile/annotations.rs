@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 const ROW_TOLERANCE_PX: f64 = 1e-3;
 
 /// Products of a camera, except disparity, for which all cameras must be known.
-pub(super) fn asked(output: &Output) -> Annotations {
+pub(super) fn annotations(output: &Output) -> Annotations {
     Annotations {
         optical_flow: output.optical_flow.as_ref().map(|key| format(key.value)),
         scene_flow: output.scene_flow.as_ref().is_some_and(|key| key.value),
@@ -50,7 +50,7 @@ fn check_frames(output: &Output, camera: &CameraPlan, context: &mut Context<'_>)
     ];
     for (name, place) in keys.into_iter().flatten() {
         let problem = format!("\"{name}\" requires the previous and the next frame, but no frame rate is stated");
-        context.fault(
+        context.error(
             ErrorCode::UnavailableOutput,
             place,
             problem,
@@ -68,7 +68,7 @@ fn disparity(
     let Some(key) = &output.disparity_to else {
         if let Some(format) = &output.disparity_format {
             let problem = "\"disparity_format\" has no effect without \"disparity_to\"";
-            context.idle(
+            context.error_without_effect(
                 ErrorCode::NoEffect,
                 "disparity_format",
                 &format.place,
@@ -79,14 +79,14 @@ fn disparity(
         }
         return None;
     };
-    let found = cameras.iter().find(|camera| camera.name == key.value && camera.index != left.index);
-    let Some(right) = found else {
+    let right_camera = cameras.iter().find(|camera| camera.name == key.value && camera.index != left.index);
+    let Some(right) = right_camera else {
         let others: Vec<&str> = cameras.iter().filter(|c| c.index != left.index).map(|c| c.name.as_str()).collect();
         let remedy = match others.is_empty() {
             true => "add a second camera to the job, or remove the key".to_owned(),
             false => format!("give one of {}", others.join(", ")),
         };
-        context.fault(
+        context.error(
             ErrorCode::UnknownName,
             &key.place,
             format!("there is no other camera \"{}\"", key.value),
@@ -100,7 +100,7 @@ fn disparity(
              right (+x of the camera), or remove the key",
             right.name
         );
-        context.fault(ErrorCode::UnavailableOutput, &key.place, problem, remedy);
+        context.error(ErrorCode::UnavailableOutput, &key.place, problem, remedy);
         return None;
     }
     let format = output.disparity_format.as_ref().map_or(CorrespondenceFormat::Exr, |key| format(key.value));
@@ -109,7 +109,7 @@ fn disparity(
 
 /// Describes why two views are not rectified at some time: in frame 0 or, for cameras that move independently, at their keys and half-way between.
 fn not_rectified(left: &CameraPlan, right: &CameraPlan) -> Option<String> {
-    let mut times_s = left.times_beside_s(right);
+    let mut times_s = left.comparison_times_s(right);
     if left.fixed_pair(right).is_some() {
         times_s.truncate(1);
     }
@@ -144,19 +144,19 @@ fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Optio
         let Some(direction) = left.body.lens.direction(raster.sensor_mm(at_px)) else { continue };
         for distance_m in [4.0, 40.0, 4000.0].map(|times| times * base_m.x) {
             let point_m = from.position_m + from.direction_to_world(direction * distance_m);
-            let seen: Option<DVec2> =
+            let right_px: Option<DVec2> =
                 right.body.lens.project(to.point_to_camera(point_m)).map(|mm| right.body.raster.raster_px(mm));
-            let off_px = seen.map_or(f64::INFINITY, |seen| (seen.y - at_px.y).abs());
+            let off_px = right_px.map_or(f64::INFINITY, |px| (px.y - at_px.y).abs());
             if off_px > ROW_TOLERANCE_PX {
-                return Some(told(left, right, at_px, point_m, seen));
+                return Some(difference_in_height(left, right, at_px, point_m, right_px));
             }
         }
     }
     None
 }
 
-fn told(left: &CameraPlan, right: &CameraPlan, at_px: DVec2, point_m: DVec3, seen: Option<DVec2>) -> String {
-    let there = seen.map_or_else(|| "not imaged".to_owned(), |seen| format!("at y = {:.3} px", seen.y));
+fn difference_in_height(left: &CameraPlan, right: &CameraPlan, at_px: DVec2, point_m: DVec3, right_px: Option<DVec2>) -> String {
+    let there = right_px.map_or_else(|| "not imaged".to_owned(), |seen| format!("at y = {:.3} px", seen.y));
     format!(
         "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is at y = {:.3} px in the first, \
          {there} in the second",

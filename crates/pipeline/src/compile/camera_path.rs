@@ -1,7 +1,7 @@
 //! Camera poses over time: from records to paths.
 
 use super::context::Context;
-use super::course::{along, through, trajectory};
+use super::course::{along_trajectory, through_keys, trajectory};
 use super::frames::Frames;
 use crate::plan::Mount;
 use etendue_core::track::Key;
@@ -12,18 +12,18 @@ use glam::{DAffine3, DQuat, DVec3};
 
 /// Path of a camera; `None` if it is invalid.
 pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<CameraPath> {
-    let course = pose.course.as_ref();
-    let own = match (trajectory(course), &pose.keys[..]) {
-        (Some(file), _) => along(file, course, context)?.after(&DAffine3::from_mat3(camera_axes())),
+    let motion_keys = pose.course.as_ref();
+    let own = match (trajectory(motion_keys), &pose.keys[..]) {
+        (Some(file), _) => along_trajectory(file, motion_keys, context)?.after(&DAffine3::from_mat3(camera_axes())),
         // Poses in a loaded description have been checked.
         (None, []) => still(&pose.to_camera_pose()?),
         (None, [only]) => still(&only.to_camera_pose()?),
         (None, keys) => {
             let keys: Vec<Key> = keys.iter().map(|k| key(k, context)).collect::<Option<_>>()?;
-            through(&keys, course, pose.stated_at(), context)?
+            through_keys(&keys, motion_keys, pose.stated_at(), context)?
         }
     };
-    Some(CameraPath::moving(frames.carrying(pose.frame.as_ref(), own)))
+    Some(CameraPath::moving(frames.world_motion(pose.frame.as_ref(), own)))
 }
 
 /// Frame that carries a camera, and its pose there.
@@ -38,7 +38,7 @@ pub(super) fn mount(pose: &Pose) -> Mount {
 }
 
 fn still(pose: &CameraPose) -> Motion {
-    Motion::still(DAffine3::from_mat3_translation(pose.rotation, pose.position_m))
+    Motion::constant(DAffine3::from_mat3_translation(pose.rotation, pose.position_m))
 }
 
 fn key(key: &PoseKey, context: &mut Context<'_>) -> Option<Key> {

@@ -1,12 +1,12 @@
 //! Shared state of all compile steps: the assets, the errors found so far, and notes and warnings for the plan.
 
 use super::coded_error::CodedError;
-use super::coverage::Coverage;
-use crate::plan::remark::{Remark, Weight};
+use super::coverage::SpectralCoverage;
+use crate::plan::remark::{Note, Severity};
 use etendue_core::{Epoch, ExactTime};
 pub(super) use etendue_scene::ErrorCode;
 use etendue_scene::asset::Assets;
-use etendue_scene::{Fault, Place, Placed, stated};
+use etendue_scene::{DescriptionError, Place, Placed, key_with_place};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
@@ -16,18 +16,18 @@ pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
     /// Origin of all times.
     pub(super) epoch: Epoch,
-    pub(super) faults: Vec<Fault>,
-    pub(super) remarks: Vec<Remark>,
+    pub(super) errors: Vec<DescriptionError>,
+    pub(super) notes: Vec<Note>,
     /// Settings overridden by the command line.
-    pub(super) notices: Vec<String>,
+    pub(super) overridden_keys: Vec<String>,
     /// Wavelength ranges of the tables in use.
-    pub(super) coverage: Coverage,
+    pub(super) coverage: SpectralCoverage,
 }
 
 impl<'a> Context<'a> {
     pub(super) fn new(assets: &'a Assets, epoch: Epoch) -> Self {
-        let (faults, remarks, notices) = (Vec::new(), Vec::new(), Vec::new());
-        Self { assets, epoch, faults, remarks, notices, coverage: Coverage::default() }
+        let (errors, notes, overridden_keys) = (Vec::new(), Vec::new(), Vec::new());
+        Self { assets, epoch, errors: faults: errors, notes: remarks: notes, overridden_keys: notices: overridden_keys, coverage: SpectralCoverage::default() }
     }
 
     /// Returns a time since the epoch, s; warns if a number in the file cannot represent it to a nanosecond.
@@ -47,19 +47,19 @@ impl<'a> Context<'a> {
     }
 
     /// Records an error at `place`.
-    pub(super) fn fault(
+    pub(super) fn error(
         &mut self,
         code: ErrorCode,
         place: &Place,
         problem: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.faults.push(Fault::new(code, place, problem, remedy));
+        self.errors.push(DescriptionError::new(code, place, problem, remedy));
     }
 
     /// Records that `key` at `place` has no effect because of the setting at `cause`: an error, unless the command line states the cause and a file the key.
     /// A command-line setting overrides the keys that it makes meaningless.
-    pub(super) fn idle(
+    pub(super) fn error_without_effect(
         &mut self,
         code: ErrorCode,
         key: &str,
@@ -70,56 +70,56 @@ impl<'a> Context<'a> {
     ) {
         match cause {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
-                self.notice(format!("{by} supersedes {}", stated(key, place)));
+                self.overridden(format!("{by} supersedes {}", key_with_place(key, place)));
             }
-            _ => self.fault(code, place, problem, remedy),
+            _ => self.error(code, place, problem, remedy),
         }
     }
 
     /// Records a notice, without duplicates.
-    pub(super) fn notice(&mut self, text: String) {
-        if !self.notices.contains(&text) {
-            self.notices.push(text);
+    pub(super) fn overridden(&mut self, text: String) {
+        if !self.overridden_keys.contains(&text) {
+            self.overridden_keys.push(text);
         }
     }
 
     /// Returns the value, or `None` with its error recorded at `place`; the errors of the models state the remedy.
     pub(super) fn accept<T, E: CodedError>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
-        result.map_err(|error| self.fault(error.code(), place, error.to_string(), "")).ok()
+        result.map_err(|error| self.error(error.code(), place, error.to_string(), "")).ok()
     }
 
     /// Returns the recorded errors without duplicates: a key of the job is checked for every camera.
-    pub(super) fn into_faults(self) -> Vec<Fault> {
-        let mut seen = BTreeSet::new();
-        let is_new = |fault: &Fault| seen.insert((fault.place.clone(), fault.problem.clone(), fault.remedy.clone()));
-        self.faults.into_iter().filter(is_new).collect()
+    pub(super) fn into_errors(self) -> Vec<DescriptionError> {
+        let mut known = BTreeSet::new();
+        let is_new = |error: &DescriptionError| known.insert((error.place.clone(), error.problem.clone(), error.remedy.clone()));
+        self.errors.into_iter().filter(is_new).collect()
     }
 
     /// Records a note for the plan, which prints equal ones once with their number.
-    pub(super) fn remark(&mut self, text: impl Into<String>) {
-        self.add(None, text.into(), Weight::Note);
+    pub(super) fn note(&mut self, text: impl Into<String>) {
+        self.add(None, text.into(), Severity::Note);
     }
 
     /// Records a note on a file, a place or an object; the plan prints equal ones together.
-    pub(super) fn remark_on(&mut self, about: impl Display, text: impl Into<String>) {
-        self.add(Some(about.to_string()), text.into(), Weight::Note);
+    pub(super) fn note_on(&mut self, subject: impl Display, text: impl Into<String>) {
+        self.add(Some(subject.to_string()), text.into(), Severity::Note);
     }
 
     /// Records a warning that the image may differ from the user's intent; a render repeats it.
     pub(super) fn warn(&mut self, text: impl Into<String>) {
-        self.add(None, text.into(), Weight::Warning);
+        self.add(None, text.into(), Severity::Warning);
     }
 
     /// Does the same as [`Context::warn`] for a file, a place or an object.
-    pub(super) fn warn_on(&mut self, about: impl Display, text: impl Into<String>) {
-        self.add(Some(about.to_string()), text.into(), Weight::Warning);
+    pub(super) fn warn_on(&mut self, subject: impl Display, text: impl Into<String>) {
+        self.add(Some(subject.to_string()), text.into(), Severity::Warning);
     }
 
-    fn add(&mut self, about: Option<String>, text: String, weight: Weight) {
-        let is_same = |other: &&mut Remark| other.about == about && other.text == text && other.weight == weight;
-        match self.remarks.iter_mut().find(is_same) {
+    fn add(&mut self, subject: Option<String>, text: String, weight: Severity) {
+        let is_same = |other: &&mut Note| other.subject == subject && other.text == text && other.weight == weight;
+        match self.notes.iter_mut().find(is_same) {
             Some(same) => same.count += 1,
-            None => self.remarks.push(Remark { about, text, weight, count: 1 }),
+            None => self.notes.push(Note { subject, text, weight, count: 1 }),
         }
     }
 }

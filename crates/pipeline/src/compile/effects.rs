@@ -7,7 +7,7 @@ use crate::plan::Route;
 use etendue_optics::effects::{
     Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters, spread_of_modulation,
 };
-use etendue_optics::effects::{MARGIN_CAP, SpreadBy, Zernike, ZernikeTerm};
+use etendue_optics::effects::{MAX_MARGIN, SpreadMethod, Zernike, ZernikeTerm};
 use etendue_optics::ghosts::GhostSettings;
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens};
 use etendue_projection::Raster;
@@ -24,12 +24,12 @@ const UM_PER_MM: f64 = 1000.0;
 pub(super) fn effects(
     record: Option<&record::Effects>,
     lens: &Lens,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<Effects> {
     let Some(record) = record else { return Some(Effects::default()) };
     let psf = match &record.psf {
-        Some(record) => Some(point_spread(record, lens, picture, context)?),
+        Some(record) => Some(point_spread(record, lens, image_raster, context)?),
         None => None,
     };
     let glare = match &record.glare {
@@ -37,18 +37,18 @@ pub(super) fn effects(
         None => None,
     };
     let ghosts = match &record.ghosts {
-        Some(asked) if asked.value => Some(ghosts(record, asked, lens, context)?),
+        Some(requested) if requested.value => Some(ghosts(record, requested, lens, context)?),
         _ => None,
     };
-    let asked = record.psf.as_ref().and_then(|psf| psf.spread_by.as_ref());
-    let spread_by = asked.map(|asked| match asked.value {
-        description::SpreadBy::Film => SpreadBy::Film,
-        description::SpreadBy::Samples => SpreadBy::Samples,
+    let requested = record.psf.as_ref().and_then(|psf| psf.spread_by.as_ref());
+    let spread_by = requested.map(|requested| match requested.value {
+        description::SpreadBy::Film => SpreadMethod::Film,
+        description::SpreadBy::Samples => SpreadMethod::Samples,
     });
     let margin = record.margin.as_ref().map(|m| m.value);
-    let effects = Effects::new(EffectsParameters { psf, spread_by, glare, ghosts, margin }, picture);
-    let place = match (&effects, asked) {
-        (Err(EffectsError::WideCore { .. }), Some(asked)) => &asked.place,
+    let effects = Effects::new(EffectsParameters { psf, spread_by, glare, ghosts, margin }, image_raster);
+    let place = match (&effects, requested) {
+        (Err(EffectsError::WideCore { .. }), Some(requested)) => &requested.place,
         _ => record.margin.as_ref().map_or(&record.place, |m| &m.place),
     };
     context.accept(place, effects)
@@ -56,43 +56,43 @@ pub(super) fn effects(
 
 /// Refuses displaced samples on a route other than through the lens.
 pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, context: &mut Context<'_>) {
-    let asked = record.and_then(|effects| effects.psf.as_ref()).and_then(|psf| psf.spread_by.as_ref());
-    if let (Some(asked), Route::Pupil(_)) = (asked, route)
-        && asked.value == description::SpreadBy::Samples
+    let requested = record.and_then(|effects| effects.psf.as_ref()).and_then(|psf| psf.spread_by.as_ref());
+    if let (Some(requested), Route::Pupil(_)) = (requested, route)
+        && requested.value == description::SpreadBy::Samples
     {
         let problem = "samples are displaced on the sensor, but route = \"pupil\" has no samples there";
-        context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or render with route = \"lens\"");
+        context.error(ErrorCode::NotModelled, &requested.place, problem, "remove the key, or render with route = \"lens\"");
     }
 }
 
 fn ghosts(
     record: &record::Effects,
-    asked: &Placed<bool>,
+    requested: &Placed<bool>,
     lens: &Lens,
     context: &mut Context<'_>,
 ) -> Option<GhostSettings> {
     if !matches!(lens, Lens::Prescription(_)) {
         let problem =
             format!("ghosts are reflections between the surfaces of a prescription; the lens is a {}", lens.kind());
-        context.fault(
+        context.error(
             ErrorCode::NotModelled,
-            &asked.place,
+            &requested.place,
             problem,
             "give a lens with type = \"prescription\", or remove the key",
         );
         return None;
     }
     let reflectance = record.sensor_reflectance.as_ref();
-    let place = reflectance.map_or(&asked.place, |r| &r.place);
+    let place = reflectance.map_or(&requested.place, |r| &r.place);
     context.accept(place, GhostSettings::new(reflectance.map_or(0.0, |r| r.value)))
 }
 
 /// Largest possible film of a camera's effects.
-pub(super) fn widest_film(record: Option<&record::Effects>, picture: &Raster) -> Raster {
-    let Some(record) = record else { return *picture };
-    let margin = record.margin.as_ref().map_or(MARGIN_CAP, |m| m.value);
+pub(super) fn widest_film(record: Option<&record::Effects>, image_raster: &Raster) -> Raster {
+    let Some(record) = record else { return *image_raster };
+    let margin = record.margin.as_ref().map_or(MAX_MARGIN, |m| m.value);
     let pixels = |count: usize| (margin * count as f64).ceil() as usize;
-    picture.widened([pixels(picture.width()), pixels(picture.height())])
+    image_raster.widened([pixels(image_raster.width()), pixels(image_raster.height())])
 }
 
 fn glare(record: &description::Glare) -> Result<Glare, EffectsError> {
@@ -107,22 +107,22 @@ fn glare(record: &description::Glare) -> Result<Glare, EffectsError> {
 fn point_spread(
     record: &description::Psf,
     lens: &Lens,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<PointSpread> {
     if let Some(table) = &record.mtf {
-        return modulation(table, picture, context).map(PointSpread::Image);
+        return modulation(table, image_raster, context).map(PointSpread::Image);
     }
     if !record.files.is_empty() {
         let patches = record.patches.as_ref().map(counts);
-        return point_spread_files::table(&record.files, patches, lens, picture, context).map(PointSpread::Table);
+        return point_spread_files::table(&record.files, patches, lens, image_raster, context).map(PointSpread::Table);
     }
     match (&record.image, &record.image_pitch_um) {
         (Some(file), Some(pitch)) => {
             let wavelength = record.image_wavelength_nm.as_ref();
-            image(file, pitch, wavelength, picture, context).map(PointSpread::Image)
+            image(file, pitch, wavelength, image_raster, context).map(PointSpread::Image)
         }
-        _ => context.accept(&record.place, psf(record, lens, picture)).map(PointSpread::Aperture),
+        _ => context.accept(&record.place, psf(record, lens, image_raster)).map(PointSpread::Aperture),
     }
 }
 
@@ -131,13 +131,13 @@ fn image(
     file: &Placed<PathBuf>,
     pitch: &Placed<f64>,
     wavelength: Option<&Placed<f64>>,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<SpreadImage> {
     let (width, light) = grey(file, context)?;
     let (pitch_um, wavelength_nm) = (pitch.value, wavelength.map(|nm| nm.value));
     let image =
-        SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm, deviation: None }, picture);
+        SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm, deviation: None }, image_raster);
     let of_pitch = matches!(image, Err(EffectsError::Coarse { .. }));
     context.accept(if of_pitch { &pitch.place } else { &file.place }, image)
 }
@@ -145,7 +145,7 @@ fn image(
 /// A point spread from a table of modulation, with notes on the conversion of a file.
 fn modulation(
     table: &description::ModulationTable,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<SpreadImage> {
     let (place, points) = match &table.source {
@@ -156,16 +156,16 @@ fn modulation(
         ModulationSource::File(file) => {
             let assets = context.assets;
             let asset = assets.lens_tables.get(&(file.value.clone(), LensQuantity::Modulation))?;
-            asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+            asset.notes.iter().for_each(|note| context.note_on(file.value.display(), note));
             (&file.place, asset.points.clone())
         }
     };
-    let pixel_um = picture.pitch_mm().min_element() * UM_PER_MM;
-    let made = spread_of_modulation(&points, pixel_um).and_then(|samples| SpreadImage::new(samples, picture));
-    context.accept(place, made)
+    let pixel_um = image_raster.pitch_mm().min_element() * UM_PER_MM;
+    let image = spread_of_modulation(&points, pixel_um).and_then(|samples| SpreadImage::new(samples, image_raster));
+    context.accept(place, image)
 }
 
-fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, EffectsError> {
+fn psf(record: &description::Psf, lens: &Lens, image_raster: &Raster) -> Result<Psf, EffectsError> {
     let number = |key: &Option<etendue_scene::Placed<f64>>| key.as_ref().map_or(0.0, |v| v.value);
     let parameters = PsfParameters {
         blades: record.blades.as_ref().map_or(0, |b| b.value as u32),
@@ -176,7 +176,7 @@ fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, 
         reach_mm: record.reach_mm.as_ref().map(|r| r.value),
         patches: record.patches.as_ref().map(counts),
     };
-    Psf::new(parameters, lens, picture)
+    Psf::new(parameters, lens, image_raster)
 }
 
 /// Number of patches, columns and rows.

@@ -74,7 +74,7 @@ mod tests {
                        sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }\n[render]\nspp = 4\n";
 
     /// Hash of a job in a folder with a paint file of this content.
-    fn of(folder: &str, job: &str, sets: &[&str], paint: u8, quality: Option<Quality>) -> [u8; 32] {
+    fn job_fingerprint(folder: &str, job: &str, sets: &[&str], paint: u8, quality: Option<Quality>) -> [u8; 32] {
         let read = |_: &Path| Ok(job.to_owned());
         let file = Path::new(folder).join("job.toml");
         let description = Description::load(&file, &read, &Overrides::new(sets.iter().copied()));
@@ -82,7 +82,7 @@ mod tests {
         let spectra = [(PathBuf::from(folder).join("paint.csv"), spectrum)].into();
         let assets = Assets { spectra, ..Assets::default() };
         fingerprint(
-            &description.unwrap_or_else(|faults| panic!("{faults}")),
+            &description.unwrap_or_else(|errors| panic!("{errors}")),
             &assets,
             &Choices { quality, ..Choices::default() },
             &[],
@@ -91,13 +91,13 @@ mod tests {
 
     #[test]
     fn one_plan_has_one_hash_however_and_wherever_it_is_written() {
-        let plain = of("", JOB, &[], 1, None);
+        let plain = job_fingerprint("", JOB, &[], 1, None);
         let spaced = JOB.replace(" = ", "  =  ").replace("[render]", "# How.\n\n[render] # so");
         let turned = JOB.replace("spp = 4", "seed = 3\nspp = 4");
         let other = JOB.replace("spp = 4", "spp = 4\nseed = 3");
         assert_eq!(
             plain,
-            of(
+            job_fingerprint(
                 "elsewhere",
                 &spaced,
                 &["render.spp=4", "render.tile_px=8", "render.accelerator=best"],
@@ -105,19 +105,19 @@ mod tests {
                 Some(Quality::Standard)
             )
         );
-        assert_eq!(of("", &turned, &[], 1, None), of("", &other, &[], 1, None));
-        assert_ne!(plain, of("", &turned, &[], 1, None));
+        assert_eq!(job_fingerprint("", &turned, &[], 1, None), job_fingerprint("", &other, &[], 1, None));
+        assert_ne!(plain, job_fingerprint("", &turned, &[], 1, None));
     }
 
     #[test]
     fn what_is_stated_chosen_or_read_changes_the_hash() {
-        let plain = of("", JOB, &[], 1, None);
+        let plain = job_fingerprint("", JOB, &[], 1, None);
         for set in
             ["render.spp=8", "output.ghosts=false", "cameras.c.sensor.width_px=9", "cameras.c.position_m=[0, 0, 2]"]
         {
-            assert_ne!(plain, of("", JOB, &[set], 1, None), "{set}");
+            assert_ne!(plain, job_fingerprint("", JOB, &[set], 1, None), "{set}");
         }
-        assert_ne!(plain, of("", JOB, &[], 2, None), "another content of a file");
-        assert_ne!(plain, of("", JOB, &[], 1, Some(Quality::Draft)), "another preset");
+        assert_ne!(plain, job_fingerprint("", JOB, &[], 2, None), "another content of a file");
+        assert_ne!(plain, job_fingerprint("", JOB, &[], 1, Some(Quality::Draft)), "another preset");
     }
 }

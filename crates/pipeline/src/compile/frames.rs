@@ -1,12 +1,12 @@
 //! Frames of a scene: from records to motions.
 
 use super::context::Context;
-use super::course::{along, through, trajectory, turning};
+use super::course::{along_trajectory, through_keys, trajectory, wheel_rotation};
 use etendue_core::Motion;
 use etendue_core::track::Key;
 use etendue_scene::record::Scene;
 use etendue_scene::record::frame::{Frame, FrameKey};
-use etendue_scene::{Placed, Unused};
+use etendue_scene::{Placed, UnusedNames};
 use glam::DVec3;
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +27,7 @@ struct PlacedFrame<'a> {
 
 impl<'a> Frames<'a> {
     /// Frames of a scene.
-    pub(super) fn of(scene: &'a Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
+    pub(super) fn new(scene: &'a Scene, unused: &UnusedNames, context: &mut Context<'_>) -> Self {
         let by_name: BTreeMap<&str, &Frame> =
             scene.frames.iter().map(|frame| (frame.name.value.as_str(), frame)).collect();
         let (mut frames, mut tried) = (Self::default(), BTreeSet::new());
@@ -45,7 +45,7 @@ impl<'a> Frames<'a> {
     }
 
     /// World motion of an object that moves by `own` in a frame; in the world if none is named.
-    pub(super) fn carrying(&self, frame: Option<&Placed<String>>, own: Motion) -> Motion {
+    pub(super) fn world_motion(&self, frame: Option<&Placed<String>>, own: Motion) -> Motion {
         match frame.and_then(|name| self.to_world(name.value.as_str())) {
             Some(frame) => frame.carrying(&own),
             None => own,
@@ -54,16 +54,16 @@ impl<'a> Frames<'a> {
 
     /// `None` for an unknown frame, which has its own errors.
     fn to_world(&self, frame: &str) -> Option<&Motion> {
-        let found = self.0.get(frame)?;
-        Some(found.to_world.get_or_init(|| Motion::nested(self.chain(frame))))
+        let placed = self.0.get(frame)?;
+        Some(placed.to_world.get_or_init(|| Motion::nested(self.chain(frame))))
     }
 
     /// Motions from the world to a frame.
     fn chain(&self, frame: &str) -> Vec<&Motion> {
         let (mut chain, mut next) = (Vec::new(), self.0.get(frame));
-        while let Some(found) = next {
-            chain.extend(found.own.iter().rev());
-            next = found.parent.and_then(|parent| self.0.get(parent));
+        while let Some(placed) = next {
+            chain.extend(placed.own.iter().rev());
+            next = placed.parent.and_then(|parent| self.0.get(parent));
         }
         chain.reverse();
         chain
@@ -77,7 +77,7 @@ impl<'a> Frames<'a> {
         if let Some(rolls) = &frame.rolls {
             let carriers = parent.map_or(Vec::new(), |parent| self.chain(parent));
             let hub = Motion::nested(carriers.into_iter().chain(&own));
-            let Some(turns) = turning(&hub, rolls, context) else { return };
+            let Some(turns) = wheel_rotation(&hub, rolls, context) else { return };
             own.push(turns);
         }
         self.0.insert(name, PlacedFrame { parent, own, to_world: OnceCell::new() });
@@ -86,11 +86,11 @@ impl<'a> Frames<'a> {
 
 /// Motion in the parent.
 fn own_motion(frame: &Frame, context: &mut Context<'_>) -> Option<Motion> {
-    let course = frame.course.as_ref();
-    match (trajectory(course), &frame.keys[..]) {
-        (Some(file), _) => along(file, course, context),
-        (None, []) => Some(Motion::still(frame.placement.to_parent())),
-        (None, [only]) => Some(Motion::still(only.placement.to_parent())),
+    let motion_keys = frame.course.as_ref();
+    match (trajectory(motion_keys), &frame.keys[..]) {
+        (Some(file), _) => along_trajectory(file, motion_keys, context),
+        (None, []) => Some(Motion::constant(frame.placement.to_parent())),
+        (None, [only]) => Some(Motion::constant(only.placement.to_parent())),
         (None, keys) => {
             let mut key = |key: &FrameKey| Key {
                 time_s: context.since_epoch_s(&key.time_s),
@@ -99,7 +99,7 @@ fn own_motion(frame: &Frame, context: &mut Context<'_>) -> Option<Motion> {
                 scale: DVec3::ONE,
             };
             let keys: Vec<Key> = keys.iter().map(&mut key).collect();
-            through(&keys, course, &frame.place, context)
+            through_keys(&keys, motion_keys, &frame.place, context)
         }
     }
 }

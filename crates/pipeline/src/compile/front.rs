@@ -2,7 +2,7 @@
 
 use super::context::{Context, ErrorCode};
 use super::lens::coating;
-use super::material::{complex_index, share};
+use super::material::{complex_index, reflectance_spectrum};
 use super::picture::grey;
 use super::spectrum::from_file;
 use etendue_core::ExactTime;
@@ -15,14 +15,14 @@ use etendue_optics::prescription::coating::Coating;
 use etendue_optics::{Lens, PRINCIPAL_NM};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
-use etendue_scene::record::front::drops::DropAmount;
+use etendue_scene::record::front::drops::DropCount;
 use etendue_scene::record::front::mirror::{Edges, Finish, MirrorShape as Shape};
 use etendue_scene::record::{Colour, Curve as CurveRecord, front as record};
-use etendue_spectra::{Outside, dielectric};
+use etendue_spectra::{Extrapolation, dielectric};
 use glam::{DVec2, DVec3};
 
 /// Front of a camera, checked against the camera's field; `None` with the errors recorded.
-pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
+pub(super) fn front(record: &record::ExternalOptics, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
     let dirt = match &record.dirt {
         Some(record) => Some(self::dirt(record, context)?),
         None => None,
@@ -48,7 +48,7 @@ fn dirt(r: &record::dirt::Dirt, context: &mut Context<'_>) -> Option<Dirt> {
     let mask = context.accept(&r.mask.place, Mask::new(width, texels.len() / width.max(1), texels))?;
     let [x, y] = r.offset_mm.as_ref().map_or([0.0; 2], |o| o.value);
     let tilt = r.tilt_deg.as_ref().map_or(0.0, |t| t.value);
-    let placement = Placement::turned(DVec3::new(x, y, r.distance_mm.value), [tilt, 0.0, 0.0]);
+    let placement = Placement::with_rotation_deg(DVec3::new(x, y, r.distance_mm.value), [tilt, 0.0, 0.0]);
     let size_mm = DVec2::from_array(r.size_mm.value);
     context.accept(&r.place, Dirt::new(DirtParameters { placement, size_mm, mask }))
 }
@@ -60,26 +60,26 @@ fn mirror(r: &record::mirror::Mirror, context: &mut Context<'_>) -> Option<Mirro
     let distance_mm = r.distance_mm.as_ref().map(|d| d.value).or(usual_mm)?;
     let [x, y] = r.offset_mm.as_ref().map_or([0.0; 2], |o| o.value);
     let degrees = r.rotation_deg.as_ref().map_or([0.0; 3], |d| d.value);
-    let placement = Placement::turned(DVec3::new(x, y, distance_mm), degrees);
+    let placement = Placement::with_rotation_deg(DVec3::new(x, y, distance_mm), degrees);
     context.accept(&r.place, Mirror::new(MirrorParameters { shape, placement, reflectance: reflectance? }))
 }
 
 /// Surface, and the position of its vertex unless stated.
 fn shape(r: &Shape, context: &mut Context<'_>) -> Option<(MirrorShape, Option<f64>)> {
-    let (place, made) = match r {
+    let (place, profile) = match r {
         Shape::Sphere(s) => (&s.place, conic(s.radius_mm.value, 0.0, &s.edges)),
         Shape::Paraboloid(s) => (&s.place, conic(s.radius_mm.value, -1.0, &s.edges)),
         Shape::Hyperboloid(h) => (&h.place, conic(h.radius_mm.value, h.conic.value, &h.edges)),
         Shape::Cone(c) => (&c.place, quadric(QuadricKind::Cone { half_angle_deg: c.half_angle_deg.value }, &c.edges)),
         Shape::Mesh(mesh) => return Some((MirrorShape::Mesh(Box::new(self::mesh(mesh, context)?)), None)),
     };
-    let quadric = context.accept(place, made)?;
+    let quadric = context.accept(place, profile)?;
     Some((MirrorShape::Quadric(quadric), quadric.outer_focus_mm()))
 }
 
 fn mesh(r: &record::mirror::MeshFile, context: &mut Context<'_>) -> Option<MeshMirror> {
     let Some(asset) = context.assets.meshes.get(&r.file.value) else {
-        context.fault(ErrorCode::UnreadableFile, &r.file.place, "the mesh was not loaded", "give a readable file");
+        context.error(ErrorCode::UnreadableFile, &r.file.place, "the mesh was not loaded", "give a readable file");
         return None;
     };
     let scale = r.scale_mm.as_ref().map_or(1.0, |s| s.value);
@@ -100,7 +100,7 @@ fn quadric(kind: QuadricKind, edges: &Edges) -> Result<Quadric, FrontError> {
 
 fn reflectance(finish: &Finish, context: &mut Context<'_>) -> Option<Reflectance> {
     match (finish, finish.metal()) {
-        (Finish::Share(colour), _) => curve(colour, context).map(Reflectance::Share),
+        (Finish::Share(colour), _) => curve(colour, context).map(Reflectance::Fraction),
         (_, metal) => complex_index(&metal?, context).map(|index| Reflectance::Metal(Box::new(index))),
     }
 }
@@ -110,11 +110,11 @@ fn reflectance(finish: &Finish, context: &mut Context<'_>) -> Option<Reflectance
 const LAMINATE: [(f64, f64); 3] = [(2.1, 1.52), (0.76, 1.48), (2.1, 1.52)];
 
 fn windscreen(r: &record::windscreen::Windscreen, context: &mut Context<'_>) -> Option<Windscreen> {
-    let number = |given: &Option<Placed<f64>>, default: f64| given.as_ref().map_or(default, |n| n.value);
+    let number = |value: &Option<Placed<f64>>, default: f64| value.as_ref().map_or(default, |n| n.value);
     let degrees = [number(&r.tilt_deg, 0.0), number(&r.yaw_deg, 0.0), 0.0];
     let doubles = r.double_image.as_ref().is_none_or(|d| d.value);
     let parameters = WindscreenParameters {
-        placement: Placement::turned(DVec3::new(0.0, 0.0, r.distance_mm.value), degrees),
+        placement: Placement::with_rotation_deg(DVec3::new(0.0, 0.0, r.distance_mm.value), degrees),
         radius_across_mm: number(&r.radius_across_mm, f64::INFINITY),
         radius_upright_mm: number(&r.radius_upright_mm, f64::INFINITY),
         layers: layers(r.layers.as_deref(), context)?,
@@ -144,7 +144,7 @@ fn layers(records: Option<&[record::windscreen::Layer]>, context: &mut Context<'
     };
     let index = |record: &CurveRecord, context: &mut Context<'_>| match record {
         CurveRecord::Constant(index) => Some(Curve::Constant(index.value)),
-        CurveRecord::File(file) => from_file(file, Outside::Hold, context).map(|s| Curve::Table(Box::new(s))),
+        CurveRecord::File(file) => from_file(file, Extrapolation::Hold, context).map(|s| Curve::Table(Box::new(s))),
     };
     let layer = |r: &record::windscreen::Layer| {
         Some(Layer { thickness_mm: r.thickness_mm.value, index: index(&r.index, context)? })
@@ -205,8 +205,8 @@ fn course(r: &record::drops::Drops, context: &mut Context<'_>) -> Course {
 /// Number of fallen drops: the record has checked the range 1 to 1 000 000.
 fn count(r: &record::drops::Drops) -> u32 {
     match &r.amount {
-        DropAmount::Count(count) => count.value as u32,
-        DropAmount::Density(density) => {
+        DropCount::Count(count) => count.value as u32,
+        DropCount::Density(density) => {
             let [width, height] = r.size_mm.value;
             ((density.value * width * height * 1e-4).round() as u32).max(1)
         }
@@ -214,7 +214,7 @@ fn count(r: &record::drops::Drops) -> u32 {
 }
 
 fn water(disperses: bool) -> Curve {
-    let index = &dielectric::named("water").expect("water is among the dielectrics").n;
+    let index = &dielectric::by_name("water").expect("water is among the dielectrics").n;
     match disperses {
         true => Curve::Table(Box::new(index.clone())),
         false => Curve::Constant(f64::from(index.at(PRINCIPAL_NM as f32))),
@@ -224,7 +224,7 @@ fn water(disperses: bool) -> Curve {
 /// A transmittance over wavelength.
 fn curve(colour: &Colour, context: &mut Context<'_>) -> Option<Curve> {
     match colour {
-        Colour::Grey(share) => Some(Curve::Constant(share.value)),
-        _ => share(colour, context).map(|spectrum| Curve::Table(Box::new(spectrum))),
+        Colour::Grey(reflectance) => Some(Curve::Constant(reflectance.value)),
+        _ => reflectance_spectrum(colour, context).map(|spectrum| Curve::Table(Box::new(spectrum))),
     }
 }

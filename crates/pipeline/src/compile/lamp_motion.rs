@@ -1,7 +1,7 @@
 //! Positions and aims of lamps over time: from records to motions.
 
 use super::context::Context;
-use super::course::{along, through, trajectory};
+use super::course::{along_trajectory, through_keys, trajectory};
 use super::frames::Frames;
 use etendue_core::Motion;
 use etendue_core::track::Key;
@@ -19,31 +19,31 @@ pub(super) fn lamp_motions(
     frames: &Frames<'_>,
     context: &mut Context<'_>,
 ) -> Option<Vec<Motion>> {
-    let course = placement.course.as_ref();
+    let motion_keys = placement.course.as_ref();
     let frame = placement.frame.as_ref();
     // Aims in a loaded description have been checked.
     let still = |position: &Placed<[f64; 3]>, aim: Option<&LampAim>| {
         let axes = axes(aim, position, main)? * turn;
-        Some(Motion::still(DAffine3::from_mat3_translation(axes, DVec3::from_array(position.value))))
+        Some(Motion::constant(DAffine3::from_mat3_translation(axes, DVec3::from_array(position.value))))
     };
-    if let Some(file) = trajectory(course) {
-        let own = along(file, course, context)?.after(&DAffine3::from_mat3(turn));
-        return Some(vec![frames.carrying(frame, own)]);
+    if let Some(file) = trajectory(motion_keys) {
+        let own = along_trajectory(file, motion_keys, context)?.after(&DAffine3::from_mat3(turn));
+        return Some(vec![frames.world_motion(frame, own)]);
     }
     if let keys @ [_, _, ..] = &placement.keys[..] {
-        let keys: Vec<Key> = keys.iter().map(|stated| key(stated, main, context)).collect::<Option<_>>()?;
-        let own = through(&keys, course, &placement.place, context)?.after(&DAffine3::from_mat3(turn));
-        return Some(vec![frames.carrying(frame, own)]);
+        let keys: Vec<Key> = keys.iter().map(|key_record| key(key_record, main, context)).collect::<Option<_>>()?;
+        let own = through_keys(&keys, motion_keys, &placement.place, context)?.after(&DAffine3::from_mat3(turn));
+        return Some(vec![frames.world_motion(frame, own)]);
     }
     let of_instance = |instance: &LampInstance| {
         let own = still(&instance.position_m, instance.aim.as_ref())?;
-        Some(frames.carrying(instance.frame.as_ref().or(frame), own))
+        Some(frames.world_motion(instance.frame.as_ref().or(frame), own))
     };
-    let of_key = |key: &LampKey| Some(frames.carrying(frame, still(&key.position_m, key.aim.as_ref())?));
+    let of_key = |key: &LampKey| Some(frames.world_motion(frame, still(&key.position_m, key.aim.as_ref())?));
     let own = placement
         .position_m
         .iter()
-        .map(|position| Some(frames.carrying(frame, still(position, placement.aim.as_ref())?)));
+        .map(|position| Some(frames.world_motion(frame, still(position, placement.aim.as_ref())?)));
     own.chain(placement.keys.iter().map(of_key)).chain(placement.instances.iter().map(of_instance)).collect()
 }
 

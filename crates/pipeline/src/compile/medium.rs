@@ -6,8 +6,8 @@ use super::spectrum;
 use etendue_core::{Motion, maths};
 use etendue_scene::record::medium::{self, Extinction, MediumMesh, MediumShape};
 use etendue_scene::record::{Light, Medium as Record, Scene};
-use etendue_spectra::{Outside, Spectrum};
-use etendue_tracer::media::{Medium, Noise, Phase, Shape, Solid, SpectralTable, Unevenness};
+use etendue_spectra::{Extrapolation, Spectrum};
+use etendue_tracer::media::{Medium, Noise, Phase, MediumRegion, Solid, SpectralTable, DensityVariation};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ const DROPLETS_UM: f64 = 12.0;
 
 /// Media of a scene.
 pub(super) fn media(scene: &Scene, frames: &Frames<'_>, context: &mut Context<'_>) -> Vec<Medium> {
-    remark_darkness(scene, context);
+    note_darkness(scene, context);
     scene.media.iter().filter_map(|record| medium(record, frames, context)).collect()
 }
 
@@ -24,9 +24,9 @@ fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
     let extinction = extinction(&record.extinction, context);
     let albedo = match &record.albedo {
         None => Some(Spectrum::constant(1.0)),
-        Some(albedo) => spectrum::curve(albedo, Outside::Hold, context),
+        Some(albedo) => spectrum::curve(albedo, Extrapolation::Hold, context),
     };
-    let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world()));
+    let to_world = frames.world_motion(record.frame.as_ref(), Motion::constant(record.transform.to_world()));
     let shape = shape(record.shape.as_ref(), context)?;
     let made = Medium::new(extinction?, albedo?, phase(record.phase.as_ref()), shape, to_world);
     let medium = context.accept(&record.place, made)?;
@@ -53,28 +53,28 @@ pub(super) fn inner_points(record: &Record, frames: &Frames<'_>, context: &Conte
     let centre = bounds.iter().sum::<DVec3>() / bounds.len().max(1) as f64;
     bounds.iter_mut().for_each(|point| *point = centre + (*point - centre) * BOUNDS_FRACTION);
     bounds.push(centre);
-    let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world())).at(0.0);
+    let to_world = frames.world_motion(record.frame.as_ref(), Motion::constant(record.transform.to_world())).at(0.0);
     bounds.into_iter().map(|point| to_world.transform_point3(point)).collect()
 }
 
-pub(super) fn with_unevenness(medium: Medium, record: Option<&medium::Unevenness>) -> Medium {
+pub(super) fn with_unevenness(medium: Medium, record: Option<&medium::DensityNoise>) -> Medium {
     record.into_iter().fold(medium, |medium, of| medium.with_unevenness(unevenness(of)))
 }
 
-pub(super) fn shape(record: Option<&MediumShape>, context: &mut Context<'_>) -> Option<Shape> {
+pub(super) fn shape(record: Option<&MediumShape>, context: &mut Context<'_>) -> Option<MediumRegion> {
     Some(match record {
-        None | Some(MediumShape::Everywhere(_)) => Shape::Everywhere,
-        Some(MediumShape::Layer(layer)) => Shape::Below { top_m: layer.top_m.value },
-        Some(MediumShape::Box(of)) => Shape::Box { half_m: DVec3::from_array(of.size_m.value) * 0.5 },
-        Some(MediumShape::Sphere(of)) => Shape::Ball { radius_m: of.radius_m.value },
-        Some(MediumShape::Mesh(of)) => Shape::Mesh(Arc::new(solid(of, context)?)),
+        None | Some(MediumShape::Everywhere(_)) => MediumRegion::Everywhere,
+        Some(MediumShape::Layer(layer)) => MediumRegion::Below { top_m: layer.top_m.value },
+        Some(MediumShape::Box(of)) => MediumRegion::Box { half_m: DVec3::from_array(of.size_m.value) * 0.5 },
+        Some(MediumShape::Sphere(of)) => MediumRegion::Ball { radius_m: of.radius_m.value },
+        Some(MediumShape::Mesh(of)) => MediumRegion::Mesh(Arc::new(solid(of, context)?)),
     })
 }
 
 /// Interior of a file's triangles.
 fn solid(record: &MediumMesh, context: &mut Context<'_>) -> Option<Solid> {
     let Some(asset) = context.assets.meshes.get(&record.file.value) else {
-        context.fault(ErrorCode::UnreadableFile, &record.file.place, "the mesh was not loaded", "give a readable file");
+        context.error(ErrorCode::UnreadableFile, &record.file.place, "the mesh was not loaded", "give a readable file");
         return None;
     };
     let unit_m = record.unit_m.as_ref().map_or(1.0, |unit| unit.value);
@@ -86,7 +86,7 @@ fn solid(record: &MediumMesh, context: &mut Context<'_>) -> Option<Solid> {
 
 pub(super) fn extinction(record: &Extinction, context: &mut Context<'_>) -> Option<Spectrum> {
     match record {
-        Extinction::PerMetre(curve) => spectrum::curve(curve, Outside::Hold, context),
+        Extinction::PerMetre(curve) => spectrum::curve(curve, Extrapolation::Hold, context),
         Extinction::Visibility(visibility) => {
             let per_m = -maths::f64::ln(visibility.contrast.value) / visibility.distance_m.value;
             Some(Spectrum::constant(per_m))
@@ -96,8 +96,8 @@ pub(super) fn extinction(record: &Extinction, context: &mut Context<'_>) -> Opti
 
 fn phase(record: Option<&medium::Phase>) -> Phase {
     match record {
-        None => Phase::Table(SpectralTable::of_water(DROPLETS_UM)),
-        Some(medium::Phase::WaterDroplets(of)) => Phase::Table(SpectralTable::of_water(of.diameter_um.value)),
+        None => Phase::Table(SpectralTable::from_water(DROPLETS_UM)),
+        Some(medium::Phase::WaterDroplets(of)) => Phase::Table(SpectralTable::from_water(of.diameter_um.value)),
         Some(medium::Phase::WaterDropletsFit(of)) => {
             Phase::Table(SpectralTable::fitted_to_water(of.diameter_um.value).expect("the key's range is the fit's"))
         }
@@ -107,7 +107,7 @@ fn phase(record: Option<&medium::Phase>) -> Phase {
     }
 }
 
-fn unevenness(record: &medium::Unevenness) -> Unevenness {
+fn unevenness(record: &medium::DensityNoise) -> DensityVariation {
     let noise = Noise {
         scale_m: record.scale_m.value,
         octaves: record.octaves.as_ref().map_or(4, |octaves| octaves.value as u32),
@@ -115,11 +115,11 @@ fn unevenness(record: &medium::Unevenness) -> Unevenness {
         seed: record.seed.as_ref().map_or(0, |seed| seed.value as u32),
     };
     let wind_mps = record.wind_m_s.as_ref().map_or(DVec3::ZERO, |wind| DVec3::from_array(wind.value));
-    Unevenness { noise, amplitude: record.amplitude.value, wind_mps }
+    DensityVariation { noise, amplitude: record.amplitude.value, wind_mps }
 }
 
 /// Notes that no light from infinity passes an unbounded medium.
-fn remark_darkness(scene: &Scene, context: &mut Context<'_>) {
+fn note_darkness(scene: &Scene, context: &mut Context<'_>) {
     let endless = scene.media.iter().find(|medium| matches!(medium.shape, None | Some(MediumShape::Everywhere(_))));
     let shines = scene.environment.is_some() || scene.lights.iter().any(|light| matches!(light, Light::Sun(_)));
     if let (Some(medium), true) = (endless, shines) {

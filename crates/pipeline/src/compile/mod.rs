@@ -62,7 +62,7 @@ use context::{Context, ErrorCode};
 use etendue_core::{CameraPath, Epoch, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
-use etendue_scene::{CameraSetup, Description, Fault};
+use etendue_scene::{CameraSetup, Description, DescriptionError};
 use etendue_tracer::accel::World;
 use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use etendue_tracer::lights::spectral_fluxes;
@@ -77,18 +77,18 @@ pub use weather::compile_weather;
 ///
 /// # Errors
 /// All contradictions, with their places.
-pub fn compile(description: &Description, assets: &Assets, choices: &Choices) -> Result<Plan, Vec<Fault>> {
+pub fn compile(description: &Description, assets: &Assets, choices: &Choices) -> Result<Plan, Vec<DescriptionError>> {
     let mut context = Context::new(assets, timing::epoch(description.sequence.as_ref()));
-    let plan = planned(description, choices, &mut context);
-    let faults = context.into_faults();
-    plan.filter(|_| faults.is_empty()).ok_or(faults)
+    let plan = compile_plan(description, choices, &mut context);
+    let errors = context.into_errors();
+    plan.filter(|_| errors.is_empty()).ok_or(errors)
 }
 
 /// A single camera, for a stored radiance image.
 ///
 /// # Errors
 /// All contradictions, with their places.
-pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Vec<Fault>> {
+pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Vec<DescriptionError>> {
     compile_camera_with_remarks(camera, assets).map(|(body, _)| body)
 }
 
@@ -96,27 +96,27 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 ///
 /// # Errors
 /// As [`compile_camera`].
-pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<Fault>> {
+pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<DescriptionError>> {
     let mut context = Context::new(assets, Epoch::default());
     let body = camera::body(camera, &mut context);
-    let remarks = grouped(&context.remarks).iter().map(ToString::to_string).collect();
-    let faults = context.into_faults();
-    body.filter(|_| faults.is_empty()).map(|body| (body, remarks)).ok_or(faults)
+    let notes = grouped(&context.notes).iter().map(ToString::to_string).collect();
+    let errors = context.into_errors();
+    body.filter(|_| errors.is_empty()).map(|body| (body, notes)).ok_or(errors)
 }
 
-fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
+fn compile_plan(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
     let scene = &description.scene;
     let unused = &description.unused;
-    unused.remarks().into_iter().for_each(|remark| context.remark(remark));
-    let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
-    let frames = Frames::of(scene, unused, context);
-    let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
+    unused.notes().into_iter().for_each(|note| context.note(note));
+    let mut builder = MaterialTableBuilder::from_scene(scene, unused, context);
+    let frames = Frames::new(scene, unused, context);
+    let (mut sources, lamps_with_opening, sky) = light::sources(scene, &frames, context);
     let mut media = medium::media(scene, &frames, context);
     let precipitation = precipitation::precipitation(scene.precipitation.as_ref(), &mut media, context);
     let setups = (0..).zip(&description.cameras);
     let mut camera = |(index, setup)| camera_plan(index, setup, description, &frames, choices, context);
     let mut cameras: Vec<_> = setups.filter_map(&mut camera).collect();
-    let (world, identities, opened) = world::world(description, open_lamps, &frames, &mut builder, context)?;
+    let (world, identities, opened) = world::world(description, lamps_with_opening, &frames, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
         let Some(path) = camera_path(&setup.pose, &frames, context) else { continue };
@@ -126,28 +126,28 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
-    timing::depend(&mut cameras, &world, &sources, is_modulated, air_moves, context);
-    let source_spectra = SourceSpectra::of(spectral_fluxes(&world, &material_table, &sources));
+    timing::set_time_dependence(&mut cameras, &world, &sources, is_modulated, air_moves, context);
+    let source_spectra = SourceSpectra::from_fluxes(spectral_fluxes(&world, &material_table, &sources));
     wavelengths::choose(&mut cameras, &source_spectra, description, context);
-    shared_light::share(&mut cameras);
+    shared_light::share_equal_light(&mut cameras);
     air::layers(description, &mut cameras, !media.is_empty(), precipitation.is_some(), context);
-    air::remark(&cameras, &media, context);
-    camera::remark_positions(&cameras, context);
-    surroundings::remark(&cameras, &world, &material_table, &materials, context);
-    surroundings::warn_of_enclosed(scene, &frames, &world, &material_table, context);
+    air::note_light_loss(&cameras, &media, context);
+    camera::note_rounded_positions(&cameras, context);
+    surroundings::note_enclosed_cameras(&cameras, &world, &material_table, &materials, context);
+    surroundings::warn_of_enclosed_media(scene, &frames, &world, &material_table, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range);
-    if let Some(remark) = rendered.reduce(coverage::around).and_then(|range| context.coverage.remark(range)) {
-        context.remark(remark);
+    if let Some(note) = rendered.reduce(coverage::union).and_then(|range| context.coverage.note(range)) {
+        context.note(note);
     }
-    let remarks = std::mem::take(&mut context.remarks);
-    let notices = [&description.notices[..], &context.notices].concat();
-    if context.faults.is_empty() {
-        unread(description, context);
+    let notes = std::mem::take(&mut context.notes);
+    let overridden_keys = [&description.overridden_keys[..], &context.overridden_keys].concat();
+    if context.errors.is_empty() {
+        refuse_unread_files(description, context);
     }
     let setups = description.cameras.iter().zip(&cameras);
     let passes: Vec<_> = setups.map(|(setup, camera)| camera_passes(setup, camera)).collect();
-    let described = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices, &passes))?;
+    let described = context.errors.is_empty().then(|| fingerprint(description, context.assets, choices, &passes))?;
     let hash = hash_with_passes(&described, &passes);
     Some(Plan {
         world: Arc::new(world),
@@ -161,8 +161,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         identities,
         materials,
         classes,
-        remarks,
-        notices,
+        notes: remarks: notes,
+        overridden_keys: notices: overridden_keys,
         film_limit: None,
         hash,
         described,
@@ -172,23 +172,23 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
 
 /// Passes of a camera's samples.
 fn camera_passes(setup: &CameraSetup, camera: &CameraPlan) -> CameraPasses {
-    let is_open = setup.render.samples.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
+    let is_open = setup.render.samples.replicates.as_ref().is_none_or(|key| !key.place.is_command_line());
     CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
 
 /// Refuses files that are named but were not read, even if no step requested them: two contents would have one hash.
-fn unread(description: &Description, context: &mut Context<'_>) {
+fn refuse_unread_files(description: &Description, context: &mut Context<'_>) {
     for request in context.assets.missing(&description.assets()) {
         let problem = format!("the file {} was not read", request.path.display());
-        context.fault(ErrorCode::UnreadableFile, &request.place, problem, "read all files that the description names");
+        context.error(ErrorCode::UnreadableFile, &request.place, problem, "read all files that the description names");
     }
 }
 
 /// Interval from the first key of all motions to the last; an instant if nothing moves.
 fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
-    let moving = world.instances().iter().filter_map(|instance| instance.to_world.moves_during());
-    let animations = world.meshes().iter().filter_map(Mesh::animation).map(VertexAnimation::moves_during);
-    moving.chain(animations).chain(camera.moves_during()).reduce(|all, one| all.union(&one)).unwrap_or_default()
+    let moving = world.instances().iter().filter_map(|instance| instance.to_world.motion_interval());
+    let animations = world.meshes().iter().filter_map(Mesh::animation).map(VertexAnimation::motion_interval);
+    moving.chain(animations).chain(camera.motion_interval()).reduce(|all, one| all.union(&one)).unwrap_or_default()
 }
 
 fn camera_plan(
@@ -202,7 +202,7 @@ fn camera_plan(
     let body = camera::body(&setup.camera, context)?;
     let mut products = products::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
-    camera::remark_reach(&setup.name, &depth_of_field, &body, context);
+    camera::warn_of_blur(&setup.name, &depth_of_field, &body, context);
     let (settings, passes) =
         settings::settings(&setup.render, &body, &depth_of_field, &setup.output, &mut products, choices, context)?;
     effects::check_spread_by(setup.camera.effects.as_ref(), &settings.route, context);

@@ -12,7 +12,7 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
         None => Vec::new(),
         Some(file) => {
             let Some(asset) = context.assets.numbers.get(&file.value) else {
-                context.fault(
+                context.error(
                     ErrorCode::UnreadableFile,
                     &file.place,
                     "the table was not loaded",
@@ -22,7 +22,7 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
             };
             if asset.columns != 2 {
                 let problem = format!("{} has rows of {} numbers", file.value.display(), asset.columns);
-                context.fault(ErrorCode::UnsuitableFile, &file.place, problem, "give two columns: time in s, level");
+                context.error(ErrorCode::UnsuitableFile, &file.place, problem, "give two columns: time in s, level");
                 return None;
             }
             asset.rows().map(|row| (row[0], row[1])).collect()
@@ -31,7 +31,7 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
     let place = record.file().map_or(record.place(), |file| &file.place);
     let waveform = context.accept(place, record.waveform(&rows))?;
     let delay = record.timing().delay_s.as_ref().map_or(ExactTime::default(), |delay| delay.value);
-    Some(waveform.later_by(delay - context.epoch.start()))
+    Some(waveform.delay_by(delay - context.epoch.start()))
 }
 
 /// Returns true if every instance of the light has its own phase.

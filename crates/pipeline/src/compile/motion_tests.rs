@@ -30,8 +30,8 @@ fn plan(camera: &str, scene: &str, rows: &[TrajectoryRow]) -> Result<Plan, Strin
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
     let asset = TrajectoryAsset { rows: rows.to_vec(), unread: vec!["speed".to_owned()], hash: [7; 32] };
     let assets = Assets { trajectories: [("drive.csv".into(), asset)].into(), ..Assets::default() };
-    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
-    compile(&job, &assets, &Choices::default()).map_err(faults)
+    let errors = |list: Vec<etendue_scene::DescriptionError>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, &assets, &Choices::default()).map_err(errors)
 }
 
 /// A ball with these keys.
@@ -67,14 +67,14 @@ fn a_wheel_on_a_car_rolls() {
     let plan = plan(STILL, &format!("{CAR}{}", ball(&keys)), &[]).expect("no fault");
     for i in 0..=60_u8 {
         let time_s = 0.05 * f64::from(i);
-        let way = 15.0 * time_s.min(2.0);
-        let (sin, cos) = sin_cos(way / r);
-        let expected = DVec3::new(way + 1.4 + r * sin, 0.9, r + r * cos);
-        let found = motion(&plan).at(time_s).transform_point3(DVec3::new(0.0, 1.0, 1.0));
-        assert!((found - expected).length() < 1e-12, "{time_s} {found} {expected}");
+        let distance_m = 15.0 * time_s.min(2.0);
+        let (sin, cos) = sin_cos(distance_m / r);
+        let expected = DVec3::new(distance_m + 1.4 + r * sin, 0.9, r + r * cos);
+        let actual = motion(&plan).at(time_s).transform_point3(DVec3::new(0.0, 1.0, 1.0));
+        assert!((actual - expected).length() < 1e-12, "{time_s} {actual} {expected}");
     }
     let standing = TimeInterval::new(2.0, 9.0).expect("in order");
-    assert!(motion(&plan).still_over(standing).is_some(), "it holds still after the last key");
+    assert!(motion(&plan).constant_over(standing).is_some(), "it holds still after the last key");
     assert_eq!(plan.cameras[0].time, crate::plan::TimeDependence::Motion);
 }
 
@@ -85,7 +85,7 @@ fn a_trajectory_is_its_keys() {
         let file = format!("{interpolation}trajectory = {{ file = \"drive.csv\", time_offset_s = -100 }}");
         let driven = plan(STILL, &ball(&file), &rows()).expect("no fault");
         assert_eq!(motion(&keyed), motion(&driven));
-        assert!(driven.remarks.iter().any(|remark| remark.text == "not read: speed"), "{:?}", driven.remarks);
+        assert!(driven.notes.iter().any(|note| note.text == "not read: speed"), "{:?}", driven.notes);
         let framed = format!("[[scene.frames]]\nname = \"rig\"\n{file}\n{}", ball("frame = \"rig\""));
         assert_eq!(motion(&keyed), motion(&plan(STILL, &framed, &rows()).expect("no fault")));
     }
@@ -103,14 +103,14 @@ fn frames_carry_what_is_placed_in_them() {
         "{CAR}[[scene.frames]]\nname = \"arm\"\nparent = \"car\"\nposition_m = [0, 2, 0]\nrotation_deg = [90, 0, 0]\n{}",
         ball("frame = \"arm\"\ninstances = [{ position_m = [1, 0, 0] }, { position_m = [1, 0, 0], frame = \"car\" }]")
     );
-    let carried = plan(STILL, &scene, &[]).expect("no fault");
-    let [in_arm, in_car] = [0, 1].map(|i| carried.world.instances()[i].to_world.at(1.0).translation);
+    let framed = plan(STILL, &scene, &[]).expect("no fault");
+    let [in_arm, in_car] = [0, 1].map(|i| framed.world.instances()[i].to_world.at(1.0).translation);
     assert!((in_arm - DVec3::new(15.0, 3.0, 0.0)).length() < 1e-12, "{in_arm}");
     assert!((in_car - DVec3::new(16.0, 0.0, 0.0)).length() < 1e-12, "{in_car}");
     let still = "[[scene.frames]]\nname = \"room\"\nposition_m = [3, 2, 0.1]\n";
     let room =
         plan(STILL, &format!("{still}{}", ball("frame = \"room\"\nposition_m = [0.5, 0, 0]")), &[]).expect("no fault");
-    assert_eq!(motion(&room).as_still().map(|at| at.translation), Some(DVec3::new(3.5, 2.0, 0.1)));
+    assert_eq!(motion(&room).as_constant().map(|at| at.translation), Some(DVec3::new(3.5, 2.0, 0.1)));
     assert_eq!(room.cameras[0].time, crate::plan::TimeDependence::None);
 }
 
@@ -120,13 +120,13 @@ fn lamps_and_cameras_move() {
     let lamp = "[[scene.lights]]\nname = \"lamp\"\ntype = \"spot\"\nfield_angle_deg = 60\nintensity_cd = 100\nilluminant = \"LED-B3\"\n";
     let camera = "frame = \"car\"\nposition_m = [1, 0, 1.2]\nrotation_deg = [0, 0, 0]\n";
     let opening = "opening = { shape = \"disc\", radius_m = 0.05 }\nframe = \"car\"\nposition_m = [2, 0.5, 0.6]\n";
-    let carried = plan(camera, &format!("{CAR}{lamp}{opening}"), &[]).expect("no fault");
-    let pose = carried.cameras[0].path.at(1.0);
+    let framed = plan(camera, &format!("{CAR}{lamp}{opening}"), &[]).expect("no fault");
+    let pose = framed.cameras[0].path.at(1.0);
     assert!((pose.position_m - DVec3::new(16.0, 0.0, 1.2)).length() < 1e-12, "{pose:?}");
     assert!((pose.rotation.z_axis - DVec3::X).length() < 1e-12);
-    let at = carried.sources.lamps[0].to_world().at(1.0).translation;
+    let at = framed.sources.lamps[0].to_world().at(1.0).translation;
     assert!((at - DVec3::new(17.0, 0.5, 0.6)).length() < 1e-12, "{at}");
-    let glass = carried.world.instances()[0].to_world.at(1.0).translation;
+    let glass = framed.world.instances()[0].to_world.at(1.0).translation;
     assert!((glass - at).length() < 1e-12, "the opening goes with its lamp: {glass}");
     let keys = "keys = [{ time_s = 0, position_m = [0, 0, 5], target_m = [1, 0, 5] }, \
                 { time_s = 1, position_m = [0, 0, 5], target_m = [0, 1, 5] }]\n";
@@ -160,13 +160,13 @@ fn the_example_of_the_page_moves() {
     let read = |_: &Path| Ok(example.to_owned());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("no fault");
     let plan = compile(&job, &Assets::default(), &Choices::default()).expect("no fault");
-    let moved = |motion: &Motion| motion.at(1.0).translation - motion.at(0.0).translation;
+    let displacement = |motion: &Motion| motion.at(1.0).translation - motion.at(0.0).translation;
     let instances = plan.world.instances();
-    assert_eq!(instances.iter().filter(|instance| instance.to_world.as_still().is_some()).count(), 1, "the ground");
-    assert!(instances[..5].iter().all(|instance| (moved(&instance.to_world).x - 12.0).abs() < 0.3));
-    assert!(plan.sources.lamps.iter().all(|lamp| (moved(lamp.to_world()).x - 12.0).abs() < 0.3));
+    assert_eq!(instances.iter().filter(|instance| instance.to_world.as_constant().is_some()).count(), 1, "the ground");
+    assert!(instances[..5].iter().all(|instance| (displacement(&instance.to_world).x - 12.0).abs() < 0.3));
+    assert!(plan.sources.lamps.iter().all(|lamp| (displacement(lamp.to_world()).x - 12.0).abs() < 0.3));
     let [front, roadside] = [0, 1].map(|i| &plan.cameras[i].path);
-    assert!(!front.is_still() && roadside.is_still());
+    assert!(!front.is_stationary() && roadside.is_stationary());
     // Each wheel's distance in small steps along the body's x axis, with an error of h²/24 of the second derivative: below 1e-5 m.
     for wheel in &instances[1..5] {
         let step = |i: u32| {
@@ -184,28 +184,28 @@ fn the_example_of_the_page_moves() {
 
 #[test]
 fn what_cannot_move_is_refused() {
-    let fault = |scene: &str| plan(STILL, scene, &rows()).expect_err("a fault");
-    let parked = fault(&ball("position_m = [5, 0, 1]\nrolls = { radius_m = 0.3 }"));
+    let error = |scene: &str| plan(STILL, scene, &rows()).expect_err("a fault");
+    let parked = error(&ball("position_m = [5, 0, 1]\nrolls = { radius_m = 0.3 }"));
     assert!(
         parked.contains("scene.objects.ball.rolls: \"rolls\" has no effect: the wheel does not move; give the wheel")
     );
-    let missing = fault(&ball("trajectory = { file = \"other.csv\" }"));
+    let missing = error(&ball("trajectory = { file = \"other.csv\" }"));
     assert!(missing.contains("the trajectory was not loaded"), "{missing}");
     let lamp = "[[scene.materials]]\nname = \"glow\"\ntype = \"emitter\"\nemission = { luminous_flux_lm = 100, illuminant = \"D65\" }\n";
     let growing = |scale: f64| {
         let keys = format!("keys = [{{ time_s = 0 }}, {{ time_s = 1, position_m = [5, 0, 0], scale = {scale} }}]");
         format!("{lamp}{}", ball(&keys)).replace("\"paint\"\nshape", "\"glow\"\nshape")
     };
-    assert!(fault(&growing(2.0)).contains("the scale of this surface changes over time"));
+    assert!(error(&growing(2.0)).contains("the scale of this surface changes over time"));
     assert!(plan(STILL, &growing(1.0), &[]).is_ok(), "rigid motion keeps the area");
     let flat = "keys = [{ time_s = 0, scale = [1, 1, 1] }, { time_s = 1, scale = [0.1, 1, 1] }, { time_s = 2, scale = [3, 1, 1] }]";
-    let smooth = fault(&ball(&format!("interpolation = \"smooth\"\n{flat}")));
+    let smooth = error(&ball(&format!("interpolation = \"smooth\"\n{flat}")));
     assert!(smooth.contains("is 0 at some time of its motion"), "{smooth}");
     let idle = plan(STILL, &format!("{CAR}{}", ball("position_m = [5, 0, 1]")), &[]).expect("no fault");
     assert!(
-        idle.remarks.iter().any(|r| r.text == "not read: the frame that nothing is placed in: car"),
+        idle.notes.iter().any(|r| r.text == "not read: the frame that nothing is placed in: car"),
         "{:?}",
-        idle.remarks
+        idle.notes
     );
 }
 
@@ -220,9 +220,9 @@ fn reach_is_checked_along_the_whole_way() {
     };
     let small = "[[scene.objects]]\nname = \"mote\"\nmaterial = \"paint\"\nshape = { type = \"quad\", size_m = [1, 1] }\nscale = 1e-6\n";
     assert!(plan(&keys(-90.0), small, &[]).is_ok());
-    let far = plan(&keys(-1e7), small, &[]).expect_err("a fault");
+    let error = plan(&keys(-1e7), small, &[]).expect_err("a fault");
     assert!(
-        far.contains("cameras.front.keys[0]: rays may start 1") && far.contains("at most 1e12 can be traced"),
-        "{far}"
+        error.contains("cameras.front.keys[0]: rays may start 1") && error.contains("at most 1e12 can be traced"),
+        "{error}"
     );
 }

@@ -21,7 +21,7 @@ pub(super) fn opening(
     context: &mut Context<'_>,
 ) -> Option<Opening> {
     let (body, extents_m) = match (record, file) {
-        (LampOpening::File(record), Some(asset)) => of_file(asset, &record.place, context)?,
+        (LampOpening::File(record), Some(asset)) => from_photometry(asset, &record.place, context)?,
         // Refused when the record was read.
         (LampOpening::File(_), None) => return None,
         (LampOpening::Sphere(sphere), _) => (OpeningBody::Ellipsoid, [2.0 * sphere.radius_m.value; 3]),
@@ -44,22 +44,22 @@ pub(super) fn opening(
             }
         }
     };
-    let made = context.accept(record.place(), Opening::new(body, extents_m))?;
-    context.accept(record.place(), made.check(profile))?;
-    Some(made)
+    let opening = context.accept(record.place(), Opening::new(body, extents_m))?;
+    context.accept(record.place(), opening.check(profile))?;
+    Some(opening)
 }
 
 /// Opening stated by a photometric file. Length, width and height are along the photometric horizontal, across it and along the photometric zero (LM-63-2002,
 /// section 3): x, y and z of types A and C, z, y and x of type B.
-fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) -> Option<(OpeningBody, [f64; 3])> {
-    let stated = &asset.opening;
+fn from_photometry(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) -> Option<(OpeningBody, [f64; 3])> {
+    let opening_record = &asset.opening;
     let (length, height) = match asset.axes {
         PhotometryAxes::A | PhotometryAxes::C => (0, 2),
         PhotometryAxes::B => (2, 0),
     };
-    let body = match stated.shape {
+    let body = match opening_record.shape {
         OpeningShape::Point => {
-            context.fault(
+            context.error(
                 ErrorCode::UnsuitableFile,
                 place,
                 "the photometric file states no luminous opening: its length, width and height are 0, a point",
@@ -74,26 +74,26 @@ fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) ->
         OpeningShape::Ball => OpeningBody::Ellipsoid,
     };
     let mut extents_m = [0.0; 3];
-    (extents_m[length], extents_m[1], extents_m[height]) = (stated.length_m, stated.width_m, stated.height_m);
+    (extents_m[length], extents_m[1], extents_m[height]) = (opening_record.length_m, opening_record.width_m, opening_record.height_m);
     Some((body, extents_m))
 }
 
 /// Places the openings in the world, each with its own identity, and returns their lamps.
-pub(super) fn placed(
-    open_lamps: Vec<OpenLamp>,
+pub(super) fn place_openings(
+    lamps_with_opening: Vec<LampWithOpening>,
     builder: &mut WorldBuilder,
     identities: &mut Vec<Identity>,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) -> Vec<Lamp> {
     let mut lamps = Vec::new();
-    for OpenLamp { alike, opening, place } in open_lamps {
+    for LampWithOpening { lamps: copies, opening, place } in lamps_with_opening {
         let shape = match opening.mesh() {
             Some(mesh) => Shape::Mesh(builder.add_mesh(mesh)),
             None => Shape::Sphere { radius_m: 1.0 },
         };
-        let material = material_table.of_openings(&place);
-        for (name, lamp) in alike {
+        let material = material_table.lamp_opening(&place);
+        for (name, lamp) in copies {
             identities.push(Identity { name, class: None, axes: DMat3::IDENTITY });
             let instance = builder.add_instance(Instance {
                 shape,
@@ -109,9 +109,9 @@ pub(super) fn placed(
 }
 
 /// A lamp with an opening, with all its instances.
-pub(super) struct OpenLamp {
+pub(super) struct LampWithOpening {
     /// By the names of its instances.
-    pub(super) alike: Vec<(String, Lamp)>,
+    pub(super) lamps: Vec<(String, Lamp)>,
     pub(super) opening: Opening,
     pub(super) place: Place,
 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub(super) fn grey(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<(usize, Vec<f32>)> {
     let Some(image) = context.assets.images.get(&file.value) else {
         let problem = format!("the image {} was not loaded", file.value.display());
-        context.fault(ErrorCode::UnreadableFile, &file.place, problem, "give a readable file");
+        context.error(ErrorCode::UnreadableFile, &file.place, problem, "give a readable file");
         return None;
     };
     Some((image.width as usize, numbers(image)))
@@ -30,9 +30,9 @@ fn numbers(image: &ImageAsset) -> Vec<f32> {
 }
 
 /// Linear sRGB of an image; bytes are interpreted as sRGB-encoded.
-pub(super) fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
-    let colour = |p: [f32; 3]| picture.to_rec_709.map_or(p, |matrix| matrix.apply(p));
-    match &picture.pixels {
+pub(super) fn linear(image: &ImageAsset) -> Vec<[f32; 3]> {
+    let colour = |p: [f32; 3]| image.to_rec_709.map_or(p, |matrix| matrix.apply(p));
+    match &image.pixels {
         ImagePixels::Gray8(p) => p.iter().map(|g| [colour::decode_byte(*g); 3]).collect(),
         ImagePixels::Gray16(p) => p.iter().map(|g| [f32::from(*g) / 65_535.0; 3]).collect(),
         ImagePixels::Rgb8(p) => p.iter().map(|c| c.map(colour::decode_byte)).collect(),

@@ -6,7 +6,7 @@
 use super::context::{Context, ErrorCode};
 use etendue_core::maths::f64::{sin_cos, tan};
 use etendue_optics::Lens;
-use etendue_optics::effects::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
+use etendue_optics::effects::{FieldSpread, SpreadTable, SpreadTableParameters, WavelengthTable};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
 use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
@@ -14,12 +14,12 @@ use glam::{DVec2, DVec3};
 use std::path::PathBuf;
 
 /// Minimum fraction of a point's light whose loss is reported.
-const LIGHT_ERROR: f64 = 0.002;
+const MIN_LOST_FRACTION: f64 = 0.002;
 /// Maximum extent of the image relative to the farthest function without a note.
-const BEYOND: f64 = 1.02;
+const MAX_RELATIVE_EXTENT: f64 = 1.02;
 
 /// A file with its content.
-struct Listed<'a> {
+struct PointSpreadFile<'a> {
     file: &'a Placed<PathBuf>,
     asset: &'a PointSpreadAsset,
     spread: FieldSpread,
@@ -30,28 +30,28 @@ pub(super) fn table(
     files: &[Placed<PathBuf>],
     patches: Option<[usize; 2]>,
     lens: &Lens,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<SpreadTable> {
-    let listed: Vec<Option<Listed<'_>>> = files.iter().map(|file| listed(file, lens, picture, context)).collect();
+    let listed: Vec<Option<PointSpreadFile<'_>>> = files.iter().map(|file| read_file(file, lens, image_raster, context)).collect();
     let listed = listed.into_iter().collect::<Option<Vec<_>>>()?;
     let wavelengths = wavelengths(&listed, context)?;
-    let table = SpreadTable::new(SpreadTableParameters { wavelengths, patches }, picture);
+    let table = SpreadTable::new(SpreadTableParameters { wavelengths, patches }, image_raster);
     let table = context.accept(&files[0].place, table)?;
-    remark_on(&table, picture, context);
+    note_extent(&table, image_raster, context);
     Some(table)
 }
 
 /// Content of a file, on the sensor, with notes on the conversion.
-fn listed<'a, 'c: 'a>(
+fn read_file<'a, 'c: 'a>(
     file: &'a Placed<PathBuf>,
     lens: &Lens,
-    picture: &Raster,
+    image_raster: &Raster,
     context: &mut Context<'c>,
-) -> Option<Listed<'a>> {
+) -> Option<PointSpreadFile<'a>> {
     let assets = context.assets;
     let Some(asset) = assets.point_spreads.get(&file.value) else {
-        context.fault(
+        context.error(
             ErrorCode::UnreadableFile,
             &file.place,
             "the point spread was not loaded",
@@ -59,10 +59,10 @@ fn listed<'a, 'c: 'a>(
         );
         return None;
     };
-    asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+    asset.notes.iter().for_each(|note| context.note_on(file.value.display(), note));
     let Some(place_mm) = place_mm(asset, lens) else {
         let problem = format!("the lens forms no image at the field {} of the file", field(asset.field));
-        context.fault(
+        context.error(
             ErrorCode::UnsuitableFile,
             &file.place,
             problem,
@@ -77,25 +77,25 @@ fn listed<'a, 'c: 'a>(
         light: asset.light.clone(),
         point: asset.point,
     };
-    context.accept(&file.place, spread.check(picture))?;
-    Some(Listed { file, asset, spread })
+    context.accept(&file.place, spread.check(image_raster))?;
+    Some(PointSpreadFile { file, asset, spread })
 }
 
 /// Position of the point on the sensor, in the samples' axes.
 fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
-    let stated = |[x, y]: [f64; 2]| DVec2::new(x, -y);
+    let stated_position = |[x, y]: [f64; 2]| DVec2::new(x, -y);
     match (asset.place_mm, asset.field) {
-        (Some(place), _) | (None, FieldPoint::Millimetres(place)) => Some(stated(place)),
+        (Some(place), _) | (None, FieldPoint::Millimetres(place)) => Some(stated_position(place)),
         (None, FieldPoint::Degrees(degrees)) => {
-            let towards = towards(degrees)?;
+            let towards = direction_from_angles(degrees)?;
             let radius_mm = lens.project(towards)?.length();
-            Some(stated([towards.x, towards.y]).try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
+            Some(stated_position([towards.x, towards.y]).try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
         }
     }
 }
 
 /// Direction with the field angles of x and y, which combine by their tangents; for a single one by the angle.
-fn towards(degrees: [f64; 2]) -> Option<DVec3> {
+fn direction_from_angles(degrees: [f64; 2]) -> Option<DVec3> {
     let [x, y] = degrees.map(f64::to_radians);
     if x == 0.0 || y == 0.0 {
         let [(across, ahead), (up, above)] = [x, y].map(sin_cos);
@@ -106,14 +106,14 @@ fn towards(degrees: [f64; 2]) -> Option<DVec3> {
 }
 
 /// Functions by wavelength and by distance from the axis, if every wavelength has the same fields.
-fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<TabledWavelength>> {
+fn wavelengths(listed: &[PointSpreadFile<'_>], context: &mut Context<'_>) -> Option<Vec<WavelengthTable>> {
     let first = &listed[0];
-    let is_broad = |one: &Listed<'_>| one.asset.wavelengths_nm[0] != one.asset.wavelengths_nm[1];
-    let other = |one: &&Listed<'_>| one.asset.wavelengths_nm != first.asset.wavelengths_nm;
+    let is_broad = |one: &PointSpreadFile<'_>| one.asset.wavelengths_nm[0] != one.asset.wavelengths_nm[1];
+    let other = |one: &&PointSpreadFile<'_>| one.asset.wavelengths_nm != first.asset.wavelengths_nm;
     if let Some(other) = listed.iter().find(other).filter(|_| listed.iter().any(is_broad)) {
-        let nm = |one: &Listed<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
+        let nm = |one: &PointSpreadFile<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
         let problem = format!("{} is for {}, but {} for {}", name(other), nm(other), name(first), nm(first));
-        context.fault(
+        context.error(
             ErrorCode::UnsuitableFile,
             &other.file.place,
             problem,
@@ -126,14 +126,14 @@ fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<T
     nm.dedup();
     let broad = is_broad(first);
     let of = |nm: &f64| {
-        let mut fields: Vec<&Listed<'_>> = listed.iter().filter(|one| one.asset.wavelengths_nm[0] == *nm).collect();
+        let mut fields: Vec<&PointSpreadFile<'_>> = listed.iter().filter(|one| one.asset.wavelengths_nm[0] == *nm).collect();
         fields.sort_by(|a, b| a.spread.place_mm.length().total_cmp(&b.spread.place_mm.length()));
         (*nm, fields)
     };
-    let grid: Vec<(f64, Vec<&Listed<'_>>)> = nm.iter().map(of).collect();
+    let grid: Vec<(f64, Vec<&PointSpreadFile<'_>>)> = nm.iter().map(of).collect();
     check_twice(&grid, context)?;
     check_complete(listed, &grid, context)?;
-    let wavelength = |(nm, fields): (f64, Vec<&Listed<'_>>)| TabledWavelength {
+    let wavelength = |(nm, fields): (f64, Vec<&PointSpreadFile<'_>>)| WavelengthTable {
         nm: (!broad).then_some(nm),
         fields: fields.into_iter().map(|one| one.spread.clone()).collect(),
     };
@@ -141,16 +141,16 @@ fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<T
 }
 
 /// Checks that no two files have the same distance and wavelength.
-fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
+fn check_twice(grid: &[(f64, Vec<&PointSpreadFile<'_>>)], context: &mut Context<'_>) -> Option<()> {
     let mut pairs = grid.iter().flat_map(|(_, fields)| fields.windows(2));
-    let alike = pairs.find(|pair| {
-        let [near, far] = [pair[0], pair[1]].map(|one| one.spread.place_mm.length());
-        far - near <= 1e-6 * far.max(1.0)
+    let same_place = pairs.find(|pair| {
+        let [near, distant] = [pair[0], pair[1]].map(|one| one.spread.place_mm.length());
+        distant - near <= 1e-6 * distant.max(1.0)
     });
-    let Some(pair) = alike else { return Some(()) };
+    let Some(pair) = same_place else { return Some(()) };
     let problem =
         format!("{} has the same distance from the axis and the same wavelength as {}", name(pair[1]), name(pair[0]));
-    context.fault(
+    context.error(
         ErrorCode::Duplicate,
         &pair[1].file.place,
         problem,
@@ -160,12 +160,12 @@ fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> O
 }
 
 /// Checks that every wavelength has all fields.
-fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
-    let has = |fields: &[&Listed<'_>], wanted: FieldPoint| fields.iter().any(|one| one.asset.field == wanted);
+fn check_complete(listed: &[PointSpreadFile<'_>], grid: &[(f64, Vec<&PointSpreadFile<'_>>)], context: &mut Context<'_>) -> Option<()> {
+    let has = |fields: &[&PointSpreadFile<'_>], field_point: FieldPoint| fields.iter().any(|one| one.asset.field == field_point);
     for one in listed {
         if let Some((nm, _)) = grid.iter().find(|(_, fields)| !has(fields, one.asset.field)) {
             let problem = format!("no file is for {nm} nm at the field {} of {}", field(one.asset.field), name(one));
-            context.fault(
+            context.error(
                 ErrorCode::UnsuitableFile,
                 &one.file.place,
                 problem,
@@ -177,17 +177,17 @@ fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], conte
     Some(())
 }
 
-fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
-    let (corner_mm, radii) = (picture.max_radius_mm(), table.radii_mm());
+fn note_extent(table: &SpreadTable, image_raster: &Raster, context: &mut Context<'_>) {
+    let (corner_mm, radii) = (image_raster.max_radius_mm(), table.radii_mm());
     let last_mm = radii[radii.len() - 1];
-    if corner_mm > BEYOND * last_mm && last_mm > 0.0 {
-        context.remark(format!(
+    if corner_mm > MAX_RELATIVE_EXTENT * last_mm && last_mm > 0.0 {
+        context.note(format!(
             "point spreads are given up to {last_mm:.4} mm from the axis and constant beyond; the corner of the image \
              is at {corner_mm:.4} mm"
         ));
     }
     if radii[0] > 0.0 {
-        context.remark(format!(
+        context.note(format!(
             "no point spread is given for the axis: the one at {:.4} mm is used further inside, rotated with the \
              position; give a file for the axis",
             radii[0]
@@ -195,21 +195,21 @@ fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
     }
     if !table.keeps_shapes() {
         let [across, down] = table.patches();
-        context.remark(format!(
+        context.note(format!(
             "point spreads change too fast for {across} × {down} patches: between them, centroids are off by more than \
              1 % of the width or second moments by more than 0.5 %; increase \"patches\""
         ));
     }
     let error = table.light_error();
-    if error > LIGHT_ERROR {
-        context.remark(format!(
+    if error > MIN_LOST_FRACTION {
+        context.note(format!(
             "point spreads conserve the light of a point only to {:.1} %: their centroids shift over the field",
             100.0 * error
         ));
     }
 }
 
-fn name(one: &Listed<'_>) -> String {
+fn name(one: &PointSpreadFile<'_>) -> String {
     one.file.value.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
@@ -227,12 +227,12 @@ mod tests {
     /// tan of 20° and 40° from the tables of Abramowitz and Stegun, 4.3.
     #[test]
     fn fields_of_two_angles_go_by_their_tangents() {
-        let near = |found: Option<DVec3>, expected: DVec3| {
-            assert!(found.is_some_and(|found| (found - expected).length() < 1e-9), "{found:?}");
+        let near = |actual: Option<DVec3>, expected: DVec3| {
+            assert!(actual.is_some_and(|actual| (actual - expected).length() < 1e-9), "{actual:?}");
         };
-        near(towards([20.0, 40.0]), DVec3::new(0.363_970_234_266, 0.839_099_631_177, 1.0));
-        near(towards([0.0, -30.0]), DVec3::new(0.0, -0.5, 0.866_025_403_784));
-        near(towards([120.0, 0.0]), DVec3::new(0.866_025_403_784, 0.0, -0.5));
-        assert_eq!((towards([0.0, 0.0]), towards([91.0, 10.0])), (Some(DVec3::Z), None));
+        near(direction_from_angles([20.0, 40.0]), DVec3::new(0.363_970_234_266, 0.839_099_631_177, 1.0));
+        near(direction_from_angles([0.0, -30.0]), DVec3::new(0.0, -0.5, 0.866_025_403_784));
+        near(direction_from_angles([120.0, 0.0]), DVec3::new(0.866_025_403_784, 0.0, -0.5));
+        assert_eq!((direction_from_angles([0.0, 0.0]), direction_from_angles([91.0, 10.0])), (Some(DVec3::Z), None));
     }
 }

@@ -4,9 +4,9 @@ use super::context::Context;
 use crate::plan::Precipitation;
 use etendue_scene::Place;
 use etendue_scene::record::Precipitation as Record;
-use etendue_scene::record::precipitation::{self, Fall};
+use etendue_scene::record::precipitation::{self, PrecipitationSettings};
 use etendue_tracer::media::Medium;
-use etendue_tracer::precipitation::{Crystals, Field, SizeLaw, SizeLawError};
+use etendue_tracer::precipitation::{Crystals, PrecipitationField, SizeLaw, SizeLawError};
 use glam::DVec3;
 
 /// Precipitation, with its medium added to the others.
@@ -30,7 +30,7 @@ pub(super) fn precipitation(
         medium: media.len() - 1,
         clear_m: fall.clear_m.as_ref().map_or(0.0, |of| of.value),
         smallest_px: fall.smallest_px.as_ref().map_or(0.25, |of| of.value),
-        most: fall.most.as_ref().map_or(200_000, |of| of.value),
+        max_drops: fall.most.as_ref().map_or(200_000, |of| of.value),
     })
 }
 
@@ -44,10 +44,10 @@ fn law(
     Some(if rescaled { law.rescaled() } else { law })
 }
 
-fn field(law: SizeLaw, fall: &Fall) -> Field {
+fn field(law: SizeLaw, fall: &PrecipitationSettings) -> PrecipitationField {
     let wind_mps = fall.wind_m_s.as_ref().map_or(DVec3::ZERO, |wind| DVec3::from_array(wind.value));
     let top_m = fall.top_m.as_ref().map_or(500.0, |top| top.value);
-    Field::new(law, wind_mps, top_m, fall.seed.as_ref().map_or(0, |seed| seed.value as u32))
+    PrecipitationField::new(law, wind_mps, top_m, fall.seed.as_ref().map_or(0, |seed| seed.value as u32))
 }
 
 fn crystals(record: precipitation::Crystals) -> Crystals {

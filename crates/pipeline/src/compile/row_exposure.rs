@@ -91,7 +91,7 @@ fn captures(
                  after it",
                 start.value
             );
-            context.fault(ErrorCode::ImpossibleTiming, &start.place, problem, "increase \"start_s\", or remove it");
+            context.error(ErrorCode::ImpossibleTiming, &start.place, problem, "increase \"start_s\", or remove it");
         }
         let start_s = capture.start_s.as_ref().map_or(end, |start| start.value);
         ends.push((sensitivity, start_s + length_s(exposure_s * exposure_ratio)));
@@ -102,9 +102,9 @@ fn captures(
 
 /// Refuses a start time for charge that is read again.
 fn refuse_idle_starts(further: &[Capture], context: &mut Context<'_>) {
-    let again = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
-    for start in further.iter().filter(again).filter_map(|capture| capture.start_s.as_ref()) {
+    let has_dual_gain = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
+    for start in further.iter().filter(has_dual_gain).filter_map(|capture| capture.start_s.as_ref()) {
         let problem = "\"start_s\" has no effect on charge that is read again: it is already collected";
-        context.fault(ErrorCode::NoEffect, &start.place, problem, "remove it");
+        context.error(ErrorCode::NoEffect, &start.place, problem, "remove it");
     }
 }

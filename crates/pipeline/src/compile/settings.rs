@@ -1,13 +1,13 @@
 //! `[render]`: render settings.
 
-use super::camera::remark_margin;
+use super::camera::warn_of_margin;
 use super::choices::{Choices, max_bounces};
 use super::context::{Context, ErrorCode};
-use super::samples::{Samples, has_variance, samples};
+use super::samples::{SampleSettings, has_variance, samples};
 use crate::plan::{CameraBody, Passes, Products, Route, Settings, WavelengthSampling};
 use crate::sizes::block::Blocks;
-use crate::sizes::film::Layout;
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use crate::sizes::film::FilmLayout;
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_core::{Bands, Integrator, LightSampling, Quality, WavelengthRange};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
@@ -30,19 +30,19 @@ pub(super) fn settings(
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<(Settings, Option<Passes>)> {
-    let Samples { spp, replicates, adaptive, passes } = samples(render, choices, context);
+    let SampleSettings { spp, replicates, adaptive, passes } = samples(render, choices, context);
     products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
-    let (cube, folded) = accumulation(render, body, products, &route, context);
+    let (cube, accumulates_electrons) = accumulation(render, body, products, &route, context);
     let range = range(render, body, cube);
     let bands = if cube { Some(bands(render, range, context)?) } else { None };
-    check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
-    remark_losses(products, &route, folded, body, context);
-    remark_margin(body, context);
-    remark_bands(render, cube, context);
+    check_size(body, &route, &FilmLayout { bands, accumulates_electrons, watched: adaptive.is_some() }, context)?;
+    note_losses(products, &route, accumulates_electrons, body, context);
+    warn_of_margin(body, context);
+    note_unused_band_width(render, cube, context);
     let paths = paths(render, choices);
     let is_watched = adaptive.is_some() && route == Route::Lens;
-    let blocks = blocks(paths.integrator, render, body, folded || is_watched);
+    let blocks = blocks(paths.integrator, render, body, accumulates_electrons || is_watched);
     let settings = Settings {
         spp,
         replicates,
@@ -55,7 +55,7 @@ pub(super) fn settings(
         route,
         range,
         bands,
-        folded,
+        accumulates_electrons,
         adaptive,
         tile_px: (render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32)
             .next_multiple_of(if adaptive.is_some() { blocks.cell_px() } else { blocks.tile_px(1) }),
@@ -67,13 +67,13 @@ pub(super) fn settings(
 
 /// Wavelengths per path: a single one if the lens treats each differently, because a ray traced for one wavelength does not apply to others.
 fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut Context<'_>) -> Option<u32> {
-    let asked = render.wavelengths_per_path.as_ref();
+    let requested = render.wavelengths_per_path.as_ref();
     if !(body.disperses() && *route == Route::Lens) {
-        return Some(asked.map_or(4, |n| n.value as u32));
+        return Some(requested.map_or(4, |n| n.value as u32));
     }
-    if let Some(asked) = asked.filter(|n| n.value != 1) {
-        let problem = format!("a path cannot carry {} wavelengths through dispersive optics", asked.value);
-        context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or give 1");
+    if let Some(requested) = requested.filter(|n| n.value != 1) {
+        let problem = format!("a path cannot carry {} wavelengths through dispersive optics", requested.value);
+        context.error(ErrorCode::NotModelled, &requested.place, problem, "remove the key, or give 1");
         return None;
     }
     Some(1)
@@ -82,7 +82,7 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
 /// Light paths that are simulated. Settings that only paths need have their defaults if none are traced.
 fn paths(render: &Render, choices: &Choices) -> PathSettings {
     let keys = &render.paths;
-    let stated = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |flag| flag.value);
+    let flag_or = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |flag| flag.value);
     let settings = PathSettings {
         integrator: render.integrator.as_ref().map_or(Integrator::Path, |key| key.value),
         light_sampling: render.light_sampling.as_ref().map_or(LightSampling::Gloss, |key| key.value),
@@ -95,20 +95,20 @@ fn paths(render: &Render, choices: &Choices) -> PathSettings {
     let by_quality = max_bounces(choices.quality.unwrap_or(Quality::Standard));
     PathSettings {
         max_bounces: keys.max_bounces.as_ref().map_or(by_quality, |key| key.value as u32),
-        caustics: stated(&keys.caustics, true),
-        regularize: stated(&keys.regularize, false),
+        caustics: flag_or(&keys.caustics, true),
+        regularize: flag_or(&keys.regularize, false),
         branches: keys.branches_in_force() as u32,
         ..settings
     }
 }
 
 fn guiding(paths: &PathSettings, render: &Render, context: &mut Context<'_>) -> bool {
-    let asked = paths.integrator == Integrator::Path && render.paths.guiding.as_ref().is_some_and(|g| g.value);
+    let is_requested = paths.integrator == Integrator::Path && render.paths.guiding.as_ref().is_some_and(|g| g.value);
     let is_of_use = paths.max_bounces > 1;
-    if asked && !is_of_use {
-        context.remark("\"guiding\" is ignored: with \"max_bounces\" = 1 there is no indirect light");
+    if is_requested && !is_of_use {
+        context.note("\"guiding\" is ignored: with \"max_bounces\" = 1 there is no indirect light");
     }
-    asked && is_of_use
+    is_requested && is_of_use
 }
 
 /// Blocks of pixels that share path tails. They carry the same wavelengths: if these are sampled `by_colour`, the pixels have one colour.
@@ -126,7 +126,7 @@ fn blocks(integrator: Integrator, render: &Render, body: &CameraBody, by_colour:
 const MAX_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
 
 /// Refuses an image that exceeds the memory of any present machine.
-fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut Context<'_>) -> Option<()> {
+fn check_size(body: &CameraBody, route: &Route, layout: &FilmLayout, context: &mut Context<'_>) -> Option<()> {
     let (width, height) = match route {
         Route::Lens => (body.film().width(), body.film().height()),
         Route::Pupil(projection) => (projection.width(), projection.height()),
@@ -136,7 +136,7 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
         return Some(());
     }
     let problem = format!("a film of {width} × {height} pixels takes {:.0} GB", bytes / 1e9);
-    context.fault(
+    context.error(
         ErrorCode::TooLarge,
         &body.place,
         problem,
@@ -146,24 +146,24 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
 }
 
 /// Notes requests that cannot be fulfilled, and data that is computed but not stored.
-fn remark_losses(products: &Products, route: &Route, folded: bool, body: &CameraBody, context: &mut Context<'_>) {
-    if products.variance && products.electrons && !folded {
+fn note_losses(products: &Products, route: &Route, accumulates_electrons: bool, body: &CameraBody, context: &mut Context<'_>) {
+    if products.variance && products.electrons && !accumulates_electrons {
         let remedy =
             if body.effects.is_idle() { "accumulate = \"auto\" with route = \"lens\"" } else { "the irradiance" };
-        context.remark(format!("electrons are computed from band means and have no variance; use {remedy}"));
+        context.note(format!("electrons are computed from band means and have no variance; use {remedy}"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
-        context.remark("route = \"pupil\" without radiance = true: nothing is stored for expose");
+        context.note("route = \"pupil\" without radiance = true: nothing is stored for expose");
     }
     if products.variance && products.irradiance && *route != Route::Lens {
-        context.remark("irradiance computed from stored radiance has no variance; the radiance has".to_owned());
+        context.note("irradiance computed from stored radiance has no variance; the radiance has".to_owned());
     }
 }
 
 /// Notes a stated band width without requested bands. Not an error: `--set output.radiance=false` must not require another change of the job.
-fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
+fn note_unused_band_width(render: &Render, cube: bool, context: &mut Context<'_>) {
     if let (Some(width), false) = (&render.band_width_nm, cube) {
-        context.remark_on(&width.place, "no spectrum is stored, so the width of bands has no effect");
+        context.note_on(&width.place, "no spectrum is stored, so the width of bands has no effect");
     }
 }
 
@@ -177,7 +177,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
         None => Some(if blurs { DepthOfField::Physical } else { DepthOfField::None }),
         Some(render::DepthOfField::Fast(blend)) => {
             if blend.near_m.is_none() && blend.far_m.is_none() {
-                context.fault(ErrorCode::NoEffect, &blend.place, "this blurs nothing", "add \"near_m\" or \"far_m\"");
+                context.error(ErrorCode::NoEffect, &blend.place, "this blurs nothing", "add \"near_m\" or \"far_m\"");
                 return None;
             }
             context.accept(&blend.place, FastBlend::new(parameters(blend, body.scale))).map(DepthOfField::Fast)
@@ -185,8 +185,8 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
         Some(render::DepthOfField::Named(method)) => match method.value {
             DepthMethod::Physical if blurs => Some(DepthOfField::Physical),
             DepthMethod::Physical => {
-                let remark = "everything is in focus for this lens, so \"depth_of_field\" has no effect";
-                context.remark_on(&method.place, remark);
+                let note = "everything is in focus for this lens, so \"depth_of_field\" has no effect";
+                context.note_on(&method.place, note);
                 Some(DepthOfField::None)
             }
             DepthMethod::None => Some(DepthOfField::None),
@@ -238,16 +238,16 @@ fn accumulation(
     let pupil = matches!(route, Route::Pupil(_));
     let effects = !body.effects.is_idle();
     let electrons = body.sensor.is_some() && (products.electrons || products.raw || products.picture);
-    let asked = render.accumulate.as_ref().map(|a| (a.value, &a.place));
-    match asked {
+    let requested = render.accumulate.as_ref().map(|a| (a.value, &a.place));
+    match requested {
         Some((Accumulate::Cube, _)) => (true, false),
         Some((Accumulate::Electrons, place)) => {
             if pupil || body.sensor.is_none() {
                 let problem = "\"electrons\" needs a sensor with electronics and route = \"lens\"";
-                context.fault(ErrorCode::Contradiction, place, problem, "use \"auto\" or \"cube\"");
+                context.error(ErrorCode::Contradiction, place, problem, "use \"auto\" or \"cube\"");
             } else if spectral {
                 let problem = "\"electrons\" stores no spectrum, but radiance or irradiance is requested";
-                context.fault(
+                context.error(
                     ErrorCode::Contradiction,
                     place,
                     problem,
@@ -255,7 +255,7 @@ fn accumulation(
                 );
             } else if effects {
                 let problem = "\"electrons\" stores no spectrum, but the camera's [effects] require one";
-                context.fault(
+                context.error(
                     ErrorCode::Contradiction,
                     place,
                     problem,
@@ -283,7 +283,7 @@ fn range(render: &Render, body: &CameraBody, cube: bool) -> WavelengthRange {
         return WavelengthRange::new(low, high);
     }
     let step = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
-    WavelengthRange::new(((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(MAX_NM))
+    WavelengthRange::new(((low / step).floor() * step).max(MIN_NM), ((high / step).ceil() * step).min(MAX_NM))
 }
 
 fn bands(render: &Render, range: WavelengthRange, context: &mut Context<'_>) -> Option<Bands> {
@@ -293,9 +293,9 @@ fn bands(render: &Render, range: WavelengthRange, context: &mut Context<'_>) -> 
     if bands.is_none() {
         let place = render.band_width_nm.as_ref().map_or_else(|| range_place(render), |w| &w.place);
         let problem = format!(
-            "{low_nm} to {high_nm} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {MAX_NM} nm"
+            "{low_nm} to {high_nm} nm is not a whole number of bands of {width_nm} nm within {MIN_NM} to {MAX_NM} nm"
         );
-        context.fault(ErrorCode::NotAMultiple, place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
+        context.error(ErrorCode::NotAMultiple, place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
     }
     bands
 }

@@ -68,12 +68,12 @@ struct ResponseKey<'a> {
 }
 
 impl<'a> LightKey<'a> {
-    fn of(camera: &'a CameraPlan) -> Self {
+    fn new(camera: &'a CameraPlan) -> Self {
         let s = &camera.settings;
         Self {
             path: &camera.path,
             timing: (camera.time != TimeDependence::None).then_some(&camera.timing),
-            optics: OpticsKey::of(camera),
+            optics: OpticsKey::new(camera),
             sampling: SamplingKey {
                 spp: s.spp,
                 passes: camera.passes.clone(),
@@ -92,7 +92,7 @@ impl<'a> LightKey<'a> {
                 ..*s
             },
             tolerance: camera.tolerance(),
-            response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
+            response: camera.body.sensor.as_ref().filter(|_| s.accumulates_electrons).map(ResponseKey::new),
         }
     }
 
@@ -103,27 +103,27 @@ impl<'a> LightKey<'a> {
         }
         let samples =
             |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
-        let kept = |s: &Settings| (s.bands, s.folded, s.range);
+        let storage = |s: &Settings| (s.bands, s.accumulates_electrons, s.range);
         let (a, b) = (&self.settings, &other.settings);
-        let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range: b.range, ..*a };
+        let same_storage = Settings { adaptive: b.adaptive, bands: b.bands, accumulates_electrons: b.accumulates_electrons, range: b.range, ..*a };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
             (self.timing != other.timing, "the exposure times"),
-            (kept(a) != kept(b), "the stored spectrum"),
+            (storage(a) != storage(b), "the stored spectrum"),
             (
                 a.bands == b.bands && self.sampling.spread != other.sampling.spread,
                 "variance, which requires independent replicates",
             ),
             (self.tolerance != other.tolerance, "the noise that determines the samples"),
-            (same_kept != *b, "the simulated light paths"),
-            (self.response != other.response && a.folded && b.folded, "the spectral response of the pixels"),
+            (same_storage != *b, "the simulated light paths"),
+            (self.response != other.response && a.accumulates_electrons && b.accumulates_electrons, "the spectral response of the pixels"),
         ];
         Some(unlike.iter().filter(|(unlike, _)| *unlike).map(|(_, name)| *name).collect())
     }
 }
 
 impl<'a> OpticsKey<'a> {
-    fn of(camera: &'a CameraPlan) -> Self {
+    fn new(camera: &'a CameraPlan) -> Self {
         let CameraBody { lens, front, aperture_px, .. } = &camera.body;
         match &camera.settings.route {
             Route::Pupil(projection) => Self::Pupil(projection),
@@ -140,7 +140,7 @@ impl<'a> OpticsKey<'a> {
 }
 
 impl<'a> ResponseKey<'a> {
-    fn of(sensor: &'a Sensor) -> Self {
+    fn new(sensor: &'a Sensor) -> Self {
         let p = sensor.parameters();
         Self {
             filter: &p.cfa,
@@ -152,7 +152,7 @@ impl<'a> ResponseKey<'a> {
 }
 
 /// Gives every camera the light of the first one with equal light.
-pub(crate) fn share(cameras: &mut [CameraPlan]) {
+pub(crate) fn share_equal_light(cameras: &mut [CameraPlan]) {
     let owners: Vec<LightOwner> = {
         let mut firsts: Vec<(LightKey<'_>, LightOwner)> = Vec::new();
         let mut owner = |camera| owner_of(camera, &mut firsts);
@@ -162,7 +162,7 @@ pub(crate) fn share(cameras: &mut [CameraPlan]) {
 }
 
 fn owner_of<'a>(camera: &'a CameraPlan, firsts: &mut Vec<(LightKey<'a>, LightOwner)>) -> LightOwner {
-    let key = LightKey::of(camera);
+    let key = LightKey::new(camera);
     let owner = match firsts.iter().find(|(first, _)| *first == key) {
         Some((_, owner)) => return owner.clone(),
         None => LightOwner { camera: camera.name.clone(), index: camera.index },
@@ -173,10 +173,10 @@ fn owner_of<'a>(camera: &'a CameraPlan, firsts: &mut Vec<(LightKey<'a>, LightOwn
 
 /// Explains a camera's own light although an earlier camera has the same view and rays: that camera's name and the differences. `None` if there is no such
 /// camera, or the light is shared.
-pub(crate) fn why_apart<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<(&'a str, Vec<&'static str>)> {
+pub(crate) fn own_light_reason<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<(&'a str, Vec<&'static str>)> {
     let before = plan.cameras.iter().take_while(|other| other.index < camera.index);
-    let owners = before.filter(|other| other.owns_light() && other.light != camera.light);
-    let key = LightKey::of(camera);
-    let apart = owners.filter_map(|other| Some((other.name.as_str(), LightKey::of(other).differences(&key)?)));
-    camera.owns_light().then(|| apart.min_by_key(|(_, unlike)| unlike.len())).flatten()
+    let owners = before.filter(|other| other.is_first_with_light() && other.light != camera.light);
+    let key = LightKey::new(camera);
+    let apart = owners.filter_map(|other| Some((other.name.as_str(), LightKey::new(other).differences(&key)?)));
+    camera.is_first_with_light().then(|| apart.min_by_key(|(_, unlike)| unlike.len())).flatten()
 }

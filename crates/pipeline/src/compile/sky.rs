@@ -15,26 +15,26 @@ use glam::DVec3;
 const GROUND_ALBEDO: f64 = 0.2;
 
 /// A sky, its sun if requested and above the horizon, and the plan's facts of them.
-pub(super) struct MadeSky {
+pub(super) struct CompiledSky {
     pub(super) environment: SkyEnvironment,
     pub(super) sun: Option<Sun>,
     pub(super) facts: SkyFacts,
 }
 
 /// Direction of the sun in the world, rad: elevation, and azimuth from +x towards +y.
-struct Sunward {
+struct SunDirection {
     elevation_rad: f64,
     azimuth_rad: f64,
 }
 
 /// Sky of a record; `None` with the errors recorded.
-pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
+pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<CompiledSky> {
     let place = record.sun_place();
     let sunward = sunward(record, context)?;
     let albedo = record.ground_albedo.as_ref().map_or(GROUND_ALBEDO, |a| a.value);
     let model = context.accept(place, SkyModel::new(record.turbidity.value, albedo, sunward.elevation_rad))?;
-    let asked = record.sun.as_ref().is_none_or(|s| s.value);
-    let beam = match asked && sunward.elevation_rad >= 0.0 {
+    let is_requested = record.sun.as_ref().is_none_or(|s| s.value);
+    let beam = match is_requested && sunward.elevation_rad >= 0.0 {
         true => Some(normal_irradiance(&record.turbidity, sunward.elevation_rad, place, context)?),
         false => None,
     };
@@ -43,7 +43,7 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
         None => Spectrum::constant(0.0),
     };
     let Some(environment) = SkyEnvironment::new(&model, sunward.azimuth_rad, albedo, &on_ground) else {
-        context.fault(
+        context.error(
             ErrorCode::OutOfRange,
             place,
             "the sky is black at this elevation of the sun",
@@ -60,12 +60,12 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
     };
     let sun = match beam {
         Some(beam) => {
-            let made = Sun::of_irradiance(sunward.direction(), SUN_ANGULAR_DIAMETER_DEG, &beam);
+            let made = Sun::from_irradiance(sunward.direction(), SUN_ANGULAR_DIAMETER_DEG, &beam);
             Some(context.accept(place, made)?.with_limb())
         }
         None => None,
     };
-    Some(MadeSky { environment, sun, facts })
+    Some(CompiledSky { environment, sun, facts })
 }
 
 /// Spectral irradiance by the sun through air of a given turbidity, on a plane perpendicular to the beam.
@@ -78,19 +78,19 @@ pub(super) fn normal_irradiance(
     context.accept(place, sun::normal_irradiance(turbidity.value, elevation_rad))
 }
 
-fn sunward(record: &Sky, context: &mut Context<'_>) -> Option<Sunward> {
+fn sunward(record: &Sky, context: &mut Context<'_>) -> Option<SunDirection> {
     match (&record.angles, &record.moment) {
-        (Some(angles), _) => Some(Sunward {
+        (Some(angles), _) => Some(SunDirection {
             elevation_rad: angles.sun_elevation_deg.value.to_radians(),
             azimuth_rad: angles.sun_azimuth_deg.value.to_radians(),
         }),
-        (None, Some(moment)) => at(moment, context),
+        (None, Some(moment)) => direction_at(moment, context),
         // A sky in a loaded description states one of them.
         (None, None) => None,
     }
 }
 
-fn at(moment: &SunMoment, context: &mut Context<'_>) -> Option<Sunward> {
+fn direction_at(moment: &SunMoment, context: &mut Context<'_>) -> Option<SunDirection> {
     let (day, seconds) = (moment.date.value, moment.time_utc.seconds);
     let date = CalendarDate { year: day.year as i32, month: day.month, day: day.day };
     let time = ClockTime { hour: seconds / 3600, minute: seconds / 60 % 60, second: f64::from(seconds % 60) };
@@ -101,10 +101,10 @@ fn at(moment: &SunMoment, context: &mut Context<'_>) -> Option<Sunward> {
     let north_rad = moment.north_azimuth_deg.as_ref().map_or(0.0, |n| n.value.to_radians());
     let turn = core::f64::consts::TAU;
     let azimuth_rad = (north_rad - position.azimuth_rad).rem_euclid(turn);
-    Some(Sunward { elevation_rad: position.elevation_rad, azimuth_rad })
+    Some(SunDirection { elevation_rad: position.elevation_rad, azimuth_rad })
 }
 
-impl Sunward {
+impl SunDirection {
     fn direction(&self) -> DVec3 {
         direction(self.elevation_rad, self.azimuth_rad)
     }

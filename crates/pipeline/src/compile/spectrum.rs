@@ -3,14 +3,14 @@
 use super::context::{Context, ErrorCode};
 use core::f64::consts::FRAC_1_PI;
 use etendue_core::WavelengthRange;
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::record::{Curve, Emission, Level, LightColour};
 use etendue_scene::{Place, Placed};
-use etendue_spectra::{Outside, Spectrum, illuminant, observer, upsample};
+use etendue_spectra::{Extrapolation, Spectrum, illuminant, observer, upsample};
 use std::path::PathBuf;
 
 /// A quantity over wavelength; `outside` states how a table continues beyond its ends.
-pub(super) fn curve(curve: &Curve, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(super) fn curve(curve: &Curve, outside: Extrapolation, context: &mut Context<'_>) -> Option<Spectrum> {
     match curve {
         Curve::Constant(value) => Some(Spectrum::constant(value.value)),
         Curve::File(file) => from_file(file, outside, context),
@@ -18,9 +18,9 @@ pub(super) fn curve(curve: &Curve, outside: Outside, context: &mut Context<'_>) 
 }
 
 /// A tabulated spectrum.
-pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(super) fn from_file(file: &Placed<PathBuf>, outside: Extrapolation, context: &mut Context<'_>) -> Option<Spectrum> {
     let Some(asset) = context.assets.spectra.get(&file.value) else {
-        context.fault(ErrorCode::UnreadableFile, &file.place, "the spectrum was not loaded", "give a readable file");
+        context.error(ErrorCode::UnreadableFile, &file.place, "the spectrum was not loaded", "give a readable file");
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
@@ -35,7 +35,7 @@ pub(super) fn relative(colour: &LightColour, context: &mut Context<'_>) -> Optio
         LightColour::Illuminant(name) => named_illuminant(name, context),
         LightColour::Temperature(kelvin) => Some(illuminant::blackbody(kelvin.value)),
         LightColour::Rgb(rgb) => Some(upsample::emission_spectrum(rgb.value.map(|v| v as f32))),
-        LightColour::Spectrum(file) => from_file(file, Outside::Zero, context),
+        LightColour::Spectrum(file) => from_file(file, Extrapolation::Zero, context),
     }
 }
 
@@ -44,46 +44,46 @@ pub(super) fn named_illuminant(name: &Placed<String>, context: &mut Context<'_>)
     if name.value == "solar" {
         return Some(illuminant::solar().direct.clone());
     }
-    let found = illuminant::named(&name.value).cloned();
-    if found.is_none() {
+    let spectrum = illuminant::by_name(&name.value).cloned();
+    if spectrum.is_none() {
         let problem = format!("there is no illuminant \"{}\"", name.value);
-        context.fault(
+        context.error(
             ErrorCode::UnknownName,
             &name.place,
             problem,
             format!("give one of solar, {}", illuminant::names().join(", ")),
         );
     }
-    found
+    spectrum
 }
 
 /// Radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹; for a stated flux that of a surface of 1 m² with one emissive side (a flux Φ from an area A leaves
 /// with L = Φ / (π A)).
 pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<Spectrum> {
     let level = match &emission.level {
-        Level::Radiance(radiance) => return curve(radiance, Outside::Zero, context),
+        Level::Radiance(radiance) => return curve(radiance, Extrapolation::Zero, context),
         // A level without a colour was refused when it was read.
         Level::Luminance(level) | Level::LuminousFlux(level) | Level::RadiantFlux(level) => level,
     };
     let relative = relative(emission.colour.as_ref()?, context)?;
     match &emission.level {
-        Level::RadiantFlux(_) => Some(powered(&relative, level.value * FRAC_1_PI)),
-        Level::LuminousFlux(_) => bright(&relative, level.value * FRAC_1_PI, &level.place, context),
-        Level::Luminance(_) | Level::Radiance(_) => bright(&relative, level.value, &level.place, context),
+        Level::RadiantFlux(_) => Some(scaled_to_power(&relative, level.value * FRAC_1_PI)),
+        Level::LuminousFlux(_) => scaled_to_luminance(&relative, level.value * FRAC_1_PI, &level.place, context),
+        Level::Luminance(_) | Level::Radiance(_) => scaled_to_luminance(&relative, level.value, &level.place, context),
     }
 }
 
 /// A relative spectrum scaled to a luminance (cd/m²) or an illuminance (lx).
-pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(super) fn scaled_to_luminance(relative: &Spectrum, level: f64, place: &Place, context: &mut Context<'_>) -> Option<Spectrum> {
     let scaled = observer::with_luminance(relative, level);
     if scaled.is_none() {
         let problem = "the spectrum of this light has no visible part, so it cannot be scaled to a luminance";
-        context.fault(ErrorCode::Degenerate, place, problem, "state its strength in W (radiance or irradiance)");
+        context.error(ErrorCode::Degenerate, place, problem, "state its strength in W (radiance or irradiance)");
     }
     scaled
 }
 
 /// A relative spectrum scaled to a power summed over all legal wavelengths.
-pub(super) fn powered(relative: &Spectrum, total: f64) -> Spectrum {
-    relative.scaled(total / relative.integral(SHORTEST_NM, MAX_NM))
+pub(super) fn scaled_to_power(relative: &Spectrum, total: f64) -> Spectrum {
+    relative.scaled(total / relative.integral(MIN_NM, MAX_NM))
 }

@@ -3,8 +3,8 @@
 use etendue_scene::Placed;
 use etendue_scene::record::lens as description;
 
-pub(super) fn transmittance(given: Option<&Placed<f64>>) -> f64 {
-    given.map_or(1.0, |t| t.value)
+pub(super) fn transmittance(value: Option<&Placed<f64>>) -> f64 {
+    value.map_or(1.0, |t| t.value)
 }
 
 pub(super) fn focus_m(focus: &description::FocusDistance) -> f64 {
@@ -15,6 +15,6 @@ pub(super) fn focus_m(focus: &description::FocusDistance) -> f64 {
 }
 
 /// Number of a key, or the default if it is absent.
-pub(super) fn or(key: Option<&Placed<f64>>, default: f64) -> f64 {
+pub(super) fn value_or(key: Option<&Placed<f64>>, default: f64) -> f64 {
     key.map_or(default, |k| k.value)
 }

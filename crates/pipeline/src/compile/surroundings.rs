@@ -12,7 +12,7 @@ use etendue_tracer::integrator::Surroundings;
 use etendue_tracer::materials::MaterialTable;
 
 /// Reports cameras inside a transparent solid, and those for which this is uncertain.
-pub(super) fn remark(
+pub(super) fn note_enclosed_cameras(
     cameras: &[CameraPlan],
     world: &World,
     material_table: &MaterialTable,
@@ -25,7 +25,7 @@ pub(super) fn remark(
     let name = |id: MaterialId| &materials[id.0 as usize];
     for camera in cameras {
         let start_s = camera.timing.frame_start_s(0);
-        let around = Surroundings::of(
+        let around = Surroundings::from_view(
             &world.render_space_for_few(
                 camera.path.at(start_s).position_m,
                 TimeInterval::at(start_s).unwrap_or_default(),
@@ -33,7 +33,7 @@ pub(super) fn remark(
             material_table,
         );
         if let Some(solid) = around.solid {
-            context.remark_on(
+            context.note_on(
                 format!("camera \"{}\"", camera.name),
                 format!(
                     "is inside \"{}\": its entrance pupil is in that medium, which absorbs from there on; radiance, \
@@ -43,13 +43,13 @@ pub(super) fn remark(
                 ),
             );
         }
-        if let Some(open) = around.open {
-            let taken = if around.solid == Some(open) { "inside" } else { "outside" };
-            context.remark_on(
+        if let Some(open) = around.open_solid {
+            let side = if around.solid == Some(open) { "inside" } else { "outside" };
+            context.note_on(
                 format!("camera \"{}\"", camera.name),
                 format!(
                     "whether it is inside \"{}\" depends on the viewing direction, as the surface is not closed; it is \
-                     assumed to be {taken}; close the mesh",
+                     assumed to be {side}; close the mesh",
                     name(open)
                 ),
             );
@@ -58,7 +58,7 @@ pub(super) fn remark(
 }
 
 /// Warns of media all of whose tested points are inside a transparent solid.
-pub(super) fn warn_of_enclosed(
+pub(super) fn warn_of_enclosed_media(
     scene: &Scene,
     frames: &Frames<'_>,
     world: &World,
@@ -70,7 +70,7 @@ pub(super) fn warn_of_enclosed(
     }
     let is_enclosed = |point| {
         let view = world.render_space_for_few(point, TimeInterval::default());
-        Surroundings::of(&view, material_table).solid.is_some()
+        Surroundings::from_view(&view, material_table).solid.is_some()
     };
     for medium in &scene.media {
         let points = inner_points(medium, frames, context);

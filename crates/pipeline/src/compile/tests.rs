@@ -4,7 +4,7 @@ mod modulation;
 
 use super::{Choices, compile};
 use crate::Plan;
-use crate::plan::remark::{Remark, Weight};
+use crate::plan::remark::{Note, Severity};
 use etendue_optics::effects::PointSpread;
 use etendue_scene::asset::{Assets, ImageAsset, ImagePixels};
 use etendue_scene::{Description, Overrides, preset};
@@ -30,10 +30,10 @@ fn plan_with(scene: &str, fill: impl FnOnce(&mut Assets)) -> Result<Plan, String
     let text = format!("{CAMERA}{scene}");
     let read = |_: &Path| Ok(text.clone());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
-    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    let errors = |list: Vec<etendue_scene::DescriptionError>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
     let mut assets = Assets::default();
     fill(&mut assets);
-    compile(&job, &assets, &Choices::default()).map_err(faults)
+    compile(&job, &assets, &Choices::default()).map_err(errors)
 }
 
 #[test]
@@ -44,12 +44,12 @@ fn every_preset_becomes_a_material() {
 }
 
 #[test]
-fn a_camera_in_water_is_told() {
+fn a_camera_in_water_is_reported() {
     let water = "[[scene.materials]]\nname = \"water\"\ntype = \"dielectric\"\nindex = 1.33\nabsorption_per_m = 0.2\n";
     let ball = |x: f64| {
         let body = "name = \"ball\"\nmaterial = \"water\"\nshape = { type = \"sphere\", radius_m = 2 }\n";
         let scene = format!("{water}[[scene.objects]]\n{body}position_m = [{x}, 0, 1]\n");
-        plan(&scene).expect("no fault").remarks
+        plan(&scene).expect("no fault").notes
     };
     assert!(ball(0.0).iter().any(|r| r.text.starts_with("is inside \"water\"")), "{:?}", ball(0.0));
     assert!(!ball(5.0).iter().any(|r| r.text.contains("is inside")));
@@ -62,18 +62,18 @@ fn a_medium_inside_glass_gives_a_warning_and_one_outside_does_not() {
                  [[scene.objects]]\nname = \"ball\"\nmaterial = \"glass\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 1]\n";
     let warned = |medium: &str| {
         let medium = format!("[[scene.media]]\nname = \"milk\"\nextinction_per_m = 2\n{medium}");
-        let remarks = plan(&format!("{glass}{medium}")).expect("no fault").remarks;
-        let is_of_milk = |remark: &&Remark| remark.about.as_deref() == Some("medium \"milk\"");
-        remarks.iter().filter(is_of_milk).map(|remark| remark.weight == Weight::Warning).collect::<Vec<_>>()
+        let notes = plan(&format!("{glass}{medium}")).expect("no fault").notes;
+        let is_of_milk = |note: &&Note| note.subject.as_deref() == Some("medium \"milk\"");
+        notes.iter().filter(is_of_milk).map(|note| note.weight == Severity::Warning).collect::<Vec<_>>()
     };
     assert_eq!(warned("shape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 1]\n"), [true]);
     assert_eq!(warned("shape = { type = \"box\", size_m = [0.5, 0.5, 0.5] }\nposition_m = [5, 0.2, 1]\n"), [true]);
-    for beside in [
+    for outside in [
         "",
         "shape = { type = \"sphere\", radius_m = 3 }\nposition_m = [5, 0, 1]\n",
         "shape = { type = \"box\", size_m = [1, 1, 1] }\n",
     ] {
-        assert!(warned(beside).is_empty(), "{beside}");
+        assert!(warned(outside).is_empty(), "{outside}");
     }
 }
 
@@ -209,8 +209,8 @@ bits = 12
     );
     let read = |_: &Path| Ok(text.clone());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
-    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
-    compile(&job, assets, &Choices::default()).map_err(faults)
+    let errors = |list: Vec<etendue_scene::DescriptionError>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, assets, &Choices::default()).map_err(errors)
 }
 
 const GLARE: &str = "glare = { scatter = 0.02, core_um = 10, exponent = 2.5 }";
@@ -219,7 +219,7 @@ const GLARE: &str = "glare = { scatter = 0.02, core_um = 10, exponent = 2.5 }";
 fn effects_keep_a_spectrum_and_a_margin() {
     let plan = scattering(GLARE, "").expect("no fault");
     let camera = &plan.cameras[0];
-    assert!(camera.settings.bands.is_some() && !camera.settings.folded);
+    assert!(camera.settings.bands.is_some() && !camera.settings.accumulates_electrons);
     assert_eq!(camera.film_size(), (120, 90), "a quarter of 80 × 60 on every side");
     let clean = scattering("glare = { scatter = 0, core_um = 10, exponent = 2.5 }", "").expect("no fault");
     assert!(clean.cameras[0].settings.bands.is_none() && clean.cameras[0].film_size() == (80, 60));
@@ -227,19 +227,19 @@ fn effects_keep_a_spectrum_and_a_margin() {
 
 #[test]
 fn effects_that_cannot_be_are_refused_where_they_stand() {
-    let fault = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
-    let said = fault(GLARE, "accumulate = \"electrons\"");
-    assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] require one"), "{said}");
-    let said = fault("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
-    assert!(said.contains("effects.glare") && said.contains("no finite integral"), "{said}");
-    let said = fault("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
-    assert!(said.contains("effects.margin") && said.contains("no effect"), "{said}");
-    let said = fault("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");
-    assert!(said.contains("scatter") && said.contains("at most 0.5"), "{said}");
-    assert!(fault("", "").contains("contains no effect"));
+    let error = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
+    let message = error(GLARE, "accumulate = \"electrons\"");
+    assert!(message.starts_with("job.toml:22:14: render.accumulate") && message.contains("[effects] require one"), "{message}");
+    let message = error("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
+    assert!(message.contains("effects.glare") && message.contains("no finite integral"), "{message}");
+    let message = error("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
+    assert!(message.contains("effects.margin") && message.contains("no effect"), "{message}");
+    let message = error("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");
+    assert!(message.contains("scatter") && message.contains("at most 0.5"), "{message}");
+    assert!(error("", "").contains("contains no effect"));
     // The distortion folds outside the image, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
-    assert!(plan.remarks.iter().any(|r| r.text.contains("which the effects use, is missing")), "{:?}", plan.remarks);
+    assert!(plan.notes.iter().any(|r| r.text.contains("which the effects use, is missing")), "{:?}", plan.notes);
 }
 
 const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";
@@ -260,19 +260,19 @@ fn a_point_spread_function_from_a_picture() {
     // Bytes are linear numbers: 51 of 255 is a fifth.
     assert_eq!(image.parameters().light, [0.0, 0.2, 0.0, 0.2, 1.0, 0.2]);
     assert!(camera.settings.bands.is_some() && camera.film_size() == (82, 62), "{:?}", camera.film_size());
-    let said = of("20", &Assets::default()).expect_err("no file");
-    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf.image: the image k.png was not"), "{said}");
-    let said = of("20", &pixels(ImagePixels::Gray16(vec![0; 6]))).expect_err("dark");
+    let message = of("20", &Assets::default()).expect_err("no file");
+    assert!(message.starts_with("job.toml:7:") && message.contains("effects.psf.image: the image k.png was not"), "{message}");
+    let message = of("20", &pixels(ImagePixels::Gray16(vec![0; 6]))).expect_err("dark");
     assert!(
-        said.starts_with("job.toml:7:") && said.contains("effects.psf.image: ") && said.contains("0 everywhere"),
-        "{said}"
+        message.starts_with("job.toml:7:") && message.contains("effects.psf.image: ") && message.contains("0 everywhere"),
+        "{message}"
     );
-    let said = of("20", &pixels(ImagePixels::Rgb32F(vec![[0.5, -2.0, 0.5]; 3]))).expect_err("negative");
-    assert!(said.contains("effects.psf.image: column 0 of row 0 is -0.33"), "{said}");
-    let said = of("60", &dot).expect_err("coarse");
-    assert!(said.contains("effects.psf.image_pitch_um: ") && said.contains("separate dots"), "{said}");
-    let said = behind(PINHOLE, "psf = { wavefront = [{ noll = 4, rms_um = 900 }] }", "").expect_err("steep");
-    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf: the wavefront's slope"), "{said}");
+    let message = of("20", &pixels(ImagePixels::Rgb32F(vec![[0.5, -2.0, 0.5]; 3]))).expect_err("negative");
+    assert!(message.contains("effects.psf.image: column 0 of row 0 is -0.33"), "{message}");
+    let message = of("60", &dot).expect_err("coarse");
+    assert!(message.contains("effects.psf.image_pitch_um: ") && message.contains("separate dots"), "{message}");
+    let message = behind(PINHOLE, "psf = { wavefront = [{ noll = 4, rms_um = 900 }] }", "").expect_err("steep");
+    assert!(message.starts_with("job.toml:7:") && message.contains("effects.psf: the wavefront's slope"), "{message}");
 }
 
 const DOUBLE_GAUSS: &str = "type = \"prescription\", published = \"double-gauss\", focus_distance_m = \"infinity\"";
@@ -281,18 +281,18 @@ const DOUBLE_GAUSS: &str = "type = \"prescription\", published = \"double-gauss\
 fn ghosts_are_of_a_lens_of_surfaces() {
     let plan = behind(DOUBLE_GAUSS, "ghosts = true", "[output]\nghosts = true").expect("no fault");
     let camera = &plan.cameras[0];
-    assert!(camera.settings.bands.is_some() && !camera.settings.folded && camera.products.ghosts);
+    assert!(camera.settings.bands.is_some() && !camera.settings.accumulates_electrons && camera.products.ghosts);
     assert_eq!(camera.film_size(), (120, 90), "with light from a quarter of the picture beyond each edge");
     // The lens is traced to the edge of the film.
     let lit_sr = camera.body.lens.projected_solid_angle_sr(glam::DVec2::new(2.9, 2.2));
     assert!(lit_sr > 0.0, "lit beyond the picture's corner");
-    let fault = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
-    let said = fault("type = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
-    assert!(said.contains("effects.ghosts") && said.contains("the lens is a pinhole"), "{said}");
-    let said = fault(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
-    assert!(said.contains("output.ghosts") && said.contains("models none"), "{said}");
-    let said = fault(DOUBLE_GAUSS, &format!("{GLARE}, sensor_reflectance = 0.1"), "");
-    assert!(said.contains("effects.sensor_reflectance") && said.contains("no effect without ghosts"), "{said}");
+    let error = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
+    let message = error("type = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
+    assert!(message.contains("effects.ghosts") && message.contains("the lens is a pinhole"), "{message}");
+    let message = error(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
+    assert!(message.contains("output.ghosts") && message.contains("models none"), "{message}");
+    let message = error(DOUBLE_GAUSS, &format!("{GLARE}, sensor_reflectance = 0.1"), "");
+    assert!(message.contains("effects.sensor_reflectance") && message.contains("no effect without ghosts"), "{message}");
 }
 
 #[test]
@@ -301,10 +301,10 @@ fn a_lenss_coating_is_that_of_its_surfaces_against_air() {
         let plan = behind(&format!("{DOUBLE_GAUSS}{coating}"), GLARE, "").expect("no fault");
         plan.cameras[0].body.lens.transmittance()
     };
-    let (bare, coated, share) = (of(""), of(", coating = { quarter_wave_nm = 550 }"), of(", coating = 0.99"));
+    let (bare, coated, constant) = (of(""), of(", coating = { quarter_wave_nm = 550 }"), of(", coating = 0.99"));
     // Eight surfaces against air; the cemented two keep their reflectance, which is nearly zero.
     assert!(bare < 0.65 && coated > 0.9, "{bare} {coated}");
-    assert!((share / [0.99_f64; 8].iter().product::<f64>() - 1.0).abs() < 1e-3, "{share}");
+    assert!((constant / [0.99_f64; 8].iter().product::<f64>() - 1.0).abs() < 1e-3, "{constant}");
 }
 
 /// The angle response of micro-lenses needs the exit pupil, which the lens provides.

@@ -45,7 +45,7 @@ pub(super) fn timing(
 }
 
 /// Determines the time dependence of each camera's light, and whether its route supports it.
-pub(super) fn depend(
+pub(super) fn set_time_dependence(
     cameras: &mut [CameraPlan],
     world: &World,
     sources: &Sources,
@@ -55,13 +55,13 @@ pub(super) fn depend(
 ) {
     let objects = world.instances().iter().map(|instance| &instance.to_world);
     let lamps = sources.lamps.iter().map(|lamp| lamp.to_world());
-    let deforms = world.meshes().iter().filter_map(Mesh::animation).any(|animation| !animation.is_still());
-    let carried = objects.chain(lamps).any(|motion| motion.as_still().is_none());
-    let moves = carried || deforms || air_moves;
+    let deforms = world.meshes().iter().filter_map(Mesh::animation).any(|animation| !animation.is_static());
+    let is_moving = objects.chain(lamps).any(|motion| motion.as_constant().is_none());
+    let moves = is_moving || deforms || air_moves;
     for camera in cameras {
         check_drops(camera, context);
         camera.time = match () {
-            () if moves || !camera.path.is_still() || has_changing_front(camera) => TimeDependence::Motion,
+            () if moves || !camera.path.is_stationary() || has_changing_front(camera) => TimeDependence::Motion,
             () if is_modulated => TimeDependence::Lights,
             () => TimeDependence::None,
         };
@@ -69,7 +69,7 @@ pub(super) fn depend(
         if camera.time != TimeDependence::None && at_pupil && !camera.timing.exposure.is_global() {
             let problem = "rows that are read in turn are exposed at different times, but route = \"pupil\" stores the \
                            light of one exposure for all of them";
-            context.fault(
+            context.error(
                 ErrorCode::NotModelled,
                 &camera.body.place,
                 problem,
@@ -82,7 +82,7 @@ pub(super) fn depend(
         {
             let problem = "rows that are read in turn are exposed at different times, but a row of the undistorted \
                            twin combines several of them";
-            context.fault(
+            context.error(
                 ErrorCode::NotModelled,
                 &camera.body.place,
                 problem,
@@ -94,11 +94,11 @@ pub(super) fn depend(
 
 /// Refuses drops that start too early: they are simulated step by step from their start, in a time proportional to their age.
 fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
-    let course = camera.body.front.as_ref().and_then(|front| front.course());
-    let age_s = course.map_or(0.0, |course| camera.timing.frame_start_s(0) - course.start_s);
+    let drop_motion = camera.body.front.as_ref().and_then(|front| front.course());
+    let age_s = drop_motion.map_or(0.0, |drop_motion| camera.timing.frame_start_s(0) - drop_motion.start_s);
     if age_s > MAX_DROPS_AGE_S {
         let problem = format!("the drops begin {age_s:.0} s before frame 0; at most {MAX_DROPS_AGE_S} s are simulated");
-        context.fault(
+        context.error(
             ErrorCode::ImpossibleTiming,
             &camera.body.place,
             problem,
@@ -114,18 +114,18 @@ fn has_changing_front(camera: &CameraPlan) -> bool {
 
 /// Frame period as stated by the sequence, or by the sensor.
 fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut Context<'_>) -> Option<f64> {
-    let stated = sensor.electronics.as_ref().and_then(|e| e.frame_period_s.as_ref());
-    let Some(rate) = sequence.map(|s| &s.frame_rate_hz) else { return stated.map(|s| s.value) };
-    if let Some(stated) = stated.filter(|s| (s.value * rate.value - 1.0).abs() > RATE_TOLERANCE) {
+    let period = sensor.electronics.as_ref().and_then(|e| e.frame_period_s.as_ref());
+    let Some(rate) = sequence.map(|s| &s.frame_rate_hz) else { return period.map(|s| s.value) };
+    if let Some(period) = period.filter(|s| (s.value * rate.value - 1.0).abs() > RATE_TOLERANCE) {
         let problem = format!(
             "\"frame_period_s\" is {} s, but the job's sequence has {} frames per second, one every {} s",
-            stated.value,
+            period.value,
             rate.value,
             1.0 / rate.value
         );
-        context.fault(
+        context.error(
             ErrorCode::Contradiction,
-            &stated.place,
+            &period.place,
             problem,
             "make the two agree, or remove \"frame_period_s\" if nothing requires it",
         );
@@ -139,23 +139,23 @@ fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, 
     let jitter_s = timing.jitter.map_or(0.0, |jitter| 2.0 * jitter.half_width_s);
     let exposed_s = timing.exposure.longest_row_s() + jitter_s;
     let read_s = timing.exposure.reading_s() + jitter_s;
-    let most_s = period_s * (1.0 + RATE_TOLERANCE);
-    if exposed_s > most_s {
+    let max_period_s = period_s * (1.0 + RATE_TOLERANCE);
+    if exposed_s > max_period_s {
         let problem = format!(
             "a row takes {exposed_s} s from the start of its first exposure to the end of its last, including jitter, \
              but the frame period is {period_s} s"
         );
-        context.fault(
+        context.error(
             ErrorCode::ImpossibleTiming,
             place(sensor, sequence),
             problem,
             "reduce the exposure or the frame rate",
         );
-    } else if read_s > most_s {
+    } else if read_s > max_period_s {
         let problem =
             format!("reading all rows takes {read_s} s, including jitter, but the frame period is {period_s} s");
         let rows = sensor.shutter.as_ref().and_then(|shutter| shutter.row_time_us());
-        context.fault(
+        context.error(
             ErrorCode::ImpossibleTiming,
             rows.map_or(&sensor.place, |time| &time.place),
             problem,

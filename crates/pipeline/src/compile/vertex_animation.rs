@@ -20,9 +20,9 @@ pub(super) fn mesh(
     context: &mut Context<'_>,
 ) -> Option<Result<(Mesh, DroppedTriangles), MeshError>> {
     let files: Vec<PathBuf> = record.frame_files().into_iter().map(|file| file.value).collect();
-    let found: Vec<&MeshFrameAsset> = files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
-    if found.len() < files.len() {
-        context.fault(
+    let mesh_frames: Vec<&MeshFrameAsset> = files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
+    if mesh_frames.len() < files.len() {
+        context.error(
             ErrorCode::UnreadableFile,
             &record.files.place,
             "a file of the mesh was not loaded",
@@ -30,11 +30,11 @@ pub(super) fn mesh(
         );
         return None;
     }
-    let before = context.faults.len();
-    for (file, frame) in files.iter().zip(&found).skip(1) {
-        if let Some([own, first]) = frame.difference(found[0]) {
+    let before = context.errors.len();
+    for (file, frame) in files.iter().zip(&mesh_frames).skip(1) {
+        if let Some([own, first]) = frame.difference(mesh_frames[0]) {
             let problem = format!("{} has {own}, but {} has {first}", file.display(), files[0].display());
-            context.fault(
+            context.error(
                 ErrorCode::UnsuitableFile,
                 &record.files.place,
                 problem,
@@ -42,15 +42,15 @@ pub(super) fn mesh(
             );
         }
     }
-    if context.faults.len() > before {
+    if context.errors.len() > before {
         return None;
     }
-    Some(Weld::new(&found, asset).mesh(record, asset, context.epoch))
+    Some(WeldedVertices::new(&mesh_frames, asset).mesh(record, asset, context.epoch))
 }
 
 /// A corner of a face.
 #[derive(Clone, Copy)]
-struct Corner {
+struct MeshCorner {
     /// Index of the part of the mesh.
     part: usize,
     /// Index of the corner in the part.
@@ -58,34 +58,34 @@ struct Corner {
 }
 
 /// Identity of a vertex: part, vertex, texture coordinates, and the normal in each file, or the triangle if a normal is missing.
-type Key = (usize, u32, u32, Vec<u32>);
+type VertexKey = (usize, u32, u32, Vec<u32>);
 
 /// Vertices of a mesh in all its files.
-struct Weld<'a> {
+struct WeldedVertices<'a> {
     files: &'a [&'a MeshFrameAsset],
     origin: DVec3,
     has_normals: bool,
-    known: HashMap<Key, u32>,
+    indices_by_key: HashMap<VertexKey, u32>,
     frames: Vec<VertexFrame>,
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
 }
 
-impl<'a> Weld<'a> {
+impl<'a> WeldedVertices<'a> {
     fn new(files: &'a [&'a MeshFrameAsset], asset: &MeshAsset) -> Self {
         let mut weld = Self {
             files,
             origin: DVec3::from_array(asset.origin),
             has_normals: !asset.normals.is_empty(),
-            known: HashMap::new(),
+            indices_by_key: HashMap::new(),
             frames: vec![VertexFrame::default(); files.len()],
             uvs: Vec::new(),
             triangles: Vec::new(),
         };
         let first = files[0];
         let parts = first.parts.iter().enumerate();
-        let corners: Vec<Corner> =
-            parts.flat_map(|(part, p)| (0..p.vertices.len()).map(move |corner| Corner { part, corner })).collect();
+        let corners: Vec<MeshCorner> =
+            parts.flat_map(|(part, p)| (0..p.vertices.len()).map(move |corner| MeshCorner { part, corner })).collect();
         for (triangle, own) in first.triangles.iter().zip(&asset.triangles) {
             let places = triangle.map(|corner| corners[corner as usize]);
             let uvs = own.map(|v| asset.uvs.get(v as usize).copied().map(Vec2::from));
@@ -94,7 +94,7 @@ impl<'a> Weld<'a> {
         weld
     }
 
-    fn triangle(&mut self, corners: [Corner; 3], uvs: [Option<Vec2>; 3]) {
+    fn triangle(&mut self, corners: [MeshCorner; 3], uvs: [Option<Vec2>; 3]) {
         let facing: Vec<Vec3> = match self.has_normals {
             true => self.files.iter().map(|file| facing(file, corners)).collect(),
             false => Vec::new(),
@@ -104,8 +104,8 @@ impl<'a> Weld<'a> {
     }
 
     /// Vertex of a corner; if a file gives it no usable normal, of this triangle alone, which faces `facing` in each file.
-    fn vertex(&mut self, place: Corner, uv: Option<Vec2>, facing: &[Vec3]) -> u32 {
-        let Corner { part, corner } = place;
+    fn vertex(&mut self, place: MeshCorner, uv: Option<Vec2>, facing: &[Vec3]) -> u32 {
+        let MeshCorner { part, corner } = place;
         let own = &self.files[0].parts[part];
         let normals: Vec<Option<Vec3>> = match self.has_normals {
             true => self.files.iter().map(|file| normal(file, place)).collect(),
@@ -120,7 +120,7 @@ impl<'a> Weld<'a> {
         };
         let key = (part, own.vertices[corner], own.uvs.get(corner).copied().unwrap_or(0), apart);
         let next = self.frames[0].positions.len() as u32; // no more than corners, which are counted
-        let vertex = *self.known.entry(key).or_insert(next);
+        let vertex = *self.indices_by_key.entry(key).or_insert(next);
         if vertex == next {
             self.add(place, &normals, facing);
             self.uvs.extend(uv);
@@ -128,8 +128,8 @@ impl<'a> Weld<'a> {
         vertex
     }
 
-    fn add(&mut self, corner: Corner, normals: &[Option<Vec3>], facing: &[Vec3]) {
-        let Corner { part, corner } = corner;
+    fn add(&mut self, corner: MeshCorner, normals: &[Option<Vec3>], facing: &[Vec3]) {
+        let MeshCorner { part, corner } = corner;
         for (number, (frame, file)) in self.frames.iter_mut().zip(self.files).enumerate() {
             let part = &file.parts[part];
             let place = DVec3::from_array(part.positions[part.vertices[corner] as usize]);
@@ -154,16 +154,16 @@ impl<'a> Weld<'a> {
 }
 
 /// Normal that a file gives a corner; `None` if it gives none, or one of zero length.
-fn normal(file: &MeshFrameAsset, corner: Corner) -> Option<Vec3> {
-    let Corner { part, corner } = corner;
+fn normal(file: &MeshFrameAsset, corner: MeshCorner) -> Option<Vec3> {
+    let MeshCorner { part, corner } = corner;
     let part = &file.parts[part];
     let normal = part.normals[*part.normal_indices.get(corner)? as usize];
     (normal != [0.0; 3]).then_some(Vec3::from(normal))
 }
 
 /// Unit normal of a triangle in a file; z for a triangle without area.
-fn facing(file: &MeshFrameAsset, corners: [Corner; 3]) -> Vec3 {
-    let [a, b, c] = corners.map(|Corner { part, corner }| {
+fn facing(file: &MeshFrameAsset, corners: [MeshCorner; 3]) -> Vec3 {
+    let [a, b, c] = corners.map(|MeshCorner { part, corner }| {
         let part = &file.parts[part];
         DVec3::from_array(part.positions[part.vertices[corner] as usize])
     });

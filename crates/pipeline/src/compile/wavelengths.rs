@@ -17,7 +17,7 @@ use etendue_sensor::Sensor;
 use etendue_spectra::{Spectrum, upsample};
 
 /// Number of values of a path's first wavelength times its wavelengths.
-const NUMBERS: usize = 4096;
+const QUANTILES: usize = 4096;
 
 /// Linear sRGB reflectances of surfaces: grey and three saturated colours.
 const SURFACES: [[f32; 3]; 4] = [[0.5, 0.5, 0.5], [0.6, 0.05, 0.05], [0.05, 0.6, 0.05], [0.05, 0.05, 0.6]];
@@ -30,12 +30,12 @@ pub(super) fn choose(
     context: &mut Context<'_>,
 ) {
     for camera in cameras {
-        let asked = description.cameras[camera.index as usize].render.wavelength_density.as_ref();
+        let requested = description.cameras[camera.index as usize].render.wavelength_density.as_ref();
         let settings = &camera.settings;
         let Some(sensor) = camera.summing_sensor() else {
-            if let Some(asked) = asked.filter(|asked| asked.value != render::WavelengthDensity::Auto) {
-                context.remark_on(
-                    &asked.place,
+            if let Some(requested) = requested.filter(|requested| requested.value != render::WavelengthDensity::Auto) {
+                context.note_on(
+                    &requested.place,
                     "this has no effect: no pixels sum electrons, so wavelengths are sampled uniformly",
                 );
             }
@@ -45,11 +45,11 @@ pub(super) fn choose(
         let density =
             PixelDensity { sampling: settings.wavelength_sampling, sources, range: settings.range, keeps_bands };
         let gain = spectral_gain(sensor, density, settings.wavelengths);
-        camera.settings.wavelength_sampling = match asked.map_or(render::WavelengthDensity::Auto, |asked| asked.value) {
+        camera.settings.wavelength_sampling = match requested.map_or(render::WavelengthDensity::Auto, |requested| requested.value) {
             render::WavelengthDensity::Uniform => WavelengthSampling::Uniform,
             render::WavelengthDensity::Response => WavelengthSampling::Response,
             render::WavelengthDensity::ResponseAndSource => WavelengthSampling::ResponseAndSource,
-            render::WavelengthDensity::Auto if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::pays) => {
+            render::WavelengthDensity::Auto if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::should_apply) => {
                 WavelengthSampling::ResponseAndSource
             }
             render::WavelengthDensity::Auto => WavelengthSampling::Response,
@@ -63,47 +63,47 @@ fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: 
     let PixelDensity { sources, range, .. } = pixel_density;
     let surfaces = SURFACES.map(upsample::reflectance_spectrum);
     let rates = sensor.rate_responsivities();
-    let (mut sum, mut sites, mut least, mut most) = (0.0, 0.0, f64::INFINITY, 0.0_f64);
+    let (mut sum, mut sites, mut min, mut max) = (0.0, 0.0, f64::INFINITY, 0.0_f64);
     for (channel, responsivity) in rates.iter().enumerate() {
         let places = sensor.parameters().cfa.channels().iter().filter(|of| **of == channel).count() as f64;
-        let density = |sampling| PixelDensity { sampling, ..pixel_density }.of(responsivity);
-        let with = Draws::of(&density(WavelengthSampling::ResponseAndSource), wavelengths as usize);
-        let without = Draws::of(&density(WavelengthSampling::Response), wavelengths as usize);
-        let lit = sources.lit(responsivity, range);
-        sites += if lit.is_empty() { 0.0 } else { places };
-        for (group, surface) in lit.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface))) {
+        let density = |sampling| PixelDensity { sampling, ..pixel_density }.density(responsivity);
+        let with = WavelengthSamples::new(&density(WavelengthSampling::ResponseAndSource), wavelengths as usize);
+        let without = WavelengthSamples::new(&density(WavelengthSampling::Response), wavelengths as usize);
+        let responses = sources.responses(responsivity, range);
+        sites += if responses.is_empty() { 0.0 } else { places };
+        for (group, surface) in responses.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface))) {
             let light = group.product.product(surface);
             let gain = without.mean_square(&light) / with.mean_square(&light);
             if !gain.is_finite() {
                 continue;
             }
             sum += places * group.weight * ln(gain) / surfaces.len() as f64;
-            (least, most) = (least.min(gain), most.max(gain));
+            (min, max) = (min.min(gain), max.max(gain));
         }
     }
-    (sites > 0.0 && most > 0.0).then(|| SpectralGain { mean: exp(sum / sites), least, most })
+    (sites > 0.0 && max > 0.0).then(|| SpectralGain { mean: exp(sum / sites), min, max })
 }
 
 /// Wavelengths at equal steps of the cumulative distribution, with their densities.
-struct Draws {
-    drawn: Vec<(f32, f32)>,
+struct WavelengthSamples {
+    samples: Vec<(f32, f32)>,
     wavelengths: usize,
 }
 
-impl Draws {
-    fn of(density: &WavelengthDensity, wavelengths: usize) -> Self {
-        let draw = |i: usize| {
-            let drawn = density.draw::<1>((i as f32 + 0.5) / NUMBERS as f32);
-            (drawn.nm[0], drawn.pdf[0])
+impl WavelengthSamples {
+    fn new(density: &WavelengthDensity, wavelengths: usize) -> Self {
+        let sample = |i: usize| {
+            let drawn_nm = density.sample::<1>((i as f32 + 0.5) / QUANTILES as f32);
+            (drawn_nm.nm[0], drawn_nm.pdf[0])
         };
-        Self { drawn: (0..NUMBERS).map(draw).collect(), wavelengths }
+        Self { samples: (0..QUANTILES).map(sample).collect(), wavelengths }
     }
 
     /// Mean square of a path's estimate of an integral, over its squared mean.
     fn mean_square(&self, light: &Spectrum) -> f64 {
-        let paths = NUMBERS / self.wavelengths;
+        let paths = QUANTILES / self.wavelengths;
         let value = |(nm, pdf): (f32, f32)| f64::from(light.at(nm)) / f64::from(pdf);
-        let path = |first: usize| (0..self.wavelengths).map(|i| value(self.drawn[first + i * paths])).sum::<f64>();
+        let path = |first: usize| (0..self.wavelengths).map(|i| value(self.samples[first + i * paths])).sum::<f64>();
         let (mut sum, mut squares) = (0.0, 0.0);
         for first in 0..paths {
             let h = path(first);
@@ -122,10 +122,10 @@ mod tests {
     /// twice.
     #[test]
     fn rotations_hit_a_quarter_of_the_range_once() {
-        let even = WavelengthDensity::new(&[1.0], 400.0, 800.0).expect("a weight");
+        let uniform = WavelengthDensity::new(&[1.0], 400.0, 800.0).expect("a weight");
         let light = Spectrum::from_fn(|nm| if (500.0..600.0).contains(&nm) { 1.0 } else { 0.0 });
         for (wavelengths, exact) in [(1, 4.0), (4, 1.0), (8, 1.0)] {
-            let q = Draws::of(&even, wavelengths).mean_square(&light);
+            let q = WavelengthSamples::new(&uniform, wavelengths).mean_square(&light);
             // The edges of the light are 1 nm wide.
             assert!((q / exact - 1.0).abs() < 0.01, "{wavelengths}: {q}");
         }

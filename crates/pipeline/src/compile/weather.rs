@@ -2,9 +2,9 @@
 
 use super::context::Context;
 use super::{medium, precipitation, spectrum};
-use crate::plan::{Airlight, Falling, Weather};
+use crate::plan::{Airlight, PrecipitationExposure, Weather};
 use etendue_core::{Epoch, Motion};
-use etendue_scene::Fault;
+use etendue_scene::DescriptionError;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::weather::{self as record, Fog};
 use etendue_spectra::Spectrum;
@@ -17,15 +17,15 @@ const SKY_DEG: f64 = 10.0;
 ///
 /// # Errors
 /// All contradictions, with their places.
-pub fn compile_weather(weather: &record::Weather, assets: &Assets) -> Result<Weather, Vec<Fault>> {
+pub fn compile_weather(weather: &record::Weather, assets: &Assets) -> Result<Weather, Vec<DescriptionError>> {
     let mut context = Context::new(assets, Epoch::default());
     let airlight = airlight(&weather.airlight, &mut context);
     let mut media: Vec<_> = weather.fog.iter().filter_map(|fog| self::fog(fog, &mut context)).collect();
     let falls = precipitation::precipitation(weather.precipitation.as_ref(), &mut media, &mut context);
     let falling = falls.zip(weather.exposure_s.as_ref());
-    let falling = falling.map(|(precipitation, of)| Falling { precipitation, exposure_s: of.value });
-    let faults = context.into_faults();
-    airlight.filter(|_| faults.is_empty()).map(|airlight| Weather { airlight, media, falling }).ok_or(faults)
+    let falling = falling.map(|(precipitation, of)| PrecipitationExposure { precipitation, exposure_s: of.value });
+    let errors = context.into_errors();
+    airlight.filter(|_| errors.is_empty()).map(|airlight| Weather { airlight, media, falling }).ok_or(errors)
 }
 
 fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airlight> {
@@ -41,9 +41,9 @@ fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airl
 /// Only the extinction of fog is used: albedo and phase function are arbitrary.
 fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
     let extinction = medium::extinction(&record.extinction, context)?;
-    let to_world = Motion::still(record.transform.to_world());
+    let to_world = Motion::constant(record.transform.to_world());
     let shape = medium::shape(record.shape.as_ref(), context)?;
-    let made = Medium::new(extinction, Spectrum::constant(1.0), Phase::Isotropic, shape, to_world);
-    let fog = context.accept(&record.place, made)?;
+    let medium = Medium::new(extinction, Spectrum::constant(1.0), Phase::Isotropic, shape, to_world);
+    let fog = context.accept(&record.place, medium)?;
     Some(medium::with_unevenness(fog, record.unevenness.as_ref()))
 }

@@ -4,7 +4,7 @@ use super::context::{Context, ErrorCode};
 use super::frames::Frames;
 use super::material::{MaterialTableBuilder, has_picture};
 use super::object_motion::placements;
-use super::opening::OpenLamp;
+use super::opening::LampWithOpening;
 use super::{opening, shape, vertex_animation};
 use crate::plan::Identity;
 use etendue_core::Accelerator;
@@ -26,7 +26,7 @@ const MISSING_GREY: f64 = 0.5;
 /// World with the openings of lamps, the identities of its ground truth in the order of the instance ids from 1, and the lamps of the openings.
 pub(super) fn world(
     description: &Description,
-    open_lamps: Vec<OpenLamp>,
+    lamps_with_opening: Vec<LampWithOpening>,
     frames: &Frames<'_>,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
@@ -41,8 +41,8 @@ pub(super) fn world(
         assembly.add_object(object, scene, frames, material_table, context);
     }
     let Assembly { mut builder, mut identities, .. } = assembly;
-    let lamps = opening::placed(open_lamps, &mut builder, &mut identities, material_table, context);
-    if !context.faults.is_empty() {
+    let lamps = opening::place_openings(lamps_with_opening, &mut builder, &mut identities, material_table, context);
+    if !context.errors.is_empty() {
         return None;
     }
     let built = builder.build();
@@ -52,8 +52,8 @@ pub(super) fn world(
 
 /// Highest requested quality: all cameras share one world.
 fn tree_quality(cameras: &[CameraSetup]) -> Accelerator {
-    let asked = |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
-    cameras.iter().map(asked).max().unwrap_or_default()
+    let accelerator = |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
+    cameras.iter().map(accelerator).max().unwrap_or_default()
 }
 
 struct Assembly {
@@ -76,7 +76,7 @@ impl Assembly {
     fn add_mesh(&mut self, record: &record::Mesh, context: &mut Context<'_>) {
         let file = record.file();
         let Some(asset) = context.assets.meshes.get(&file.value) else {
-            context.fault(
+            context.error(
                 ErrorCode::UnreadableFile,
                 &file.place,
                 "the mesh was not loaded",
@@ -84,7 +84,7 @@ impl Assembly {
             );
             return;
         };
-        asset.report.iter().for_each(|line| context.remark(line));
+        asset.report.iter().for_each(|line| context.note(line));
         asset.warnings.iter().for_each(|line| context.warn(line));
         let made = match record.animation() {
             None => mesh_of(asset),
@@ -93,10 +93,10 @@ impl Assembly {
                 None => return,
             },
         };
-        let Some((mesh, dropped)) = context.accept(&file.place, made) else { return };
+        let Some((mesh, dropped_triangles)) = context.accept(&file.place, made) else { return };
         let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
-        if dropped != DroppedTriangles::default() {
-            let DroppedTriangles { zero_area, duplicate, .. } = dropped;
+        if dropped_triangles != DroppedTriangles::default() {
+            let DroppedTriangles { zero_area, duplicate, .. } = dropped_triangles;
             let message = format!("{zero_area} triangles of zero area and {duplicate} duplicates are removed");
             context.warn_on(file.value.display(), message);
         }
@@ -113,8 +113,8 @@ impl Assembly {
         context: &mut Context<'_>,
     ) {
         let prototype = match &object.body {
-            Body::Mesh(name) => self.of_mesh(object, &name.value, scene, material_table, context),
-            Body::Shape(shape) => self.of_shape(object, shape, material_table, context),
+            Body::Mesh(name) => self.mesh_object(object, &name.value, scene, material_table, context),
+            Body::Shape(shape) => self.shape_object(object, shape, material_table, context),
         };
         let Some(prototype) = prototype else { return };
         let class = class_of(object, scene);
@@ -133,36 +133,36 @@ impl Assembly {
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,
             };
-            self.share_flux(&mut instance, object, material_table, context);
+            self.apply_flux_area(&mut instance, object, material_table, context);
             delay_light(&mut instance, object, number, material_table, context);
             self.builder.add_instance(instance);
         }
     }
 
     /// Replaces materials with a stated flux by variants for their area on this instance.
-    fn share_flux(
+    fn apply_flux_area(
         &self,
         instance: &mut Instance,
         object: &Object,
         material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
-        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.gives_flux(*id)).collect();
+        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.has_stated_flux(*id)).collect();
         for id in shared {
             match self.builder.area_m2(instance, id) {
                 // None of its surfaces has the material, or another slot with the same material was processed.
                 Some(0.0) => {}
                 Some(area_m2) => {
-                    let like = material_table.of_area(id, area_m2);
+                    let like = material_table.with_area(id, area_m2);
                     instance.materials.iter_mut().filter(|m| **m == id).for_each(|m| *m = like);
                 }
-                None if !instance.to_world.keeps_areas() => context.fault(
+                None if !instance.to_world.keeps_areas() => context.error(
                     ErrorCode::NotModelled,
                     &object.place,
                     "the flux of a light requires a constant area, but the scale of this surface changes over time",
                     "give its keys one scale, or give the light's luminance or radiance",
                 ),
-                None => context.fault(
+                None => context.error(
                     ErrorCode::NotModelled,
                     &object.place,
                     "the flux of a light requires a known area, but this sphere is scaled non-uniformly",
@@ -172,7 +172,7 @@ impl Assembly {
         }
     }
 
-    fn of_mesh(
+    fn mesh_object(
         &self,
         object: &Object,
         name: &str,
@@ -185,10 +185,10 @@ impl Assembly {
         let shape = Shape::Mesh(*self.meshes.get(name)?);
         let materials = slot_materials(object, record, asset, material_table, context)?;
         check_coordinates(record, asset, &materials, material_table, object, context);
-        if record.animation().is_some() && materials.iter().any(|id| material_table.glows(*id)) {
+        if record.animation().is_some() && materials.iter().any(|id| material_table.is_emissive(*id)) {
             let problem =
                 format!("the vertices of \"{name}\" move, but an emissive surface must have a constant shape");
-            context.fault(
+            context.error(
                 ErrorCode::NotModelled,
                 &object.place,
                 problem,
@@ -200,7 +200,7 @@ impl Assembly {
         Some(Prototype { shape, materials, to_object, axes: record.axes().transpose() })
     }
 
-    fn of_shape(
+    fn shape_object(
         &mut self,
         object: &Object,
         record: &ShapeRecord,
@@ -247,11 +247,11 @@ fn delay_light(
             continue;
         }
         is_modulated = true;
-        *id = material_table.of_delay(*id, own_s, &name);
+        *id = material_table.with_delay(*id, own_s, &name);
     }
     if let (Some(delay), false) = (own, is_modulated) {
         let problem = "\"modulation_delay_s\" has no effect on an object whose light does not change";
-        context.fault(
+        context.error(
             ErrorCode::NoEffect,
             &delay.place,
             problem,
@@ -281,32 +281,32 @@ fn slot_materials(
         check_slot(slot, mesh, asset, context);
     }
     let named = |slot: &str| object.materials.iter().find(|(name, _)| name.value == slot).map(|(_, m)| m);
-    let shown = asset.shown_slots();
+    let visible = asset.shown_slots();
     asset
         .slot_materials
         .iter()
-        .zip(shown)
+        .zip(visible)
         .map(|(slot, is_shown)| match named(&slot.name) {
             Some(material) => material_table.named(&material.value),
             None => {
                 let slot = match is_shown || !has_picture(slot) {
-                    true => known(slot, mesh, asset, context),
-                    false => Cow::Owned(unseen(slot)),
+                    true => slot_or_grey(slot, mesh, asset, context),
+                    false => Cow::Owned(unused_slot(slot)),
                 };
-                material_table.of_slot(&mesh.file().value, &slot, &object.place, context)
+                material_table.add_slot(&mesh.file().value, &slot, &object.place, context)
             }
         })
         .collect()
 }
 
 /// Black placeholder for a material of an image that no triangle has and that is not read.
-fn unseen(slot: &SlotMaterial) -> SlotMaterial {
+fn unused_slot(slot: &SlotMaterial) -> SlotMaterial {
     let reflectance = SlotReflectance::LinearSrgb([0.0; 3]);
     SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) }
 }
 
 /// A slot, or a grey placeholder if the library that defines it does not exist.
-fn known<'a>(
+fn slot_or_grey<'a>(
     slot: &'a SlotMaterial,
     mesh: &record::Mesh,
     asset: &MeshAsset,
@@ -315,9 +315,9 @@ fn known<'a>(
     if slot.surface.is_some() || slot.name.is_empty() || asset.missing_libraries.is_empty() {
         return Cow::Borrowed(slot);
     }
-    let about = format!("{}, material \"{}\"", mesh.file().value.display(), slot.name);
+    let subject = format!("{}, material \"{}\"", mesh.file().value.display(), slot.name);
     let missing = asset.missing_libraries.join("; ");
-    context.warn_on(about, format!("{missing}: grey of reflectance {MISSING_GREY} is used instead"));
+    context.warn_on(subject, format!("{missing}: grey of reflectance {MISSING_GREY} is used instead"));
     let reflectance = SlotReflectance::LinearSrgb([MISSING_GREY; 3]);
     Cow::Owned(SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) })
 }
@@ -337,7 +337,7 @@ fn check_coordinates(
         let file = mesh.file();
         let problem =
             format!("{} has no texture coordinates, but its material \"{name}\" requires them", file.value.display());
-        context.fault(
+        context.error(
             ErrorCode::UnsuitableFile,
             &object.place,
             problem,
@@ -354,7 +354,7 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
             true => "the file names no materials; give \"material\" instead of \"materials\"".to_owned(),
             false => format!("give one of {}", known.join(", ")),
         };
-        context.fault(ErrorCode::UnknownName, &slot.place, problem, remedy);
+        context.error(ErrorCode::UnknownName, &slot.place, problem, remedy);
     }
 }
 

@@ -1,11 +1,11 @@
 //! A camera of a plan.
 
 use super::camera_body::CameraBody;
-use super::passes::{PassAt, Passes};
+use super::passes::{NumberedPass, Passes};
 use super::products::Products;
 use super::settings::{Route, Settings};
 use super::timing::{TimeDependence, Timing};
-use crate::sizes::film::Layout;
+use crate::sizes::film::FilmLayout;
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use crate::sizes::tolerance::Tolerance;
 use etendue_core::{CameraPath, CameraPose};
@@ -50,8 +50,8 @@ impl CameraPlan {
 
     /// Pass of a given index.
     #[must_use]
-    pub fn pass(&self, number: usize) -> PassAt {
-        self.passes.as_ref().map_or(PassAt::only(self.settings.spp), |passes| passes.at(number))
+    pub fn pass(&self, number: usize) -> NumberedPass {
+        self.passes.as_ref().map_or(NumberedPass::only(self.settings.spp), |passes| passes.at(number))
     }
 
     /// Poses of this camera and another in the frame that carries both rigidly; `None` if there is none, so that they may move apart.
@@ -64,7 +64,7 @@ impl CameraPlan {
     /// Times, s, at which two independently moving cameras are compared: the middle of the first row's exposure in frame 0, and all their keys and the times
     /// half-way between.
     #[must_use]
-    pub fn times_beside_s(&self, other: &Self) -> Vec<f64> {
+    pub fn comparison_times_s(&self, other: &Self) -> Vec<f64> {
         let mut keys_s = self.path.key_times_s();
         keys_s.extend(other.path.key_times_s());
         keys_s.sort_by(f64::total_cmp);
@@ -81,15 +81,15 @@ impl CameraPlan {
 
     /// Returns true if no earlier camera of the job has the same light.
     #[must_use]
-    pub fn owns_light(&self) -> bool {
+    pub fn is_first_with_light(&self) -> bool {
         self.light.index == self.index
     }
 
     /// Sensor for which the film accumulates electrons, or monitors their noise.
     #[must_use]
     pub fn summing_sensor(&self) -> Option<&Sensor> {
-        let Settings { folded, adaptive, route, .. } = &self.settings;
-        self.body.sensor.as_ref().filter(|_| *folded || adaptive.is_some() && *route == Route::Lens)
+        let Settings { accumulates_electrons, adaptive, route, .. } = &self.settings;
+        self.body.sensor.as_ref().filter(|_| *accumulates_electrons || adaptive.is_some() && *route == Route::Lens)
     }
 
     /// Columns and rows of the film: of the image with its margin, or of the stored radiance.
@@ -103,9 +103,9 @@ impl CameraPlan {
 
     /// Returns the planes of its film.
     #[must_use]
-    pub fn film_layout(&self) -> Layout {
-        let Settings { bands, folded, adaptive, .. } = self.settings;
-        Layout { bands, folded, watched: adaptive.is_some() }
+    pub fn film_layout(&self) -> FilmLayout {
+        let Settings { bands, accumulates_electrons, adaptive, .. } = self.settings;
+        FilmLayout { bands, accumulates_electrons, watched: adaptive.is_some() }
     }
 
     /// Returns the scheme that spreads the wavelengths of its samples.
@@ -124,17 +124,17 @@ impl CameraPlan {
     pub fn tolerance(&self) -> Option<Tolerance> {
         let limit = self.settings.adaptive?;
         let sensor = self.body.sensor.as_ref().filter(|_| self.settings.route == Route::Lens);
-        let noise = sensor.map(|sensor| match self.light_stays(sensor) {
+        let noise = sensor.map(|sensor| match self.stays_in_pixel(sensor) {
             true => sensor.temporal_noise(),
-            false => sensor.temporal_noise().never_white(),
+            false => sensor.temporal_noise().without_saturation(),
         });
         Some(Tolerance::new(limit, noise))
     }
 
     /// Returns true if light beyond white affects only the pixel's own number: no effect spreads it, no charge overflows to neighbours, and no spectrum is
     /// stored.
-    fn light_stays(&self, sensor: &Sensor) -> bool {
-        self.body.effects.is_idle() && self.settings.bands.is_none() && !sensor.spills()
+    fn stays_in_pixel(&self, sensor: &Sensor) -> bool {
+        self.body.effects.is_idle() && self.settings.bands.is_none() && !sensor.has_spatial_coupling()
     }
 }
 

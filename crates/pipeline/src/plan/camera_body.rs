@@ -9,7 +9,7 @@ use etendue_sensor::Sensor;
 use glam::DVec2;
 
 /// Distance of the nearest object whose blur from outside the image is included, m.
-const NEAREST_M: f64 = 1.0;
+const MIN_DISTANCE_M: f64 = 1.0;
 /// Maximum margin, as a fraction of the longer side of the image.
 const MAX_MARGIN: f64 = 0.25;
 
@@ -57,7 +57,7 @@ impl CameraBody {
         let sensor_mm = self.raster.sensor_mm(raster_px);
         match &self.front {
             Some(front) => front.truth_ray(&self.lens, sensor_mm),
-            None => self.lens.truth_ray(sensor_mm).map(|truth| (FrontRay::bare(truth.ray), truth.off_centre)),
+            None => self.lens.truth_ray(sensor_mm).map(|truth| (FrontRay::without_front(truth.ray), truth.off_centre)),
         }
     }
 
@@ -97,12 +97,12 @@ impl CameraBody {
     /// within.
     #[must_use]
     pub fn short_blur_margin_px(&self, depth_of_field: &DepthOfField) -> Option<[usize; 2]> {
-        let [reach, most] = [self.blur_reach_px(depth_of_field), self.max_blur_margin_px()];
-        (reach > most).then_some([reach, most])
+        let [reach, max_margin] = [self.blur_reach_px(depth_of_field), self.max_blur_margin_px()];
+        (reach > max_margin).then_some([reach, max_margin])
     }
 
     fn blur_reach_px(&self, depth_of_field: &DepthOfField) -> usize {
-        depth_of_field.reach_px(&self.lens, &self.raster, NEAREST_M)
+        depth_of_field.reach_px(&self.lens, &self.raster, MIN_DISTANCE_M)
     }
 
     fn max_blur_margin_px(&self) -> usize {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Memory limit of the bands of a film, and the storage of films that exceed it. No result depends on it.
 #[derive(Clone, Debug)]
-pub struct FilmLimit {
+pub struct FilmMemoryLimit {
     /// Maximum bytes of the means and variances of one film.
     pub bytes: u64,
     /// Storage of larger films.
@@ -30,7 +30,7 @@ pub(crate) fn needs_all_bands(camera: &CameraPlan) -> Option<&'static str> {
 /// Returns true if a product depends on the irradiance.
 pub(crate) fn needs_irradiance(camera: &CameraPlan) -> bool {
     let products = &camera.products;
-    products.irradiance || products.ghosts || (!camera.settings.folded && needs_electrons(&camera.body, products))
+    products.irradiance || products.ghosts || (!camera.settings.accumulates_electrons && needs_electrons(&camera.body, products))
 }
 
 /// Returns true if a product depends on electrons.

@@ -16,7 +16,7 @@ mod timing;
 mod wavelength_sampling;
 mod weather;
 
-use crate::plan::remark::Remark;
+use crate::plan::remark::Note;
 use etendue_core::storage::ScratchStore;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
@@ -28,19 +28,19 @@ use std::sync::Arc;
 pub use crate::sizes::tolerance::AdaptiveSampling;
 pub use camera::{CameraPlan, LightOwner, Mount};
 pub use camera_body::CameraBody;
-pub use film::FilmLimit;
+pub use film::FilmMemoryLimit;
 pub(crate) use passes::{CameraPasses, hash_with_passes};
-pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
+pub use passes::{MAX_PASSES, PARTS, Pass, NumberedPass, Passes};
 pub use products::{
     Annotations, CorrespondenceFormat, Development, DisparityProduct, ListedProduct, PictureFormat, Products,
-    raw_extension, usual_raw_format,
+    raw_extension, default_raw_format,
 };
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
 pub use settings::{Route, Settings};
 pub use source_spectra::SourceSpectra;
 pub use timing::{Jitter, TimeDependence, Timing};
 pub use wavelength_sampling::{SpectralGain, WavelengthSampling};
-pub use weather::{Airlight, Falling, Precipitation, Weather};
+pub use weather::{Airlight, PrecipitationExposure, Precipitation, Weather};
 
 /// Data of a render, for all cameras of a job.
 #[derive(Clone, Debug)]
@@ -68,11 +68,11 @@ pub struct Plan {
     /// Semantic classes: name and id.
     pub classes: Vec<(String, u32)>,
     /// Notes and warnings: inputs that were read but not used, values that were dropped, ends of tables.
-    pub remarks: Vec<Remark>,
+    pub notes: Vec<Note>,
     /// Keys of the files that the command line overrides, as sentences.
-    pub notices: Vec<String>,
+    pub overridden_keys: Vec<String>,
     /// Memory limit of film bands; `None`: unlimited.
-    pub film_limit: Option<FilmLimit>,
+    pub film_limit: Option<FilmMemoryLimit>,
     /// Hash of everything that determines the result: description, assets by content, version.
     pub hash: [u8; 32],
     /// The same hash without the passes of cameras that have any.

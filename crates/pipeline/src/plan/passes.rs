@@ -25,20 +25,20 @@ pub struct Pass {
 impl Pass {
     /// A pass over all pixels.
     #[must_use]
-    pub fn whole(samples: u32) -> Self {
+    pub fn all_pixels(samples: u32) -> Self {
         Self { samples, part: PARTS }
     }
 
     /// Converts an entry of a list of passes: samples per pixel, a multiple of `replicates` or, on average, fewer than these. `None` if it is neither.
     #[must_use]
-    pub fn of_number(number: f64, replicates: u32) -> Option<Self> {
-        let most = f64::from(replicates);
-        if number < most {
-            let part = (number / most * f64::from(PARTS)).round() as u32;
+    pub fn from_number(number: f64, replicates: u32) -> Option<Self> {
+        let max = f64::from(replicates);
+        if number < max {
+            let part = (number / max * f64::from(PARTS)).round() as u32;
             return Some(Self { samples: replicates, part: part.clamp(1, PARTS) });
         }
         let is_multiple = number.fract() == 0.0 && (number as u64).is_multiple_of(replicates.into());
-        is_multiple.then(|| Self::whole(number as u32))
+        is_multiple.then(|| Self::all_pixels(number as u32))
     }
 
     /// Entry in a list of passes.
@@ -74,7 +74,7 @@ impl Passes {
             let next = done.max(2 * replicates);
             let left = spp - done;
             let samples = if left < next + next / 2 { left } else { next };
-            list.push(Pass::whole(samples));
+            list.push(Pass::all_pixels(samples));
             done += samples;
         }
         Self(list)
@@ -105,10 +105,10 @@ impl Passes {
 
     /// Pass of a given index, with the passes before it.
     #[must_use]
-    pub fn at(&self, number: usize) -> PassAt {
+    pub fn at(&self, number: usize) -> NumberedPass {
         let before = &self.0[..number];
         let parts = before.iter().filter(|pass| !pass.is_whole()).map(|pass| pass.part);
-        PassAt {
+        NumberedPass {
             pass: self.0[number],
             number: number as u32,
             before_spp: before.iter().filter(|pass| pass.is_whole()).map(|pass| pass.samples).sum(),
@@ -125,12 +125,12 @@ impl Passes {
 
     /// Parses the text of [`Passes::text`]; `None` if it is no valid list of passes.
     #[must_use]
-    pub fn of_text(text: &str, replicates: u32) -> Option<Self> {
+    pub fn from_text(text: &str, replicates: u32) -> Option<Self> {
         let numbers = text.strip_prefix('[')?.strip_suffix(']')?;
         if numbers.is_empty() {
             return Some(Self::default());
         }
-        let pass = |number: &str| Pass::of_number(number.parse().ok()?, replicates);
+        let pass = |number: &str| Pass::from_number(number.parse().ok()?, replicates);
         numbers.split(", ").map(pass).collect::<Option<Vec<_>>>().map(Self)
     }
 }
@@ -169,7 +169,7 @@ pub(crate) fn hash_with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -
 
 /// A pass at its position among the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PassAt {
+pub struct NumberedPass {
     /// The pass.
     pub pass: Pass,
     /// Number of passes before it.
@@ -180,11 +180,11 @@ pub struct PassAt {
     pub first_part: u32,
 }
 
-impl PassAt {
+impl NumberedPass {
     /// A single pass.
     #[must_use]
     pub fn only(samples: u32) -> Self {
-        Self { pass: Pass::whole(samples), number: 0, before_spp: 0, first_part: 0 }
+        Self { pass: Pass::all_pixels(samples), number: 0, before_spp: 0, first_part: 0 }
     }
 
     /// Returns true if it takes the block of pixels that starts with `first`.
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_schedule_doubles_and_ends_with_the_rest() {
-        for (spp, replicates, told) in [
+        for (spp, replicates, expected) in [
             (64, 4, vec![8.0, 8.0, 16.0, 32.0]),
             (72, 4, vec![8.0, 8.0, 16.0, 40.0]),
             (100, 4, vec![8.0, 8.0, 16.0, 32.0, 36.0]),
@@ -218,35 +218,35 @@ mod tests {
             (3, 1, vec![2.0, 1.0]),
         ] {
             let passes = Passes::doubling(spp, replicates);
-            assert_eq!(numbers(&passes), told, "{spp}");
+            assert_eq!(numbers(&passes), expected, "{spp}");
             assert_eq!(passes.spp(), spp);
         }
     }
 
     #[test]
     fn a_number_is_read_as_it_is_written() {
-        let passes: Option<Vec<Pass>> = [8.0, 16.0, 1.5, 0.015_625].iter().map(|n| Pass::of_number(*n, 4)).collect();
+        let passes: Option<Vec<Pass>> = [8.0, 16.0, 1.5, 0.015_625].iter().map(|n| Pass::from_number(*n, 4)).collect();
         let passes = Passes::new(passes.expect("multiples, or fewer than the replicates"));
         assert_eq!(passes.list()[2], Pass { samples: 4, part: 96 });
         assert_eq!(passes.text(), "[8, 16, 1.5, 0.015625]");
-        assert_eq!(Passes::of_text(&passes.text(), 4), Some(passes.clone()));
+        assert_eq!(Passes::from_text(&passes.text(), 4), Some(passes.clone()));
         assert_eq!((passes.spp(), passes.mean_spp()), (24, 25.515_625));
-        assert!([6.0, 4.5].iter().all(|n| Pass::of_number(*n, 4).is_none()));
+        assert!([6.0, 4.5].iter().all(|n| Pass::from_number(*n, 4).is_none()));
     }
 
     /// Each pixel is in exactly one of three parts that cover the whole, and every square of 16 × 16 has its proportion.
     #[test]
     fn parts_follow_one_another_and_are_even() {
         let part = |part| Pass { samples: 4, part };
-        let passes = Passes::new(vec![Pass::whole(4), part(100), part(56), part(100)]);
-        let taken = |number: usize, x: u32, y: u32| passes.at(number).takes(Pixel { x, y });
+        let passes = Passes::new(vec![Pass::all_pixels(4), part(100), part(56), part(100)]);
+        let takes = |number: usize, x: u32, y: u32| passes.at(number).takes(Pixel { x, y });
         for (x0, y0) in [(0, 0), (160, 96)] {
             let square = || (0..256).map(|i| (x0 + i % 16, y0 + i / 16));
-            assert!(square().all(|(x, y)| (1..4).filter(|number| taken(*number, x, y)).count() == 1));
-            for (number, share) in [(1, 100), (2, 56)] {
-                let count = square().filter(|(x, y)| taken(number, *x, *y)).count();
+            assert!(square().all(|(x, y)| (1..4).filter(|number| takes(*number, x, y)).count() == 1));
+            for (number, expected_count) in [(1, 100), (2, 56)] {
+                let count = square().filter(|(x, y)| takes(number, *x, *y)).count();
                 // The star discrepancy of 256 points of such a sequence is a few hundredths.
-                assert!(count.abs_diff(share) <= 8, "{count} of {share}");
+                assert!(count.abs_diff(expected_count) <= 8, "{count} of {expected_count}");
             }
         }
     }

@@ -19,11 +19,11 @@ const STEP_NM: f64 = 5.0;
 /// Steps of the source's spectrum in one of the response's: the grid of spectra.
 const FINE_STEPS: usize = 5;
 /// Fraction of the uniform density if only electrons are accumulated: guards against a step whose mean is far below its peak.
-const UNIFORM_SHARE: f64 = 0.05;
+const UNIFORM_FRACTION: f64 = 0.05;
 /// Fraction of the uniform density if spectral bands are stored too.
-pub(crate) const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
+pub(crate) const UNIFORM_FRACTION_WITH_BANDS: f64 = 0.5;
 /// ε: fraction of the density by the response alone, if the density includes the source's spectrum.
-pub(crate) const DEFENSIVE_SHARE: f64 = 0.2;
+pub(crate) const DEFENSIVE_FRACTION: f64 = 0.2;
 
 /// Wavelength sampling of a camera's pixels.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ impl PixelDensity<'_> {
     /// Density for a pixel of a given responsivity. A pixel that receives nothing from any source samples by its response; one that responds to nothing
     /// samples uniformly.
     #[must_use]
-    pub fn of(&self, responsivity: &Spectrum) -> WavelengthDensity {
+    pub fn density(&self, responsivity: &Spectrum) -> WavelengthDensity {
         let weights = match self.sampling {
             WavelengthSampling::Uniform => vec![1.0],
             WavelengthSampling::Response => self.by_response(responsivity),
@@ -55,8 +55,8 @@ impl PixelDensity<'_> {
         WavelengthDensity::new(&weights, low_nm as f32, high_nm as f32).expect("weights are positive and finite")
     }
 
-    fn uniform_share(&self) -> f64 {
-        if self.keeps_bands { UNIFORM_SHARE_WITH_BANDS } else { UNIFORM_SHARE }
+    fn uniform_fraction(&self) -> f64 {
+        if self.keeps_bands { UNIFORM_FRACTION_WITH_BANDS } else { UNIFORM_FRACTION }
     }
 
     /// Steps of the response.
@@ -66,10 +66,10 @@ impl PixelDensity<'_> {
 
     /// Weights of the response's steps, with mean 1.
     fn by_response(&self, responsivity: &Spectrum) -> Vec<f64> {
-        let uniform_share = self.uniform_share();
-        match Means::of(responsivity, self.range, self.steps()) {
+        let uniform_fraction = self.uniform_fraction();
+        match Means::compute(responsivity, self.range, self.steps()) {
             Some(Means { steps, mean }) => {
-                steps.iter().map(|m| uniform_share + (1.0 - uniform_share) * m / mean).collect()
+                steps.iter().map(|m| uniform_fraction + (1.0 - uniform_fraction) * m / mean).collect()
             }
             None => vec![1.0; self.steps()],
         }
@@ -77,16 +77,16 @@ impl PixelDensity<'_> {
 
     /// Weights of the fine steps, with mean 1; `None` if the pixel receives nothing from any source.
     fn by_source(&self, responsivity: &Spectrum) -> Option<Vec<f64>> {
-        let lit = self.sources.lit(responsivity, self.range);
-        let response = Means::of(responsivity, self.range, self.steps()).filter(|_| !lit.is_empty())?;
-        let uniform = self.uniform_share() * if self.keeps_bands { 1.0 } else { DEFENSIVE_SHARE };
-        let by_response = (1.0 - self.uniform_share()) * DEFENSIVE_SHARE;
+        let responses = self.sources.responses(responsivity, self.range);
+        let response = Means::compute(responsivity, self.range, self.steps()).filter(|_| !responses.is_empty())?;
+        let uniform = self.uniform_fraction() * if self.keeps_bands { 1.0 } else { DEFENSIVE_FRACTION };
+        let by_response = (1.0 - self.uniform_fraction()) * DEFENSIVE_FRACTION;
         let by_source = 1.0 - uniform - by_response;
         let count = FINE_STEPS * self.steps();
         let mut weights: Vec<f64> =
             (0..count).map(|i| uniform + by_response * response.steps[i / FINE_STEPS] / response.mean).collect();
-        for group in &lit {
-            let light = Means::of(&group.product, self.range, count)?;
+        for group in &responses {
+            let light = Means::compute(&group.product, self.range, count)?;
             let add = |(weight, m): (&mut f64, f64)| *weight += by_source * group.weight * m / light.mean;
             weights.iter_mut().zip(light.steps).for_each(add);
         }
@@ -102,7 +102,7 @@ struct Means {
 
 impl Means {
     /// `None` if the spectrum is zero in the range.
-    fn of(spectrum: &Spectrum, range: WavelengthRange, count: usize) -> Option<Self> {
+    fn compute(spectrum: &Spectrum, range: WavelengthRange, count: usize) -> Option<Self> {
         let WavelengthRange { low_nm, high_nm } = range;
         let count_f = count as f64;
         let edge = |i: f64| low_nm + (high_nm - low_nm) * i / count_f;
@@ -128,12 +128,12 @@ mod tests {
         sources: &[Spectrum],
         response: &Spectrum,
     ) -> WavelengthDensity {
-        let sources = &SourceSpectra::of(sources.to_vec());
-        PixelDensity { sampling, sources, range: RANGE, keeps_bands }.of(response)
+        let sources = &SourceSpectra::from_fluxes(sources.to_vec());
+        PixelDensity { sampling, sources, range: RANGE, keeps_bands }.density(response)
     }
 
     #[test]
-    fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
+    fn wavelengths_are_sampled_where_a_pixel_responds_and_a_few_everywhere() {
         let density = of(WavelengthSampling::Response, true, &[], &between(500.0, 600.0));
         let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
         // A third of the range has half of the density, in addition to a uniform half.
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_that_responds_to_nothing_draws_uniformly() {
+    fn a_pixel_without_response_samples_uniformly() {
         for sampling in
             [WavelengthSampling::Uniform, WavelengthSampling::Response, WavelengthSampling::ResponseAndSource]
         {
@@ -161,7 +161,7 @@ mod tests {
             for i in 0..3000 {
                 let nm = 400.05 + 0.1 * i as f32;
                 // Fractions are rounded to 2⁻²⁴; for a step of 1 nm with a fraction of 3e-5 that is 1e-3.
-                assert!(with.pdf(nm) >= 0.997 * DEFENSIVE_SHARE as f32 * without.pdf(nm), "{nm}");
+                assert!(with.pdf(nm) >= 0.997 * DEFENSIVE_FRACTION as f32 * without.pdf(nm), "{nm}");
                 sum += 0.1 * f64::from(with.pdf(nm));
             }
             assert!((sum - 1.0).abs() < 1e-3, "{sum}");

@@ -6,7 +6,7 @@ use etendue_sensor::Sensor;
 
 /// File format of a sensor's digital numbers unless another is requested.
 #[must_use]
-pub fn usual_raw_format(sensor: Option<&Sensor>) -> RawFormat {
+pub fn default_raw_format(sensor: Option<&Sensor>) -> RawFormat {
     if sensor.is_some_and(|sensor| sensor.delivered_bits() > 16) { RawFormat::Tiff } else { RawFormat::Png }
 }
 
@@ -94,7 +94,7 @@ impl ListedProduct {
     }
 
     /// Marks a product that modifies other results, or derives from them.
-    const fn beside(self) -> Self {
+    const fn as_modifier(self) -> Self {
         Self { is_result: false, ..self }
     }
 }
@@ -102,7 +102,7 @@ impl ListedProduct {
 impl Products {
     /// All products, in a plan's order.
     #[must_use]
-    pub fn listed(&self) -> Vec<ListedProduct> {
+    pub fn list(&self) -> Vec<ListedProduct> {
         let (flag, named) = (ListedProduct::flag, ListedProduct::named);
         let annotations = &self.annotations;
         let raw = match self.raw_format {
@@ -120,30 +120,30 @@ impl Products {
             flag("output.radiance", "spectral radiance", self.radiance, "radiance"),
             flag("output.irradiance", "spectral irradiance", self.irradiance, "irradiance"),
             flag("output.ghosts", "ghosts by themselves", self.ghosts, "ghosts"),
-            flag("output.variance", "variance", self.variance, "variance").beside(),
+            flag("output.variance", "variance", self.variance, "variance").as_modifier(),
             silent(flag("output.sampling", "samples of pixels", self.sampling, "")),
             flag("output.electrons", "electrons", self.electrons, "electrons"),
             flag("output.raw", "raw", self.raw, raw),
             flag("output.signal_breakdown", "signal breakdown", self.signal_breakdown, "signal_breakdown"),
             ListedProduct { is_flag: !self.video, ..flag("output.picture", "picture", self.picture, "picture") },
-            named("output.video", "video", self.video, "video").beside(),
+            named("output.video", "video", self.video, "video").as_modifier(),
             flag("output.ground_truth", "ground truth", self.ground_truth, ground_truth),
             silent(
                 flag("output.camera_space_position", "positions in the camera's frame", self.camera_space_position, "")
-                    .beside(),
+                    .as_modifier(),
             ),
             flag("output.depth_png", "depth PNG", depth_png, "depth PNG"),
             flag("output.rays", "ray table", self.rays, "ray table"),
             flag("output.undistorted", "undistorted twin", self.undistorted.is_some(), "the undistorted twin of these")
-                .beside(),
+                .as_modifier(),
             named("output.optical_flow", "optical flow", annotations.optical_flow.is_some(), "optical flow"),
             flag("output.scene_flow", "scene flow", annotations.scene_flow, "scene flow"),
             named("output.disparity_to", "disparity", annotations.disparity.is_some(), "disparity"),
             flag("output.boxes", "boxes", annotations.boxes, "boxes"),
-            flag("output.tracks", "tracks", annotations.tracks, "tracks").beside(),
+            flag("output.tracks", "tracks", annotations.tracks, "tracks").as_modifier(),
             flag("output.cryptomatte", "Cryptomatte", annotations.cryptomatte, "Cryptomatte"),
             flag("output.weather", "layers of weather", self.weather, "transmittance, airlight and cover"),
-            flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files").beside(),
+            flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files").as_modifier(),
         ]
     }
 
@@ -162,7 +162,7 @@ impl Products {
     /// Returns true if nothing would be delivered without the result of a key.
     #[must_use]
     pub fn is_empty_without(&self, key: &str) -> bool {
-        !self.listed().iter().any(|product| product.is_delivered && product.is_result && product.key != key)
+        !self.list().iter().any(|product| product.is_delivered && product.is_result && product.key != key)
     }
 }
 

@@ -21,13 +21,13 @@ pub struct RawColour {
 impl RawColour {
     /// Metadata of a sensor of one channel, or of red, green and blue; `None` for others.
     #[must_use]
-    pub fn of(sensor: &Sensor) -> Option<Self> {
+    pub fn new(sensor: &Sensor) -> Option<Self> {
         let p = sensor.parameters();
         let names: Vec<&str> = p.channels.iter().map(|c| c.name.as_str()).collect();
         match names.as_slice() {
             [_] => Some(Self { tile: None, xyz_to_camera: DMat3::IDENTITY.to_cols_array_2d(), neutral: [1.0; 3] }),
             ["red", "green", "blue"] => {
-                let measured = sensor.picture_responsivities();
+                let measured = sensor.image_responsivities();
                 let channels = [0, 1, 2].map(|c| &measured[c]);
                 let white = DVec3::from_array(channels.map(|c| response(c, None)));
                 let scale = 1.0 / white.max_element();

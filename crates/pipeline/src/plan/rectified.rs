@@ -9,13 +9,13 @@
 
 use crate::plan::{CameraBody, CameraPlan};
 use etendue_optics::lens::PinholeParameters;
-use etendue_optics::{CalibratedParameters, Lens, OpticsError, PupilStance};
+use etendue_optics::{CalibratedParameters, Lens, OpticsError, PupilOrientation};
 use etendue_projection::model::Perspective;
 use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, Raster, RasterError};
 use glam::{DVec2, DVec3};
 
 /// Maximum angle from the axis in the field of a rectified camera, degrees: a tangent of 11.4.
-const WIDEST_DEG: f64 = 85.0;
+const MAX_FIELD_DEG: f64 = 85.0;
 
 /// Reasons for which a camera cannot be rectified.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -70,13 +70,13 @@ impl RectifiedCamera {
     ///
     /// # Errors
     /// [`RectifiedCameraError`].
-    pub fn of(camera: &CameraBody, scale: f64) -> Result<Self, RectifiedCameraError> {
+    pub fn new(camera: &CameraBody, scale: f64) -> Result<Self, RectifiedCameraError> {
         if let Some(optic) = camera.front.as_ref().and_then(|front| front.optic()) {
             return Err(RectifiedCameraError::Front { what: optic.name() });
         }
         let matrix = enlarged(own_matrix(camera)?, scale);
         let angle_deg = widest_deg(camera);
-        if angle_deg >= WIDEST_DEG {
+        if angle_deg >= MAX_FIELD_DEG {
             return Err(RectifiedCameraError::Field { angle_deg });
         }
         let raster = &camera.raster;
@@ -110,23 +110,23 @@ impl RectifiedCamera {
 fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, RectifiedCameraError> {
     match &camera.lens {
         Lens::Telecentric(_) => Err(RectifiedCameraError::Telecentric),
-        Lens::Calibrated(lens) => of_tangents(&lens.parameters().calibration),
+        Lens::Calibrated(lens) => tangent_matrix(&lens.parameters().calibration),
         lens => Ok(camera.raster.camera_matrix(lens.principal_distance_mm())),
     }
 }
 
 /// Camera matrix of a calibration, in units of tangents: near the axis every model is a multiple of the tangent.
-fn of_tangents(calibration: &Calibration) -> Result<CameraMatrix, RectifiedCameraError> {
+fn tangent_matrix(calibration: &Calibration) -> Result<CameraMatrix, RectifiedCameraError> {
     let matrix = CameraMatrix { skew: 0.0, ..calibration.matrix() };
     if matches!(calibration.model(), Model::Perspective(_) | Model::Radial(_)) {
         return Ok(matrix);
     }
-    let seen = calibration
+    let straight = calibration
         .model()
         .solid_angle_per_area(DVec2::ZERO)
         .filter(|sr| *sr > 0.0)
         .ok_or(RectifiedCameraError::Blind)?;
-    Ok(enlarged(matrix, 1.0 / seen.sqrt()))
+    Ok(enlarged(matrix, 1.0 / straight.sqrt()))
 }
 
 fn enlarged(matrix: CameraMatrix, ratio: f64) -> CameraMatrix {
@@ -147,7 +147,7 @@ fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -
         f_number,
         transmittance,
         focus_distance_m: None,
-        pupil: Some(PupilStance::Flat),
+        pupil: Some(PupilOrientation::Flat),
         relative_illumination: None,
     })?)
 }

@@ -45,7 +45,7 @@ pub struct Settings {
     /// Spectral bands, if a cube is stored.
     pub bands: Option<Bands>,
     /// True if pixels weight radiance by their responsivity and accumulate electrons.
-    pub folded: bool,
+    pub accumulates_electrons: bool,
     /// Side of a tile, px.
     pub tile_px: u32,
     /// Blocks of pixels whose paths share their tails.
@@ -82,7 +82,7 @@ impl Serialize for Settings {
         map.serialize_entry("wavelength_range_nm", &[self.range.low_nm, self.range.high_nm])?;
         map.serialize_entry("bands", &self.bands.map(Bands::count))?;
         map.serialize_entry("band_width_nm", &self.bands.map(Bands::width_nm))?;
-        map.serialize_entry("sums_electrons", &self.folded)?;
+        map.serialize_entry("sums_electrons", &self.accumulates_electrons)?;
         map.serialize_entry("seed", &self.seed)?;
         map.end()
     }

@@ -77,8 +77,8 @@ impl Timing {
 
 impl Jitter {
     fn deviation_s(&self, frame: u32) -> f64 {
-        let (origin, draw) = (Pixel { x: 0, y: 0 }, NoiseDraw::TriggerJitter);
-        let mut stream = NoiseStream::new(self.seed, self.camera, frame, 0, origin, draw);
+        let (origin, kind) = (Pixel { x: 0, y: 0 }, NoiseDraw::TriggerJitter);
+        let mut stream = NoiseStream::new(self.seed, self.camera, frame, 0, origin, kind);
         self.half_width_s * (2.0 * stream.unit_f64() - 1.0)
     }
 }
@@ -101,8 +101,8 @@ mod tests {
         let row = timing.row(3, 1, 15);
         assert!((row.start_s() - (100.12 + 0.01 + 5e-5)).abs() < 1e-12 && (row.length_s() - 0.0025).abs() < 1e-12);
         assert_eq!(timing.row(3, 1, 0), timing.row(3, 1, 10), "rows that are not read have the time of the nearest");
-        let (whole, first, last) = (timing.capture(3, 1), timing.row(3, 1, 10), timing.row(3, 1, 29));
-        assert!((whole.start_s() - first.start_s()).abs() < 1e-12 && (whole.end_s() - last.end_s()).abs() < 1e-12);
+        let (capture, first, last) = (timing.capture(3, 1), timing.row(3, 1, 10), timing.row(3, 1, 29));
+        assert!((capture.start_s() - first.start_s()).abs() < 1e-12 && (capture.end_s() - last.end_s()).abs() < 1e-12);
     }
 
     #[test]

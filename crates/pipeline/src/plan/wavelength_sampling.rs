@@ -31,13 +31,13 @@ pub struct SpectralGain {
     /// red, green, blue).
     pub mean: f64,
     /// Minimum.
-    pub least: f64,
+    pub min: f64,
     /// Maximum.
-    pub most: f64,
+    pub max: f64,
 }
 
 /// Minimum mean gain for which the density includes the sources.
-const WORTHWHILE: f64 = 1.02;
+const MIN_GAIN: f64 = 1.02;
 
 impl SpectralGain {
     /// Returns true if the density should include the sources: there is a mean gain, and the maximum loss is at most its square.
@@ -45,14 +45,14 @@ impl SpectralGain {
     /// In the street scene at night with low-pressure sodium lamps and LED headlamps, with a mean of 1.5 and a minimum of 0.6, the median variance fell to a
     /// half. That of blue pixels, which the headlamps light, did not rise.
     #[must_use]
-    pub fn pays(&self) -> bool {
-        self.is_felt() && self.mean * self.mean * self.least >= 1.0
+    pub fn should_apply(&self) -> bool {
+        self.is_gain() && self.mean * self.mean * self.min >= 1.0
     }
 
     /// Returns true if there is a mean gain, whatever the maximum loss.
     #[must_use]
-    pub fn is_felt(&self) -> bool {
-        self.mean >= WORTHWHILE
+    pub fn is_gain(&self) -> bool {
+        self.mean >= MIN_GAIN
     }
 }
 
@@ -61,9 +61,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_gain_pays_where_it_is_felt_and_outweighs_the_worst_loss() {
-        let gain = |mean, least| SpectralGain { mean, least, most: 10.0 };
-        assert!(gain(1.05, 0.95).pays() && gain(1.5, 0.6).pays());
-        assert!(!gain(1.01, 1.0).pays() && !gain(1.1, 0.8).pays());
+    fn a_gain_applies_if_it_outweighs_the_worst_loss() {
+        let gain = |mean, min| SpectralGain { mean, min, max: 10.0 };
+        assert!(gain(1.05, 0.95).should_apply() && gain(1.5, 0.6).should_apply());
+        assert!(!gain(1.01, 1.0).should_apply() && !gain(1.1, 0.8).should_apply());
     }
 }

@@ -2,13 +2,13 @@
 
 use etendue_spectra::Spectrum;
 use etendue_tracer::media::Medium;
-use etendue_tracer::precipitation::{Field, Resolution};
+use etendue_tracer::precipitation::{PrecipitationField, CameraResolution};
 
 /// Rain or snow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precipitation {
     /// All drops or flakes.
-    pub field: Field,
+    pub field: PrecipitationField,
     /// Index of its medium in the plan's media.
     pub medium: usize,
     /// Distance from a camera within which there are no drops or flakes, m.
@@ -16,15 +16,15 @@ pub struct Precipitation {
     /// Minimum size of an individually modelled drop or flake, as a fraction of a pixel's width.
     pub smallest_px: f64,
     /// Maximum number of individually modelled drops or flakes.
-    pub most: u64,
+    pub max_drops: u64,
 }
 
 impl Precipitation {
     /// Resolution of a camera with pixels of `pixel_rad` in an exposure of `exposure_s`.
     #[must_use]
-    pub fn resolution(&self, pixel_rad: f64, exposure_s: f64) -> Resolution {
+    pub fn resolution(&self, pixel_rad: f64, exposure_s: f64) -> CameraResolution {
         let Self { smallest_px, clear_m, .. } = *self;
-        Resolution { pixel_rad, smallest_px, clear_m, most: self.most as f64, exposure_s }
+        CameraResolution { pixel_rad, min_size_px: smallest_px, clear_m, max_particles: self.max_drops as f64, exposure_s }
     }
 }
 
@@ -48,12 +48,12 @@ pub struct Weather {
     /// Fog, for which only the extinction is used, and the medium of the precipitation.
     pub media: Vec<Medium>,
     /// Rain or snow.
-    pub falling: Option<Falling>,
+    pub falling: Option<PrecipitationExposure>,
 }
 
 /// Rain or snow over an instantaneous image.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Falling {
+pub struct PrecipitationExposure {
     /// The precipitation.
     pub precipitation: Precipitation,
     /// Exposure time, s.

@@ -10,29 +10,29 @@
 //! T follows are averages of the pixel's own and of those of all pixels of its colour in its cell, because few replicates estimate them poorly. Errors of
 //! stratified samples decrease faster than 1/n; the limit is then met with a margin.
 
-use crate::render::gather::{Gather, PixelLight, Sums};
-use crate::render::light::{Asked, RenderJob};
+use crate::render::gather::{ReplicateMoments, PixelLight, ReplicateSums};
+use crate::render::light::{BlockSample, RenderJob};
 use crate::render::mosaic::Mosaic;
-use crate::sizes::film::Layout;
+use crate::sizes::film::FilmLayout;
 use crate::sizes::tile::Tile;
 use crate::sizes::tolerance::Tolerance;
 use etendue_core::RadianceField;
 use etendue_core::random::Pixel;
 
 /// Samples of a block so far: sums of each replicate and pixel.
-struct Sampled {
+struct BlockSums {
     block: Vec<Pixel>,
-    replicates: Vec<Vec<Sums>>,
+    replicates: Vec<Vec<ReplicateSums>>,
 }
 
 /// Pilot estimate of one pixel from some replicates: its mean, and the variance of the mean of one replicate.
 #[derive(Clone, Copy)]
-struct Pilot {
+struct PilotEstimate {
     mean: f64,
     variance: f64,
 }
 
-impl Pilot {
+impl PilotEstimate {
     fn mean_of<'a>(pilots: impl Iterator<Item = &'a Self>) -> Self {
         let (mut mean, mut variance, mut count) = (0.0, 0.0, 0.0);
         for pilot in pilots {
@@ -42,29 +42,29 @@ impl Pilot {
     }
 }
 
-impl Sampled {
+impl BlockSums {
     /// Pilot estimates, for each pixel after `samples` samples, from the replicates that determine the samples of `replicate`.
-    fn pilots(&self, replicate: usize, samples: u32) -> impl Iterator<Item = Pilot> {
+    fn pilots(&self, replicate: usize, samples: u32) -> impl Iterator<Item = PilotEstimate> {
         let all = self.replicates.len();
         let deciding = (all - 1) / 2;
         let next = (1..=deciding).map(move |step| &self.replicates[(replicate + step) % all]);
         let count = deciding as f64;
         (0..self.block.len()).map(move |pixel| {
-            let means = || next.clone().map(|sums| sums[pixel].watched() / f64::from(samples));
+            let means = || next.clone().map(|replicate_sums| replicate_sums[pixel].watched() / f64::from(samples));
             let mean = means().sum::<f64>() / count;
             let squares: f64 = means().map(|value| (value - mean) * (value - mean)).sum();
-            Pilot { mean, variance: squares / (count - 1.0) }
+            PilotEstimate { mean, variance: squares / (count - 1.0) }
         })
     }
 
     /// Light of each pixel; its replicates have the given numbers of samples.
-    fn light(mut self, layout: &Layout, samples: &[u32]) -> Vec<(Pixel, PixelLight)> {
+    fn light(mut self, layout: &FilmLayout, samples: &[u32]) -> Vec<(Pixel, PixelLight)> {
         let mut of = |pixel: usize| {
-            let mut gather = Gather::new(layout);
+            let mut gather = ReplicateMoments::new(layout);
             let mut not_finite = 0;
-            for (sums, samples) in self.replicates.iter_mut().zip(samples) {
-                not_finite += sums[pixel].not_finite();
-                gather.end_replicate(&mut sums[pixel], *samples);
+            for (replicate_sums, samples) in self.replicates.iter_mut().zip(samples) {
+                not_finite += replicate_sums[pixel].not_finite();
+                gather.end_replicate(&mut replicate_sums[pixel], *samples);
             }
             gather.light(layout, samples.iter().sum(), not_finite)
         };
@@ -90,18 +90,18 @@ impl RenderJob<'_> {
         cell: Tile,
         tolerance: &Tolerance,
     ) -> Vec<(Pixel, PixelLight)> {
-        let layout = self.gathered();
-        let mut asked = Asked::default();
+        let layout = self.gathered_layout();
+        let mut block_sample = BlockSample::default();
         let replicates = self.sampling.replicates as usize;
         let pilot = tolerance.min_spp() / self.sampling.replicates;
         let empty =
-            |block: Vec<Pixel>| Sampled { replicates: vec![vec![Sums::new(layout); block.len()]; replicates], block };
-        let mut cell: Vec<Sampled> = self.blocks.of(cell).map(empty).collect();
-        cell.iter_mut().for_each(|sampled| self.add(field, sampled, 0, &vec![pilot; replicates], &mut asked));
-        let needs: Vec<Vec<u32>> = (0..replicates).map(|replicate| self.needs(&cell, replicate, tolerance)).collect();
-        let go_on = |(i, mut sampled): (usize, Sampled)| {
+            |block: Vec<Pixel>| BlockSums { replicates: vec![vec![ReplicateSums::new(layout); block.len()]; replicates], block };
+        let mut cell: Vec<BlockSums> = self.blocks.in_tile(cell).map(empty).collect();
+        cell.iter_mut().for_each(|sampled| self.add(field, sampled, 0, &vec![pilot; replicates], &mut block_sample));
+        let needs: Vec<Vec<u32>> = (0..replicates).map(|replicate| self.required_samples(&cell, replicate, tolerance)).collect();
+        let go_on = |(i, mut sampled): (usize, BlockSums)| {
             let samples: Vec<u32> = needs.iter().map(|of_replicate| of_replicate[i]).collect();
-            self.add(field, &mut sampled, pilot, &samples, &mut asked);
+            self.add(field, &mut sampled, pilot, &samples, &mut block_sample);
             sampled.light(&layout, &samples)
         };
         cell.into_iter().enumerate().flat_map(go_on).collect()
@@ -111,36 +111,36 @@ impl RenderJob<'_> {
     fn add<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
-        sampled: &mut Sampled,
+        sampled: &mut BlockSums,
         from: u32,
         to: &[u32],
-        asked: &mut Asked<N>,
+        block_sample: &mut BlockSample<N>,
     ) {
-        for (replicate, (sums, to)) in sampled.replicates.iter_mut().zip(to).enumerate() {
-            self.add_replicate(field, &sampled.block, replicate as u32, from..*to, asked, sums);
+        for (replicate, (replicate_sums, to)) in sampled.replicates.iter_mut().zip(to).enumerate() {
+            self.add_replicate(field, &sampled.block, replicate as u32, from..*to, block_sample, replicate_sums);
         }
     }
 
     /// Number of samples of a replicate for each block of a cell, from the pilots of the replicates that determine it.
-    fn needs(&self, cell: &[Sampled], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
+    fn required_samples(&self, cell: &[BlockSums], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
         let replicates = self.sampling.replicates;
         let pilot = tolerance.min_spp() / replicates;
-        let colour = |sampled: &Sampled| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
-        let pilots: Vec<(usize, Vec<Pilot>)> =
+        let colour = |sampled: &BlockSums| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
+        let pilots: Vec<(usize, Vec<PilotEstimate>)> =
             cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
         let of_cell = |colour: usize| {
-            let alike = pilots.iter().filter(|(c, _)| *c == colour).flat_map(|(_, pixels)| pixels);
-            Pilot::mean_of(alike.filter(|pilot| pilot.variance.is_finite()))
+            let same_colour = pilots.iter().filter(|(c, _)| *c == colour).flat_map(|(_, pixels)| pixels);
+            PilotEstimate::mean_of(same_colour.filter(|pilot| pilot.variance.is_finite()))
         };
-        let cells: Vec<Pilot> = (0..self.mosaic.map_or(1, Mosaic::places)).map(of_cell).collect();
-        let need = |(colour, pixels): &(usize, Vec<Pilot>)| {
+        let cells: Vec<PilotEstimate> = (0..self.mosaic.map_or(1, Mosaic::places)).map(of_cell).collect();
+        let need = |(colour, pixels): &(usize, Vec<PilotEstimate>)| {
             let cell = &cells[*colour];
-            let times = |pixel: &Pilot| {
-                let pilot = Pilot::mean_of([pixel, cell].into_iter());
+            let times = |pixel: &PilotEstimate| {
+                let pilot = PilotEstimate::mean_of([pixel, cell].into_iter());
                 pilot.variance / (f64::from(replicates) * tolerance.variance(pilot.mean))
             };
-            let most = pixels.iter().map(times).fold(0.0, f64::max);
-            let samples = most.ceil() * f64::from(pilot);
+            let max_samples = pixels.iter().map(times).fold(0.0, f64::max);
+            let samples = max_samples.ceil() * f64::from(pilot);
             (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp() / replicates)
         };
         pilots.iter().map(need).collect()
@@ -150,7 +150,7 @@ impl RenderJob<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{AdaptiveSampling, PassAt};
+    use crate::plan::{AdaptiveSampling, NumberedPass};
     use crate::render::film::Film;
     use crate::render::light::{RaySource, RenderJob, Sampling};
     use crate::render::observer::Unobserved;
@@ -161,25 +161,25 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     /// Rays that leave the columns of the film at their own x.
-    struct Columns;
+    struct ColumnRays;
 
-    impl RaySource for Columns {
+    impl RaySource for ColumnRays {
         fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
             Some(PupilRay { origin_m: DVec3::new(raster_px.x, 0.0, 0.0), direction: DVec3::Z, weight_sr: 1.0 })
         }
     }
 
     /// Radiance with mean 1: uniform light in columns below 32; in the others `strength` with probability 1/`strength`, otherwise none.
-    struct Sparks {
+    struct FireflyField {
         strength: f32,
     }
 
-    impl RadianceField<1> for Sparks {
-        fn radiance(&self, asked: &FieldRay, _: &Wavelengths<1>) -> Spectral<1> {
+    impl RadianceField<1> for FireflyField {
+        fn radiance(&self, field_ray: &FieldRay, _: &Wavelengths<1>) -> Spectral<1> {
             // The low-order digits of a stratified number are not stratified.
-            let u = (f64::from(asked.stream.two(Draw::Pupil, 0).x) * 9973.0).fract() as f32;
-            let lit = asked.ray.origin.x < 32.0;
-            Spectral::splat(if lit {
+            let u = (f64::from(field_ray.stream.two(Draw::Pupil, 0).x) * 9973.0).fract() as f32;
+            let is_lit = field_ray.ray.origin.x < 32.0;
+            Spectral::splat(if is_lit {
                 1.0
             } else if u * self.strength < 1.0 {
                 self.strength
@@ -191,10 +191,10 @@ mod tests {
 
     fn film(field: &dyn RadianceField<1>, factor: f64, tile_px: u32) -> Film {
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: factor, min_spp: 16 }, None);
-        let layout = Layout { bands: None, folded: false, watched: true };
+        let layout = FilmLayout { bands: None, accumulates_electrons: false, watched: true };
         let spread = SpectrumSpread::Drawn;
-        let sampling = Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(PassAt::only(4096), 8) };
-        let job = still_job(&Columns, [64, ROWS as u32], layout, sampling);
+        let sampling = Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(NumberedPass::only(4096), 8) };
+        let job = still_job(&ColumnRays, [64, ROWS as u32], layout, sampling);
         let job = RenderJob { tolerance: Some(tolerance), tile_px, ..job };
         job.gather::<1>(field, None, &Unobserved).expect("not cancelled")
     }
@@ -219,7 +219,7 @@ mod tests {
     /// Two of three pilots see no spark, and would stop at 0 by their own estimate.
     #[test]
     fn rare_bright_light_has_no_bias_and_an_honest_variance() {
-        let pixels = columns(&film(&Sparks { strength: 40.0 }, 0.3, 16), 32);
+        let pixels = columns(&film(&FireflyField { strength: 40.0 }, 0.3, 16), 32);
         let light = mean(pixels.iter().map(|p| p.0));
         let variance = mean(pixels.iter().map(|p| p.1));
         let error = (variance / pixels.len() as f64).sqrt();
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn even_light_stops_at_the_pilot_and_noise_at_the_limit() {
-        let film = film(&Sparks { strength: 3.0 }, 0.1, 16);
+        let film = film(&FireflyField { strength: 3.0 }, 0.1, 16);
         assert!(
             columns(&film, 0).iter().all(|(light, variance, samples)| {
                 (light - 1.0).abs() < 1e-6 && *variance < 1e-12 && *samples == 16
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn tiles_do_not_change_the_film() {
-        let sparks = Sparks { strength: 5.0 };
+        let sparks = FireflyField { strength: 5.0 };
         assert_eq!(film(&sparks, 0.2, 16), film(&sparks, 0.2, 32));
     }
 }

@@ -8,28 +8,28 @@ use std::sync::Arc;
 
 /// Bands divided by the pupil's weight: radiance from irradiance; 0 where no light passes the lens.
 #[derive(Debug)]
-pub(crate) struct OverWeight {
+pub(crate) struct BandsOverWeight {
     /// The bands, of the size of the weight.
-    pub(crate) of: Arc<dyn BandReader>,
+    pub(crate) bands: Arc<dyn BandReader>,
     /// Mean weight of the pupil.
     pub(crate) weight: Arc<Plane<SolidAngle>>,
     /// Divisor as a function of the weight.
     pub(crate) divisor: fn(f32) -> f32,
 }
 
-impl BandReader for OverWeight {
+impl BandReader for BandsOverWeight {
     fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
-        self.of.read(band, rows.clone(), samples)?;
+        self.bands.read(band, rows.clone(), samples)?;
         let width = self.weight.width();
         let weights = &self.weight.samples()[rows.start * width..rows.end * width];
-        samples.iter_mut().zip(weights).for_each(|(value, weight)| *value = over(*value, *weight, self.divisor));
+        samples.iter_mut().zip(weights).for_each(|(value, weight)| *value = divide(*value, *weight, self.divisor));
         Ok(())
     }
 }
 
 /// Returns a value divided by a function of the weight; 0 if no light passes the lens. A quotient beyond the range of 32 bits, as with a weight whose square
 /// underflows, is the greatest finite number.
-pub(crate) fn over(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
+pub(crate) fn divide(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
     if weight <= 0.0 || value == 0.0 {
         return 0.0;
     }
@@ -39,23 +39,23 @@ pub(crate) fn over(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
 
 /// A part of larger bands.
 #[derive(Debug)]
-pub(crate) struct PartOfBands {
+pub(crate) struct CroppedBands {
     /// The larger bands.
-    pub(crate) of: Arc<dyn BandReader>,
+    pub(crate) bands: Arc<dyn BandReader>,
     /// Their columns.
-    pub(crate) whole_width: usize,
+    pub(crate) full_width: usize,
     /// First column and row of the part.
     pub(crate) first: [usize; 2],
     /// Columns of the part.
     pub(crate) width: usize,
 }
 
-impl BandReader for PartOfBands {
+impl BandReader for CroppedBands {
     fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
         let [x, y] = self.first;
-        let mut whole = vec![0.0; self.whole_width * rows.len()];
-        self.of.read(band, rows.start + y..rows.end + y, &mut whole)?;
-        for (to, from) in samples.chunks_exact_mut(self.width).zip(whole.chunks_exact(self.whole_width)) {
+        let mut rows_of_all = vec![0.0; self.full_width * rows.len()];
+        self.bands.read(band, rows.start + y..rows.end + y, &mut rows_of_all)?;
+        for (to, from) in samples.chunks_exact_mut(self.width).zip(rows_of_all.chunks_exact(self.full_width)) {
             to.copy_from_slice(&from[x..x + self.width]);
         }
         Ok(())
@@ -64,16 +64,16 @@ impl BandReader for PartOfBands {
 
 #[cfg(test)]
 mod tests {
-    use super::over;
+    use super::divide;
 
     /// A pupil of f/10²⁰, and light of 10³⁰: the variance of their radiance exceeds the range of 32 bits.
     #[test]
     fn no_variance_of_a_narrow_pupil_is_infinite() {
         let square = |weight: f32| weight * weight;
-        assert_eq!(over(1e-30, 1e-25, square), f32::MAX);
-        assert_eq!(over(1e30, 1e-5, square), f32::MAX);
-        assert_eq!((over(0.0, 1e-25, square), over(1.0, 0.0, square)), (0.0, 0.0));
-        assert!(over(f32::NAN, 1e-5, square).is_nan(), "unknown stays NaN");
-        assert_eq!(over(3.0, 2.0, square), 0.75);
+        assert_eq!(divide(1e-30, 1e-25, square), f32::MAX);
+        assert_eq!(divide(1e30, 1e-5, square), f32::MAX);
+        assert_eq!((divide(0.0, 1e-25, square), divide(1.0, 0.0, square)), (0.0, 0.0));
+        assert!(divide(f32::NAN, 1e-5, square).is_nan(), "unknown stays NaN");
+        assert_eq!(divide(3.0, 2.0, square), 0.75);
     }
 }

@@ -1,12 +1,12 @@
 //! Renders a camera's light.
 
 use crate::plan::pixel_density::PixelDensity;
-use crate::plan::{CameraBody, CameraPlan, PassAt, Plan, Precipitation, Route, Settings};
-use crate::render::exposure::{FilmExposure, Shot};
+use crate::plan::{CameraBody, CameraPlan, NumberedPass, Plan, Precipitation, Route, Settings};
+use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::film::Film;
-use crate::render::light::{GatherError, RaySource, RenderJob, Sampling};
+use crate::render::light::{RenderError, RaySource, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
-use crate::render::near_precipitation::{near, seen_region};
+use crate::render::near_precipitation::{near, visible_region};
 use crate::render::observer::Observer;
 use crate::render::training::guide;
 use crate::sizes::tile::Shard;
@@ -19,36 +19,36 @@ use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer, SpectralPaths};
 use etendue_tracer::lights::{LightCounts, Lights};
 use etendue_tracer::media::Media;
-use etendue_tracer::precipitation::{ChangeOver, SeenRegion};
+use etendue_tracer::precipitation::{ChangeOver, VisibleRegion};
 use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
 /// Parameters of a render.
 #[derive(Clone, Copy, Debug)]
-pub struct Request {
+pub struct LightRequest {
     /// Frame and capture; the first for a camera whose light does not depend on time.
-    pub shot: Shot,
+    pub frame_capture: FrameCapture,
     /// Tiles to render.
     pub shard: Shard,
     /// Instruction set for the accelerator. It does not change the result.
     pub simd: Simd,
     /// Storage of the bands. It does not change the result.
-    pub keeping: FilmKeeping,
+    pub keeping: FilmStorage,
 }
 
 /// Storage of a film's bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FilmKeeping {
+pub enum FilmStorage {
     /// In memory, or on disk if they exceed the plan's limit.
     Planned,
     /// In memory, whatever their size.
     Memory,
 }
 
-impl Default for Request {
+impl Default for LightRequest {
     fn default() -> Self {
-        Self { shot: Shot::default(), shard: Shard::WHOLE, simd: Simd::Auto, keeping: FilmKeeping::Planned }
+        Self { frame_capture: FrameCapture::default(), shard: Shard::WHOLE, simd: Simd::Auto, keeping: FilmStorage::Planned }
     }
 }
 
@@ -57,7 +57,7 @@ impl Default for Request {
 ///
 /// # Errors
 /// The observer cancels, or bands cannot be stored on disk.
-pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, GatherError> {
+pub fn light(plan: &Plan, camera: &CameraPlan, request: LightRequest, observer: &dyn Observer) -> Result<Film, RenderError> {
     let mut film = pass(plan, camera, request, camera.pass(0), None, observer)?;
     for number in 1..camera.pass_count() {
         film = pass(plan, camera, request, camera.pass(number), Some(&film), observer)?;
@@ -72,12 +72,12 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 pub fn pass(
     plan: &Plan,
     camera: &CameraPlan,
-    request: Request,
-    pass: PassAt,
+    request: LightRequest,
+    pass: NumberedPass,
     before: Option<&Film>,
     observer: &dyn Observer,
-) -> Result<Film, GatherError> {
-    with_source(camera, request.shot, LightJob { plan, camera, request, pass, before, observer })
+) -> Result<Film, RenderError> {
+    with_source(camera, request.frame_capture, LightJob { plan, camera, request, pass, before, observer })
 }
 
 /// A task on a camera's rays, independent of their source.
@@ -90,20 +90,20 @@ pub(super) trait SourceJob {
 }
 
 /// Runs a task with the rays of a camera's image.
-pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
+pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, frame_capture: FrameCapture, job: J) -> J::Output {
     match &camera.settings.route {
-        Route::Lens => with_lens(camera, shot, job),
+        Route::Lens => with_lens(camera, frame_capture, job),
         Route::Pupil(projection) => job.run(projection),
     }
 }
 
 /// Runs a task with the rays through a camera's lens and the elements before it, whatever its light's route.
-pub(super) fn with_lens<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
+pub(super) fn with_lens<J: SourceJob>(camera: &CameraPlan, frame_capture: FrameCapture, job: J) -> J::Output {
     match &camera.body.front {
-        None => job.run(&LensSource::of(camera)),
+        None => job.run(&LensSource::new(camera)),
         Some(front) => {
-            let front = &front_at(front, camera, shot);
-            job.run(&FrontSource { lens: LensSource::of(camera), front })
+            let front = &front_at(front, camera, frame_capture);
+            job.run(&FrontSource { lens: LensSource::new(camera), front })
         }
     }
 }
@@ -111,24 +111,24 @@ pub(super) fn with_lens<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -
 struct LightJob<'a> {
     plan: &'a Plan,
     camera: &'a CameraPlan,
-    request: Request,
-    pass: PassAt,
+    request: LightRequest,
+    pass: NumberedPass,
     before: Option<&'a Film>,
     observer: &'a dyn Observer,
 }
 
 impl SourceJob for LightJob<'_> {
-    type Output = Result<Film, GatherError>;
+    type Output = Result<Film, RenderError>;
 
     fn run(self, source: &dyn RaySource) -> Self::Output {
-        through(&self, source)
+        render_film(&self, source)
     }
 }
 
 /// Number of lights that a camera's paths sample.
 #[must_use]
 pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
-    let exposure = FilmExposure::of(camera, Shot::default());
+    let exposure = FilmExposure::new(camera, FrameCapture::default());
     let view = plan.world.render_space_for_few(exposure.origin_m(), exposure.interval());
     lights(plan, camera, &view).light_counts()
 }
@@ -138,9 +138,9 @@ pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -
         .expect("a compiled plan names only materials that it has")
 }
 
-fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherError> {
+fn render_film(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, RenderError> {
     let LightJob { plan, camera, request, pass, before, observer } = *job;
-    let rows = FilmExposure::of(camera, request.shot);
+    let rows = FilmExposure::new(camera, request.frame_capture);
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
     let lights = lights(plan, camera, &view);
     let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
@@ -152,27 +152,27 @@ fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherErr
         .with_near(near.as_ref());
     let settings = &camera.settings;
     let density = pixel_density(plan, camera);
-    let mosaic = camera.summing_sensor().map(|sensor| Mosaic::of(sensor, &density).beyond(margin_px(camera)));
+    let mosaic = camera.summing_sensor().map(|sensor| Mosaic::new(sensor, &density).beyond(margin_px(camera)));
     let job = render_job(camera, rows, request, source, mosaic.as_ref());
-    let scratch = if request.keeping == FilmKeeping::Memory { None } else { plan.scratch(camera) };
+    let scratch = if request.keeping == FilmStorage::Memory { None } else { plan.scratch(camera) };
     let sample_spread = sample_spread(camera);
     let sample_spread = sample_spread.as_ref();
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
     match settings.wavelengths {
-        1 => gathered::<1>(&job, tracer, camera, before, observer),
-        8 => gathered::<8>(&job, tracer, camera, before, observer),
-        _ => gathered::<4>(&job, tracer, camera, before, observer),
+        1 => gather_light::<1>(&job, tracer, camera, before, observer),
+        8 => gather_light::<8>(&job, tracer, camera, before, observer),
+        _ => gather_light::<4>(&job, tracer, camera, before, observer),
     }
 }
 
 /// Renders the light of a job, with path guiding if the settings request it.
-fn gathered<const N: usize>(
+fn gather_light<const N: usize>(
     job: &RenderJob<'_>,
     tracer: PathTracer<'_>,
     camera: &CameraPlan,
     before: Option<&Film>,
     observer: &dyn Observer,
-) -> Result<Film, GatherError>
+) -> Result<Film, RenderError>
 where
     for<'t> PathTracer<'t>: SpectralPaths<N>,
 {
@@ -197,13 +197,13 @@ fn pixel_density<'a>(plan: &'a Plan, camera: &CameraPlan) -> PixelDensity<'a> {
 /// Distances up to which drops or flakes are modelled individually for the first image of a camera; `None` without precipitation.
 #[must_use]
 pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
-    let rows = FilmExposure::of(camera, Shot::default());
+    let rows = FilmExposure::new(camera, FrameCapture::default());
     let of = match &camera.settings.route {
         Route::Pupil(projection) => region_and_change_over(plan, camera, &rows, projection),
         Route::Lens => match &camera.body.front {
-            None => region_and_change_over(plan, camera, &rows, &LensSource::of(camera)),
+            None => region_and_change_over(plan, camera, &rows, &LensSource::new(camera)),
             Some(front) => {
-                region_and_change_over(plan, camera, &rows, &FrontSource { lens: LensSource::of(camera), front })
+                region_and_change_over(plan, camera, &rows, &FrontSource { lens: LensSource::new(camera), front })
             }
         },
     };
@@ -223,10 +223,10 @@ pub(super) fn region_and_change_over<'a>(
     camera: &CameraPlan,
     rows: &FilmExposure<'_>,
     source: &dyn RaySource,
-) -> Option<(&'a Precipitation, SeenRegion, ChangeOver)> {
+) -> Option<(&'a Precipitation, VisibleRegion, ChangeOver)> {
     let precipitation = plan.precipitation.as_ref()?;
     let (width, height) = camera.film_size();
-    let region = seen_region(source, rows, width, height);
+    let region = visible_region(source, rows, width, height);
     let resolution = precipitation.resolution(pitch_tan(camera), rows.interval().length_s());
     let change_over = ChangeOver::new(precipitation.field.classes(), &resolution, &region);
     Some((precipitation, region, change_over))
@@ -235,7 +235,7 @@ pub(super) fn region_and_change_over<'a>(
 pub(super) fn render_job<'a>(
     camera: &CameraPlan,
     exposure: FilmExposure<'a>,
-    request: Request,
+    request: LightRequest,
     source: &'a dyn RaySource,
     mosaic: Option<&'a Mosaic>,
 ) -> RenderJob<'a> {
@@ -250,11 +250,11 @@ pub(super) fn render_job<'a>(
         layout: camera.film_layout(),
         mosaic,
         sampling: Sampling {
-            pass: PassAt::only(settings.spp),
+            pass: NumberedPass::only(settings.spp),
             replicates: settings.replicates,
             seed: settings.seed,
             camera: camera.light.index,
-            shot: request.shot,
+            frame_capture: request.frame_capture,
             low_nm: settings.range.low_nm as f32,
             high_nm: settings.range.high_nm as f32,
             spread: camera.spectrum_spread(),
@@ -277,7 +277,7 @@ fn pitch_tan(camera: &CameraPlan) -> f64 {
     }
 }
 
-pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
+pub(super) fn path_settings(camera: &CameraPlan, pass: NumberedPass) -> PathSettings {
     let Settings { replicates, adaptive, .. } = camera.settings;
     let spp = pass.pass.samples;
     // The samples of all passes so far cover the pixel together.
@@ -296,11 +296,11 @@ fn front_pitch(body: &CameraBody) -> Option<f64> {
     const SIDE: u32 = 24;
     body.front.as_ref()?;
     let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
-    let seen =
+    let ray_direction =
         |at: DVec2| body.truth_ray(at).filter(|(ray, _)| ray.mirror_m.is_some()).map(|(ray, _)| ray.ray.direction);
     let angle = |i: u32| {
         let at = size * (DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) + 0.5) / f64::from(SIDE);
-        let (a, b) = (seen(at)?, seen(at + DVec2::X)?);
+        let (a, b) = (ray_direction(at)?, ray_direction(at + DVec2::X)?);
         Some(atan2(a.cross(b).length(), a.dot(b)))
     };
     let mut angles: Vec<f64> = (0..SIDE * SIDE).filter_map(angle).collect();
@@ -321,7 +321,7 @@ struct LensSource {
 }
 
 impl LensSource {
-    fn of(camera: &CameraPlan) -> Self {
+    fn new(camera: &CameraPlan) -> Self {
         Self { lens: camera.body.lens.clone(), raster: camera.body.film() }
     }
 }
@@ -333,10 +333,10 @@ impl RaySource for LensSource {
 }
 
 /// The elements before a camera at the middle of an exposure, the same for all rows. Drops slide by the gravity of the camera's orientation when they start.
-fn front_at<'a>(front: &'a Front, camera: &CameraPlan, shot: Shot) -> Cow<'a, Front> {
-    let Some(course) = front.course() else { return Cow::Borrowed(front) };
-    let pose = camera.path.at(course.start_s);
-    let middle_s = FilmExposure::of(camera, shot).interval().middle_s();
+fn front_at<'a>(front: &'a Front, camera: &CameraPlan, frame_capture: FrameCapture) -> Cow<'a, Front> {
+    let Some(drop_motion) = front.course() else { return Cow::Borrowed(front) };
+    let pose = camera.path.at(drop_motion.start_s);
+    let middle_s = FilmExposure::new(camera, frame_capture).interval().middle_s();
     Cow::Owned(front.at(middle_s, pose.rotation.transpose() * DVec3::NEG_Z))
 }
 

@@ -4,13 +4,13 @@ use super::film::Film;
 use super::light::{RaySource, RenderJob};
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
-use crate::plan::PassAt;
-use crate::sizes::film::Layout;
+use crate::plan::NumberedPass;
+use crate::sizes::film::FilmLayout;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{cos, exp, sin};
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, WavelengthRange, Wavelengths};
 use etendue_optics::effects::{
-    PointSpread, Psf, PsfParameters, SampleSpread, SpreadBy, SpreadImage, SpreadImageParameters,
+    PointSpread, Psf, PsfParameters, SampleSpread, SpreadMethod, SpreadImage, SpreadImageParameters,
 };
 use etendue_optics::{Effects, EffectsParameters, Lens, ThinParameters};
 use etendue_projection::Raster;
@@ -20,27 +20,27 @@ const SIDE: u32 = 32;
 const PITCH_MM: f64 = 0.004;
 
 /// The film position is the origin of the ray.
-struct Place;
+struct PositionRays;
 
-impl RaySource for Place {
+impl RaySource for PositionRays {
     fn ray(&self, raster_px: DVec2, _: DVec2, _: f64) -> Option<PupilRay> {
         Some(PupilRay { origin_m: raster_px.extend(0.0), direction: DVec3::Z, weight_sr: 1.0 })
     }
 }
 
 /// Bars across the columns with the given frequency, cycles per pixel, and mean 1.
-struct Bars(f64);
+struct BarField(f64);
 
-impl RadianceField<4> for Bars {
-    fn radiance(&self, asked: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
-        Spectral::splat((1.0 + cos(TAU * self.0 * f64::from(asked.ray.origin.x))) as f32)
+impl RadianceField<4> for BarField {
+    fn radiance(&self, field_ray: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
+        Spectral::splat((1.0 + cos(TAU * self.0 * f64::from(field_ray.ray.origin.x))) as f32)
     }
 }
 
 /// Four bands, one for each of the four wavelengths of a sample.
-fn film(field: &Bars, spread: Option<&SampleSpread>, spp: u32) -> Film {
-    let layout = Layout { bands: Bands::covering(400.0, 700.0, 75.0), folded: false, watched: false };
-    let job = still_job(&Place, [SIDE, SIDE], layout, sampling(PassAt::only(spp), 4));
+fn film(field: &BarField, spread: Option<&SampleSpread>, spp: u32) -> Film {
+    let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 75.0), accumulates_electrons: false, watched: false };
+    let job = still_job(&PositionRays, [SIDE, SIDE], layout, sampling(NumberedPass::only(spp), 4));
     RenderJob { sample_spread: spread, ..job }.gather::<4>(field, None, &Unobserved).expect("not cancelled")
 }
 
@@ -50,7 +50,7 @@ fn means(film: &Film) -> Vec<f64> {
 
 fn spread(psf: PointSpread) -> SampleSpread {
     let raster = Raster::centred(SIDE as usize, SIDE as usize, PITCH_MM).expect("legal");
-    let spread_by = Some(SpreadBy::Samples);
+    let spread_by = Some(SpreadMethod::Samples);
     let parameters = EffectsParameters { psf: Some(psf), spread_by, margin: Some(0.0), ..Default::default() };
     let effects = Effects::new(parameters, &raster).expect("legal");
     effects.sample_spread(&raster, WavelengthRange::new(400.0, 700.0)).expect("narrow enough for samples")
@@ -74,9 +74,9 @@ fn gaussian(sigma_px: f64) -> PointSpread {
 #[test]
 fn bars_behind_a_narrow_gaussian_keep_their_contrast() {
     for (sigma_px, cycles) in [(0.2, 0.25), (0.4, 0.25), (0.4, 0.125)] {
-        let found = means(&film(&Bars(cycles), Some(&spread(gaussian(sigma_px))), 256));
+        let contrasts = means(&film(&BarField(cycles), Some(&spread(gaussian(sigma_px))), 256));
         let wave = |(i, v): (usize, &f64)| 2.0 * v * cos(TAU * cycles * ((i % SIDE as usize) as f64 + 0.5));
-        let contrast = found.iter().enumerate().map(wave).sum::<f64>() / found.len() as f64;
+        let contrast = contrasts.iter().enumerate().map(wave).sum::<f64>() / contrasts.len() as f64;
         let pixel = sin(PI * cycles) / (PI * cycles);
         let expected = pixel * exp(-2.0 * (PI * sigma_px * cycles) * (PI * sigma_px * cycles));
         // 262 144 samples of a wave with a standard deviation below 1 (0.002 each way at 95 %), and 0.001 of the cells.
@@ -88,7 +88,7 @@ fn bars_behind_a_narrow_gaussian_keep_their_contrast() {
 #[test]
 fn even_light_stays_even_but_for_the_noise_of_wavelengths() {
     let scatter = |psf: PointSpread, spp: u32| {
-        let values = means(&film(&Bars(0.0), Some(&spread(psf)), spp));
+        let values = means(&film(&BarField(0.0), Some(&spread(psf)), spp));
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
         (0.5 * mean, (square / values.len() as f64).sqrt() / mean)

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// An image of a camera: where the world depends on time, each has its own light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Shot {
+pub struct FrameCapture {
     /// The frame, from 0.
     pub frame: u32,
     /// The capture within the frame, from 0.
@@ -29,8 +29,8 @@ pub struct FilmExposure<'a> {
 impl<'a> FilmExposure<'a> {
     /// Exposure of a camera's film.
     #[must_use]
-    pub fn of(camera: &'a CameraPlan, shot: Shot) -> Self {
-        let Shot { frame, capture } = shot;
+    pub fn new(camera: &'a CameraPlan, frame_capture: FrameCapture) -> Self {
+        let FrameCapture { frame, capture } = frame_capture;
         let (timing, capture) = (&camera.timing, capture as usize);
         let interval = timing.capture(frame, capture);
         let row = |row: u32| match &camera.settings.route {
@@ -72,14 +72,14 @@ impl<'a> FilmExposure<'a> {
 
     /// Returns true if samples have individual times.
     #[must_use]
-    pub fn has_moments(&self) -> bool {
+    pub fn has_sample_times(&self) -> bool {
         self.time == TimeDependence::Motion
     }
 
     /// Time of a sample of a row, s of simulated time, from a number `u` in [0, 1) that samples of neighbouring rows may share. The times of each row are
     /// uniform over its exposure, and equal, as far as possible, in rows with overlapping exposures.
     #[must_use]
-    pub fn moment_s(&self, row: u32, u: f32) -> f64 {
+    pub fn sample_time_s(&self, row: u32, u: f32) -> f64 {
         if self.time != TimeDependence::Motion {
             return self.interval().start_s();
         }
@@ -96,7 +96,7 @@ impl<'a> FilmExposure<'a> {
     /// Interval over which the level of a varying light is averaged for a sample of a row: the row's exposure if nothing moves, otherwise the sample's time,
     /// as of its ray.
     #[must_use]
-    pub fn lit(&self, row: u32, moment_s: f64) -> TimeInterval {
+    pub fn light_interval(&self, row: u32, moment_s: f64) -> TimeInterval {
         match self.time {
             TimeDependence::None => TimeInterval::default(),
             TimeDependence::Lights => self.rows[row as usize],
@@ -140,13 +140,13 @@ mod tests {
 
     #[test]
     fn moments_are_even_over_each_row_and_shared_where_rows_overlap() {
-        let path = CameraPath::still(CameraPose { position_m: DVec3::ONE, rotation: DMat3::IDENTITY });
+        let path = CameraPath::constant(CameraPose { position_m: DVec3::ONE, rotation: DMat3::IDENTITY });
         let exposure = rolling(&path);
         let n = 1024_u16;
         for row in 0..16 {
             let own = exposure.rows[row as usize];
             let mut moments: Vec<f64> =
-                (0..n).map(|i| exposure.moment_s(row, (f32::from(i) + 0.5) / f32::from(n))).collect();
+                (0..n).map(|i| exposure.sample_time_s(row, (f32::from(i) + 0.5) / f32::from(n))).collect();
             moments.sort_by(f64::total_cmp);
             for (i, moment_s) in moments.iter().enumerate() {
                 // One in each of 1024 equal parts, except for rounding at their ends.
@@ -157,7 +157,7 @@ mod tests {
         // Rows 3 and 5 share 6 of their 8 ms.
         let same = (0..n).filter(|i| {
             let u = (f32::from(*i) + 0.5) / f32::from(n);
-            exposure.moment_s(3, u).to_bits() == exposure.moment_s(5, u).to_bits()
+            exposure.sample_time_s(3, u).to_bits() == exposure.sample_time_s(5, u).to_bits()
         });
         assert_eq!(same.count(), usize::from(n) * 6 / 8);
     }

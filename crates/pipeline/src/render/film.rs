@@ -1,10 +1,10 @@
 //! Light of a whole frame: f32 means and variances; each tile is filled by one owner.
 
-use crate::render::band_views::over;
+use crate::render::band_views::divide;
 use crate::render::gather::{PixelLight, stored_variance};
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
-use crate::sizes::film::Layout;
+use crate::sizes::film::FilmLayout;
 use crate::sizes::tile::Tile;
 use etendue_core::quantity::{
     ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance, WatchedSignal,
@@ -31,16 +31,16 @@ impl<Q: Quantity> Estimate<Q> {
 impl Estimate<ElectronRate> {
     /// Electrons over an exposure, s, and the variance of their mean.
     #[must_use]
-    pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
+    pub fn electrons(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
         Estimate {
-            mean: exposed(self.mean.clone(), exposure_s),
+            mean: scaled_plane(self.mean.clone(), exposure_s),
             variance: self.variance.map(|value| stored_variance(f64::from(value) * exposure_s * exposure_s)),
         }
     }
 }
 
 /// Scales values per second by a factor of the exposure, in place.
-pub(crate) fn exposed<Q, R>(plane: Plane<Q>, by: f64) -> Plane<R>
+pub(crate) fn scaled_plane<Q, R>(plane: Plane<Q>, by: f64) -> Plane<R>
 where
     Q: Quantity<Sample = f32>,
     R: Quantity<Sample = f32>,
@@ -102,7 +102,7 @@ pub struct Film {
 impl Film {
     /// An empty film in memory.
     #[must_use]
-    pub fn new(width: usize, height: usize, layout: &Layout, replicates: u32) -> Self {
+    pub fn new(width: usize, height: usize, layout: &FilmLayout, replicates: u32) -> Self {
         let cube = |bands| CubeEstimate {
             mean: SpectralCube::new(width, height, bands),
             variance: SpectralCube::new(width, height, bands),
@@ -112,13 +112,13 @@ impl Film {
 
     /// An empty film with bands on disk.
     #[must_use]
-    pub fn on_disk(cube: TiledCube, layout: &Layout, replicates: u32) -> Self {
+    pub fn on_disk(cube: TiledCube, layout: &FilmLayout, replicates: u32) -> Self {
         let (width, height) = cube.size();
         Self::with(Some(FilmCube::Disk(cube)), width, height, layout, replicates)
     }
 
     /// Copies the film with other bands, those of `cube`.
-    pub(super) fn planes_beside(&self, cube: TiledCube) -> Self {
+    pub(super) fn copy_with_cube(&self, cube: TiledCube) -> Self {
         Self {
             cube: Some(FilmCube::Disk(cube)),
             weight: self.weight.clone(),
@@ -130,11 +130,11 @@ impl Film {
         }
     }
 
-    fn with(cube: Option<FilmCube>, width: usize, height: usize, layout: &Layout, replicates: u32) -> Self {
+    fn with(cube: Option<FilmCube>, width: usize, height: usize, layout: &FilmLayout, replicates: u32) -> Self {
         Self {
             cube,
             weight: Plane::new(width, height),
-            electron_rate: layout.folded.then(|| Estimate::new(width, height)),
+            electron_rate: layout.accumulates_electrons.then(|| Estimate::new(width, height)),
             watched: layout.watched.then(|| Estimate::new(width, height)),
             samples: Plane::new(width, height),
             not_finite: Plane::new(width, height),
@@ -184,7 +184,7 @@ impl Film {
     pub fn tile_bands(&self, tile: Tile) -> Result<Option<TileBands>, String> {
         match &self.cube {
             None => Ok(None),
-            Some(FilmCube::Memory(cube)) => Ok(Some(TileBands::of(tile, &cube.mean, &cube.variance))),
+            Some(FilmCube::Memory(cube)) => Ok(Some(TileBands::from_cubes(tile, &cube.mean, &cube.variance))),
             Some(FilmCube::Disk(cube)) => cube.tile(tile).map(Some),
         }
     }
@@ -221,7 +221,7 @@ impl Film {
 
     /// Light of one pixel, as stored; `layout` is the film's, `bands` are those of its tile.
     #[must_use]
-    pub fn light(&self, pixel: Pixel, layout: &Layout, bands: Option<&TileBands>) -> PixelLight {
+    pub fn light(&self, pixel: Pixel, layout: &FilmLayout, bands: Option<&TileBands>) -> PixelLight {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
         let (mut means, mut variances) = (Vec::new(), Vec::new());
         if let Some(bands) = bands {
@@ -230,13 +230,13 @@ impl Film {
         }
         means.push(f64::from(self.weight.at(x, y)));
         variances.push(0.0);
-        let folded = self.electron_rate.as_ref().map(|rate| (rate.mean.at(x, y), rate.variance.at(x, y)));
+        let accumulates_electrons = self.electron_rate.as_ref().map(|rate| (rate.mean.at(x, y), rate.variance.at(x, y)));
         let watched = self.watched.as_ref().map(|light| (light.mean.at(x, y), light.variance.at(x, y)));
-        if let Some((mean, variance)) = folded.or(watched) {
+        if let Some((mean, variance)) = accumulates_electrons.or(watched) {
             means.push(f64::from(mean));
             variances.push(f64::from(variance));
         }
-        PixelLight::of(layout, means, variances, self.samples.at(x, y), self.not_finite.at(x, y))
+        PixelLight::new(layout, means, variances, self.samples.at(x, y), self.not_finite.at(x, y))
     }
 
     /// Copies `tile` from a film of the same size and layout; bands only from memory to memory.
@@ -293,7 +293,7 @@ where
 {
     let plane = |plane: &Plane<Q>| {
         let mut weights = weight.samples().iter();
-        plane.map(|value| weights.next().map_or(0.0, |weight| over(value, *weight, divisor)))
+        plane.map(|value| weights.next().map_or(0.0, |weight| divide(value, *weight, divisor)))
     };
     SpectralCube::from_planes(cube.bands(), cube.planes().iter().map(plane).collect()).expect("planes of one cube")
 }

@@ -41,8 +41,8 @@ impl<'a> FrameView<'a> {
     pub fn middle_at_s(&self, y_px: f64, row: usize) -> f64 {
         let exposure = &self.camera.timing.exposure;
         let neighbours = exposure.shutter.row_timing().and_then(|_| exposure.neighbours(y_px, row));
-        let Some((rows, share)) = neighbours else { return self.row_middle_s(row) };
+        let Some((rows, fraction)) = neighbours else { return self.row_middle_s(row) };
         let [from_s, to_s] = rows.map(|row| self.row_middle_s(row));
-        from_s + (to_s - from_s) * share
+        from_s + (to_s - from_s) * fraction
     }
 }

@@ -4,22 +4,22 @@
 //! means is an unbiased estimate of the total variance. The scatter of the samples is not: it overstates the variance of a stratified mean by factors of ten
 //! to thousands.
 
-use crate::sizes::film::Layout;
+use crate::sizes::film::FilmLayout;
 use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 
 /// Running sums of a pixel over the samples of one replicate.
 #[derive(Clone, Debug)]
-pub struct Sums {
-    layout: Layout,
+pub struct ReplicateSums {
+    layout: FilmLayout,
     slots: Vec<f64>,
     not_finite: u32,
 }
 
-impl Sums {
+impl ReplicateSums {
     /// Empty sums.
     #[must_use]
-    pub fn new(layout: Layout) -> Self {
+    pub fn new(layout: FilmLayout) -> Self {
         Self { slots: vec![0.0; layout.slots()], layout, not_finite: 0 }
     }
 
@@ -67,25 +67,25 @@ impl Sums {
 
 /// Running moments of one pixel over replicates.
 #[derive(Clone, Debug)]
-pub struct Gather {
+pub struct ReplicateMoments {
     mean: Vec<f64>,
     squares: Vec<f64>,
     replicates: u32,
 }
 
-impl Gather {
+impl ReplicateMoments {
     /// Moments of no replicates.
     #[must_use]
-    pub fn new(layout: &Layout) -> Self {
+    pub fn new(layout: &FilmLayout) -> Self {
         let slots = layout.slots();
         Self { mean: vec![0.0; slots], squares: vec![0.0; slots], replicates: 0 }
     }
 
     /// Adds the sums of a replicate of `samples` samples (including those that the lens blocked), and resets them.
-    pub fn end_replicate(&mut self, sums: &mut Sums, samples: u32) {
+    pub fn end_replicate(&mut self, replicate_sums: &mut ReplicateSums, samples: u32) {
         self.replicates += 1;
         let n = f64::from(self.replicates);
-        for ((sum, mean), squares) in sums.slots.iter_mut().zip(&mut self.mean).zip(&mut self.squares) {
+        for ((sum, mean), squares) in replicate_sums.slots.iter_mut().zip(&mut self.mean).zip(&mut self.squares) {
             let value = *sum / f64::from(samples);
             let step = value - *mean;
             *mean += step / n;
@@ -96,7 +96,7 @@ impl Gather {
 
     /// Light of the pixel over all replicates with `samples` samples together, of which `not_finite` were not finite.
     #[must_use]
-    pub fn light(self, layout: &Layout, samples: u32, not_finite: u32) -> PixelLight {
+    pub fn light(self, layout: &FilmLayout, samples: u32, not_finite: u32) -> PixelLight {
         let variances = (0..self.mean.len()).map(|slot| self.variance(slot)).collect();
         PixelLight { layout: *layout, means: self.mean, variances, samples, not_finite }
     }
@@ -119,7 +119,7 @@ pub(crate) fn stored_variance(value: f64) -> f32 {
 /// Light of one pixel: means and their variances.
 #[derive(Clone, Debug)]
 pub struct PixelLight {
-    layout: Layout,
+    layout: FilmLayout,
     means: Vec<f64>,
     variances: Vec<f64>,
     samples: u32,
@@ -128,7 +128,7 @@ pub struct PixelLight {
 
 impl PixelLight {
     /// Light from means and variances of [`Layout::slots`] values.
-    pub(super) fn of(layout: &Layout, means: Vec<f64>, variances: Vec<f64>, samples: u32, not_finite: u32) -> Self {
+    pub(super) fn new(layout: &FilmLayout, means: Vec<f64>, variances: Vec<f64>, samples: u32, not_finite: u32) -> Self {
         Self { layout: *layout, means, variances, samples, not_finite }
     }
 
@@ -173,7 +173,7 @@ impl PixelLight {
     #[must_use]
     pub fn electrons(&self) -> Option<(f64, f64)> {
         let slot = self.layout.watched_slot();
-        self.layout.folded.then(|| (self.means[slot], self.variances[slot]))
+        self.layout.accumulates_electrons.then(|| (self.means[slot], self.variances[slot]))
     }
 
     /// Mean of the signal monitored by a noise limit, and the variance of that mean; `None` without a limit.
@@ -204,16 +204,16 @@ mod tests {
     #[test]
     fn a_constant_radiance_gives_its_band_means_and_electrons() {
         let bands = Bands::covering(400.0, 700.0, 100.0).expect("three bands");
-        let layout = Layout { bands: Some(bands), folded: true, watched: false };
-        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
+        let layout = FilmLayout { bands: Some(bands), accumulates_electrons: true, watched: false };
+        let (mut replicate_sums, mut gather) = (ReplicateSums::new(layout), ReplicateMoments::new(&layout));
         let responsivity = Spectrum::constant(2.0);
         for replicate in 0..2 {
             for sample in 0..48 {
                 let u = (f64::from(sample) + 0.25 + 0.5 * f64::from(replicate)) / 48.0;
                 let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, u as f32);
-                sums.add(0.5, Spectral::splat(3.0), &wavelengths, Some(&responsivity));
+                replicate_sums.add(0.5, Spectral::splat(3.0), &wavelengths, Some(&responsivity));
             }
-            gather.end_replicate(&mut sums, 48);
+            gather.end_replicate(&mut replicate_sums, 48);
         }
         let light = gather.light(&layout, 96, 0);
         for band in light.bands() {
@@ -226,13 +226,13 @@ mod tests {
 
     #[test]
     fn variance_is_that_of_the_replicate_means() {
-        let layout = Layout { bands: None, folded: true, watched: false };
-        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
+        let layout = FilmLayout { bands: None, accumulates_electrons: true, watched: false };
+        let (mut replicate_sums, mut gather) = (ReplicateSums::new(layout), ReplicateMoments::new(&layout));
         let one = Spectrum::constant(1.0);
         for value in [1.0, 3.0] {
             let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
-            sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&one));
-            gather.end_replicate(&mut sums, 1);
+            replicate_sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&one));
+            gather.end_replicate(&mut replicate_sums, 1);
         }
         let (mean, variance) = gather.light(&layout, 2, 0).electrons().expect("folded");
         assert_eq!((mean, variance), (2.0, 1.0), "s² = 2 of two means, over two");
@@ -240,12 +240,12 @@ mod tests {
 
     #[test]
     fn a_sample_that_is_not_finite_is_counted_and_shows() {
-        let layout = Layout { bands: None, folded: true, watched: false };
-        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
+        let layout = FilmLayout { bands: None, accumulates_electrons: true, watched: false };
+        let (mut replicate_sums, mut gather) = (ReplicateSums::new(layout), ReplicateMoments::new(&layout));
         let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
-        sums.add(1.0, Spectral::splat(f32::NAN), &wavelengths, Some(&Spectrum::constant(1.0)));
-        gather.end_replicate(&mut sums, 1);
-        let light = gather.light(&layout, 1, sums.not_finite());
+        replicate_sums.add(1.0, Spectral::splat(f32::NAN), &wavelengths, Some(&Spectrum::constant(1.0)));
+        gather.end_replicate(&mut replicate_sums, 1);
+        let light = gather.light(&layout, 1, replicate_sums.not_finite());
         assert_eq!(light.not_finite(), 1);
         assert!(light.electrons().is_some_and(|(mean, _)| mean.is_nan()));
     }
@@ -256,18 +256,18 @@ mod tests {
         use crate::render::film::Film;
         use etendue_core::random::Pixel;
         let bands = Bands::covering(500.0, 501.0, 1.0);
-        let layout = Layout { bands, folded: true, watched: false };
-        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
+        let layout = FilmLayout { bands, accumulates_electrons: true, watched: false };
+        let (mut replicate_sums, mut gather) = (ReplicateSums::new(layout), ReplicateMoments::new(&layout));
         for value in [1e30, 3e30] {
             let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
-            sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&Spectrum::constant(1.0)));
-            gather.end_replicate(&mut sums, 1);
+            replicate_sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&Spectrum::constant(1.0)));
+            gather.end_replicate(&mut replicate_sums, 1);
         }
         let light = gather.light(&layout, 2, 0);
         let mut film = Film::new(1, 1, &layout, 2);
         film.store(Pixel { x: 0, y: 0 }, &light);
         assert_eq!(film.not_finite_samples(), 0, "the means are finite");
-        let exposed = film.electron_rate.as_ref().map(|rate| rate.exposed(2.0)).expect("folded");
+        let exposed = film.electron_rate.as_ref().map(|rate| rate.electrons(2.0)).expect("folded");
         let cube = film.cube().expect("a band");
         let variances = [cube.variance.planes()[0].at(0, 0), exposed.variance.at(0, 0)];
         assert_eq!(variances, [f32::MAX; 2]);

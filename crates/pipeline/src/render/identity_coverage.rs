@@ -5,9 +5,9 @@
 //! mean weight of the rays that hit it over that of all rays; the remainder to 1 is the background. Surfaces with opacity are present where it is at least
 //! one half; panes hide what is behind them; weather is ignored; light spread by effects behind the lens is counted at its origin.
 
-use crate::plan::{CameraPlan, PassAt, Plan};
-use crate::render::camera_light::{Request, SourceJob, render_job, with_lens};
-use crate::render::exposure::{FilmExposure, Shot};
+use crate::plan::{CameraPlan, NumberedPass, Plan};
+use crate::render::camera_light::{LightRequest, SourceJob, render_job, with_lens};
+use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::light::{RaySource, RenderJob, Sampling};
 use crate::render::truth::is_there;
 use crate::render::weather_layers;
@@ -23,7 +23,7 @@ const MAX_SPP: u32 = 64;
 
 /// An identity in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
+pub struct IdentityFraction {
     /// Id as in the ground truth; never 0.
     pub id: u32,
     /// Fraction of the pixel's light from it, above 0 and at most 1.
@@ -38,16 +38,16 @@ pub struct IdentityCoverage {
     /// Rows of the image.
     pub height: usize,
     /// By instance.
-    pub instances: Vec<Vec<Share>>,
+    pub instances: Vec<Vec<IdentityFraction>>,
     /// By material: positions in the plan's list, from 1.
-    pub materials: Vec<Vec<Share>>,
+    pub materials: Vec<Vec<IdentityFraction>>,
 }
 
 /// Coverage of a frame of a camera, with as many samples as its light has, at most 64, or one of each replicate if these are more. Runs on the caller's pool.
 #[must_use]
 pub fn identity_coverage(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> IdentityCoverage {
-    let shot = Shot { frame, capture: 0 };
-    with_lens(camera, shot, CoverageJob { plan, camera, request: Request { shot, simd, ..Request::default() } })
+    let frame_capture = FrameCapture { frame, capture: 0 };
+    with_lens(camera, frame_capture, CoverageJob { plan, camera, request: LightRequest { frame_capture: shot: frame_capture, simd, ..LightRequest::default() } })
 }
 
 /// Samples per pixel.
@@ -59,12 +59,12 @@ pub(crate) fn spp(camera: &CameraPlan) -> u32 {
 /// Maximum memory per pixel while its coverage is computed and written, bytes: the header and four entries of two lists, the same again for writing, and the 24
 /// numbers in the file.
 pub(crate) const BYTES_OF_PIXEL: f64 =
-    (4 * (size_of::<Vec<Share>>() + 4 * size_of::<Share>() + 2 * size_of::<usize>()) + 24 * size_of::<f32>()) as f64;
+    (4 * (size_of::<Vec<IdentityFraction>>() + 4 * size_of::<IdentityFraction>() + 2 * size_of::<usize>()) + 24 * size_of::<f32>()) as f64;
 
 struct CoverageJob<'a> {
     plan: &'a Plan,
     camera: &'a CameraPlan,
-    request: Request,
+    request: LightRequest,
 }
 
 impl SourceJob for CoverageJob<'_> {
@@ -72,27 +72,27 @@ impl SourceJob for CoverageJob<'_> {
 
     fn run(self, source: &dyn RaySource) -> IdentityCoverage {
         let Self { plan, camera, request } = self;
-        let exposure = FilmExposure::of(camera, request.shot);
+        let exposure = FilmExposure::new(camera, request.frame_capture);
         let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), request.simd);
         let job = render_job(camera, exposure, request, source, None);
-        let sampling = Sampling { pass: PassAt::only(spp(camera)), ..job.sampling };
+        let sampling = Sampling { pass: NumberedPass::only(spp(camera)), ..job.sampling };
         let job = RenderJob { sampling, aperture_px: camera.body.aperture_px, ..job };
         let (width, height) = (camera.body.raster.width(), camera.body.raster.height());
         // The film of rays through the lens has a margin before the image.
         let margin = camera.body.effects.margin_px();
         let pixel = |i: usize| Pixel { x: (i % width + margin[0]) as u32, y: (i / width + margin[1]) as u32 };
-        let shares = |i: usize| {
+        let fractions_of = |i: usize| {
             let (mut instances, mut materials) = (Tally::default(), Tally::default());
             job.each_ray(pixel(i), |ray, weight| {
                 let (origin, direction) = (ray.ray.origin.as_dvec3(), ray.ray.direction.as_dvec3());
-                let seen =
+                let hit =
                     view.truth(origin, direction, ray.ray.time_s, |point| is_there(&view, &plan.material_table, point));
-                instances.add(seen.as_ref().map_or(0, |truth: &Truth| truth.instance_id), weight);
-                materials.add(seen.map_or(0, |truth| truth.material + 1), weight);
+                instances.add(hit.as_ref().map_or(0, |truth: &Truth| truth.instance_id), weight);
+                materials.add(hit.map_or(0, |truth| truth.material + 1), weight);
             });
-            (instances.shares(), materials.shares())
+            (instances.into_fractions(), materials.into_fractions())
         };
-        let (instances, materials) = (0..width * height).into_par_iter().map(shares).unzip();
+        let (instances, materials) = (0..width * height).into_par_iter().map(fractions_of).unzip();
         IdentityCoverage { width, height, instances, materials }
     }
 }
@@ -110,9 +110,9 @@ impl RenderJob<'_> {
                 };
                 // At the pupil all rows are exposed together, and there may be fewer of them than rows of the image.
                 let row = pixel.y.min(self.height - 1);
-                let moment_s = self.exposure.moment_s(row, self.time_number(&stream));
-                let lit = TimeInterval::default();
-                take(&FieldRay { ray: self.exposure.to_render(&ray, moment_s), stream, lit }, ray.weight_sr);
+                let moment_s = self.exposure.sample_time_s(row, self.time_number(&stream));
+                let light_interval = TimeInterval::default();
+                take(&FieldRay { ray: self.exposure.to_render(&ray, moment_s), stream, light_interval }, ray.weight_sr);
             }
         }
     }
@@ -131,12 +131,12 @@ impl Tally {
     }
 
     /// Coverage of all identities except the background.
-    fn shares(self) -> Vec<Share> {
-        let whole: f64 = self.0.iter().map(|(_, weight)| weight).sum();
-        let met = self.0.into_iter().filter(|(id, weight)| *id > 0 && *weight > 0.0);
-        let mut shares: Vec<_> = met.map(|(id, weight)| Share { id, coverage: (weight / whole) as f32 }).collect();
-        shares.sort_by(|a, b| b.coverage.total_cmp(&a.coverage).then(a.id.cmp(&b.id)));
-        shares
+    fn into_fractions(self) -> Vec<IdentityFraction> {
+        let total: f64 = self.0.iter().map(|(_, weight)| weight).sum();
+        let identities = self.0.into_iter().filter(|(id, weight)| *id > 0 && *weight > 0.0);
+        let mut fractions: Vec<_> = identities.map(|(id, weight)| IdentityFraction { id, coverage: (weight / total) as f32 }).collect();
+        fractions.sort_by(|a, b| b.coverage.total_cmp(&a.coverage).then(a.id.cmp(&b.id)));
+        fractions
     }
 }
 

@@ -1,23 +1,23 @@
 //! Light of a frame: sends every pixel's samples into a radiance field and accumulates them on the film.
 
-use crate::plan::PassAt;
-use crate::render::exposure::{FilmExposure, Shot};
+use crate::plan::NumberedPass;
+use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::film::Film;
-use crate::render::gather::{Gather, PixelLight, Sums};
-use crate::render::heroes::{Heroes, ReplicateNumbers};
+use crate::render::gather::{ReplicateMoments, PixelLight, ReplicateSums};
+use crate::render::heroes::{WavelengthNumbers, ReplicateNumbers};
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
 use crate::sizes::block::Blocks;
-use crate::sizes::film::{Layout, has_variance};
+use crate::sizes::film::{FilmLayout, has_variance};
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use crate::sizes::tile::{Shard, Tile, tiles};
 use crate::sizes::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::storage::ScratchStore;
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
-use etendue_optics::effects::{SampleSpread, SpreadDraw};
+use etendue_optics::effects::{SampleSpread, SpreadRandomNumbers};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -34,7 +34,7 @@ pub trait RaySource: Sync {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
     /// Pass: its samples per pixel are those of all replicates; with noise-limited sampling the maximum.
-    pub pass: PassAt,
+    pub pass: NumberedPass,
     /// Independently scrambled replicates of a pass; divides its samples.
     pub replicates: u32,
     /// The job's seed.
@@ -42,7 +42,7 @@ pub struct Sampling {
     /// Index in the job of the camera that owns the light.
     pub camera: u32,
     /// Frame and capture; the first for light that serves all of them.
-    pub shot: Shot,
+    pub frame_capture: FrameCapture,
     /// Shortest sampled wavelength, nm.
     pub low_nm: f32,
     /// Longest sampled wavelength, nm.
@@ -78,7 +78,7 @@ pub struct RenderJob<'a> {
     /// Side of a pixel's photosensitive area, in pixels (the root of the fill factor).
     pub aperture_px: f64,
     /// Values to store.
-    pub layout: Layout,
+    pub layout: FilmLayout,
     /// Responsivities, if electrons are accumulated or monitored for their noise.
     pub mosaic: Option<&'a Mosaic>,
     /// Samples and addresses.
@@ -98,7 +98,7 @@ pub struct RenderJob<'a> {
 }
 
 /// A pixel of a block that receives light.
-struct Reached<const N: usize> {
+struct LitPixel<const N: usize> {
     /// Index in the block.
     index: usize,
     /// The weight of its ray.
@@ -109,14 +109,14 @@ struct Reached<const N: usize> {
 
 /// One sample of each pixel of a block, during evaluation.
 #[derive(Default)]
-pub(super) struct Asked<const N: usize> {
+pub(super) struct BlockSample<const N: usize> {
     /// Pixels that receive light.
-    pixels: Vec<Reached<N>>,
+    pixels: Vec<LitPixel<N>>,
     rays: Vec<FieldRay>,
     radiance: Vec<Spectral<N>>,
 }
 
-impl<const N: usize> Asked<N> {
+impl<const N: usize> BlockSample<N> {
     fn clear(&mut self) {
         self.pixels.clear();
         self.rays.clear();
@@ -126,7 +126,7 @@ impl<const N: usize> Asked<N> {
 
 /// Reasons for which a film is incomplete.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum GatherError {
+pub enum RenderError {
     /// The caller cancelled.
     #[error("the rendering was cancelled")]
     Cancelled,
@@ -145,15 +145,15 @@ impl RenderJob<'_> {
         field: &dyn RadianceField<N>,
         before: Option<&Film>,
         observer: &dyn Observer,
-    ) -> Result<Film, GatherError> {
-        let film = self.begun(before).map_err(GatherError::Scratch)?;
+    ) -> Result<Film, RenderError> {
+        let film = self.new_film(before).map_err(RenderError::Scratch)?;
         let (disk, film) = (film.disk().cloned(), Mutex::new(film));
         let (tiles, done) = (tiles(self.width, self.height, self.tile_px, self.shard), AtomicUsize::new(0));
         observer.begins();
         // One tile at a time; otherwise the last tiles of a thread are a row that no other thread can take over.
         tiles.par_iter().with_max_len(1).try_for_each(|tile| {
             let pixels = self.gather_tile(field, *tile, observer)?;
-            let pixels = self.joined(pixels, *tile, before, disk.as_ref()).map_err(GatherError::Scratch)?;
+            let pixels = self.joined(pixels, *tile, before, disk.as_ref()).map_err(RenderError::Scratch)?;
             // The film is locked once per tile.
             let mut film = film.lock().expect("no tile panicked");
             pixels.iter().for_each(|(pixel, light)| film.store(*pixel, light));
@@ -166,7 +166,7 @@ impl RenderJob<'_> {
     }
 
     /// The film before the first tile. A film on disk has its own file, so that the previous film remains unchanged.
-    fn begun(&self, before: Option<&Film>) -> Result<Film, String> {
+    fn new_film(&self, before: Option<&Film>) -> Result<Film, String> {
         let disk = self.scratch.zip(self.layout.bands).map(|(store, bands)| {
             let has_variance = has_variance(self.sampling.replicates, self.shard);
             TiledCube::new(store, bands, [self.width, self.height, self.tile_px], has_variance)
@@ -178,7 +178,7 @@ impl RenderJob<'_> {
             }
             (None, Some(before)) => Ok(before.clone()),
             (None, None) => Ok(self.empty_film()),
-            (Some(cube), Some(before)) => Ok(before.planes_beside(cube)),
+            (Some(cube), Some(before)) => Ok(before.copy_with_cube(cube)),
             (Some(cube), None) => Ok(Film::on_disk(cube, &self.layout, self.sampling.replicates)),
         }
     }
@@ -193,13 +193,13 @@ impl RenderJob<'_> {
         field: &dyn RadianceField<N>,
         tile: Tile,
         observer: &dyn Observer,
-    ) -> Result<Vec<(Pixel, PixelLight)>, GatherError> {
-        let goes_on = || if observer.cancelled() { Err(GatherError::Cancelled) } else { Ok(()) };
+    ) -> Result<Vec<(Pixel, PixelLight)>, RenderError> {
+        let check_cancelled = || if observer.cancelled() { Err(RenderError::Cancelled) } else { Ok(()) };
         if let Some(tolerance) = &self.tolerance {
-            return goes_on().map(|()| self.gather_to_tolerance(field, tile, tolerance));
+            return check_cancelled().map(|()| self.gather_to_tolerance(field, tile, tolerance));
         }
-        let blocks = self.blocks.of(tile).filter(|block| self.sampling.pass.takes(block[0]));
-        let lights = blocks.map(|block| goes_on().map(|()| self.gather_block(field, &block)));
+        let blocks = self.blocks.in_tile(tile).filter(|block| self.sampling.pass.takes(block[0]));
+        let lights = blocks.map(|block| check_cancelled().map(|()| self.gather_block(field, &block)));
         Ok(lights.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 
@@ -226,23 +226,23 @@ impl RenderJob<'_> {
     }
 
     /// Values accumulated for each pixel: those that the film stores, and electrons if their noise is monitored.
-    pub(super) fn gathered(&self) -> Layout {
-        Layout { folded: self.mosaic.is_some(), ..self.layout }
+    pub(super) fn gathered_layout(&self) -> FilmLayout {
+        FilmLayout { accumulates_electrons: self.mosaic.is_some(), ..self.layout }
     }
 
     /// Renders the pixels of a block, sample by sample.
     fn gather_block<const N: usize>(&self, field: &dyn RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, PixelLight)> {
-        let layout = self.gathered();
-        let mut sums = vec![Sums::new(layout); block.len()];
-        let mut gathers = vec![Gather::new(&layout); block.len()];
-        let mut asked = Asked::default();
+        let layout = self.gathered_layout();
+        let mut pixel_sums = vec![ReplicateSums::new(layout); block.len()];
+        let mut gathers = vec![ReplicateMoments::new(&layout); block.len()];
+        let mut block_sample = BlockSample::default();
         let samples = self.sampling.spp() / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
-            self.add_replicate(field, block, replicate, 0..samples, &mut asked, &mut sums);
-            gathers.iter_mut().zip(&mut sums).for_each(|(gather, sums)| gather.end_replicate(sums, samples));
+            self.add_replicate(field, block, replicate, 0..samples, &mut block_sample, &mut pixel_sums);
+            gathers.iter_mut().zip(&mut pixel_sums).for_each(|(gather, pixel_sums)| gather.end_replicate(pixel_sums, samples));
         }
-        let of = |(gather, sums): (Gather, &Sums)| gather.light(&layout, self.sampling.spp(), sums.not_finite());
-        block.iter().copied().zip(gathers.into_iter().zip(&sums).map(of)).collect()
+        let of = |(gather, pixel_sums): (ReplicateMoments, &ReplicateSums)| gather.light(&layout, self.sampling.spp(), pixel_sums.not_finite());
+        block.iter().copied().zip(gathers.into_iter().zip(&pixel_sums).map(of)).collect()
     }
 
     /// Adds samples of one replicate of the pixels of a block.
@@ -252,27 +252,27 @@ impl RenderJob<'_> {
         block: &[Pixel],
         replicate: u32,
         samples: Range<u32>,
-        asked: &mut Asked<N>,
-        sums: &mut [Sums],
+        block_sample: &mut BlockSample<N>,
+        pixel_sums: &mut [ReplicateSums],
     ) {
         let streams = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
-        let numbers = ReplicateNumbers { streams, heroes: self.heroes(block[0], replicate) };
+        let numbers = ReplicateNumbers { streams, wavelength_numbers: self.wavelength_numbers(block[0], replicate) };
         for sample in samples {
-            self.add_samples(field, block, &numbers, sample, asked, sums);
+            self.add_samples(field, block, &numbers, sample, block_sample, pixel_sums);
         }
     }
 
     pub(super) fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
-        let Sampling { seed, camera, shot: Shot { frame, capture }, .. } = self.sampling;
+        let Sampling { seed, camera, frame_capture: FrameCapture { frame, capture }, .. } = self.sampling;
         let replicate = self.sampling.first_replicate() + replicate;
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
     /// Wavelengths of a replicate of a block: those of its first pixel.
-    fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
+    fn wavelength_numbers(&self, pixel: Pixel, replicate: u32) -> WavelengthNumbers {
         let Sampling { replicates, spread, .. } = self.sampling;
         let samples = self.sampling.spp() / replicates;
-        Heroes::new(spread, &self.address(pixel, replicate), samples, self.sampling.first_replicate(), replicates)
+        WavelengthNumbers::new(spread, &self.address(pixel, replicate), samples, self.sampling.first_replicate(), replicates)
     }
 
     /// Adds one sample of each pixel of a block.
@@ -282,33 +282,33 @@ impl RenderJob<'_> {
         block: &[Pixel],
         numbers: &ReplicateNumbers,
         sample: u32,
-        asked: &mut Asked<N>,
-        sums: &mut [Sums],
+        block_sample: &mut BlockSample<N>,
+        pixel_sums: &mut [ReplicateSums],
     ) {
-        let ReplicateNumbers { streams, heroes } = numbers;
-        asked.clear();
+        let ReplicateNumbers { streams, wavelength_numbers } = numbers;
+        block_sample.clear();
         let site = self.mosaic.map(|mosaic| mosaic.at(block[0]));
-        let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));
+        let wavelengths = self.wavelengths::<N>(site, wavelength_numbers.number(&streams[0].with_sample(sample), N));
         let time_u = self.time_number(&streams[0].with_sample(sample));
         for (index, (stream, pixel)) in streams.iter().zip(block).enumerate() {
             let stream = stream.with_sample(sample);
-            let (displaced_px, spread) = self.displaced(*pixel, &stream, &wavelengths);
+            let (displaced_px, spread) = self.displacement(*pixel, &stream, &wavelengths);
             if let Some(pupil_ray) = self.pupil_ray(*pixel, displaced_px, &stream, wavelengths.nm[0]) {
-                asked.pixels.push(Reached { index, weight_sr: pupil_ray.weight_sr, spread });
-                let moment_s = self.exposure.moment_s(pixel.y, time_u);
-                let (ray, lit) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.lit(pixel.y, moment_s));
-                asked.rays.push(FieldRay { ray, stream, lit });
+                block_sample.pixels.push(LitPixel { index, weight_sr: pupil_ray.weight_sr, spread });
+                let moment_s = self.exposure.sample_time_s(pixel.y, time_u);
+                let (ray, light_interval) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.light_interval(pixel.y, moment_s));
+                block_sample.rays.push(FieldRay { ray, stream, light_interval });
             }
         }
-        field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
-        for (Reached { index, weight_sr, spread }, radiance) in asked.pixels.iter().zip(&asked.radiance) {
+        field.radiance_of_group(&block_sample.rays, &wavelengths, &mut block_sample.radiance);
+        for (LitPixel { index, weight_sr, spread }, radiance) in block_sample.pixels.iter().zip(&block_sample.radiance) {
             let radiance = spread.map_or(*radiance, |spread| *radiance * spread);
-            sums[*index].add(*weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
+            pixel_sums[*index].add(*weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
         }
     }
 
     /// Displacement of a sample by the point spread, px, and the weights of its wavelengths.
-    pub(super) fn displaced<const N: usize>(
+    pub(super) fn displacement<const N: usize>(
         &self,
         pixel: Pixel,
         stream: &PathStream,
@@ -317,7 +317,7 @@ impl RenderJob<'_> {
         let Some(spread) = self.sample_spread else { return (DVec2::ZERO, None) };
         let choice = stream.one(Draw::PointSpread, 1).into();
         let place = stream.two(Draw::PointSpread, 0).as_dvec2();
-        let (offset_px, weights) = spread.draw(pixel, &wavelengths.nm, SpreadDraw { choice, place });
+        let (offset_px, weights) = spread.sample_offset(pixel, &wavelengths.nm, SpreadRandomNumbers { choice, place });
         (offset_px, Some(Spectral(weights)))
     }
 
@@ -332,14 +332,14 @@ impl RenderJob<'_> {
     pub(super) fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
         let Sampling { low_nm, high_nm, .. } = self.sampling;
         match site {
-            Some(site) => site.density.draw(u),
+            Some(site) => site.density.sample(u),
             None => Wavelengths::uniform(low_nm, high_nm, u),
         }
     }
 
     /// Number that determines the times of a block's samples: that of the block's first pixel.
     pub(super) fn time_number(&self, stream: &PathStream) -> f32 {
-        if self.exposure.has_moments() { stream.one(Draw::Time, 0) } else { 0.0 }
+        if self.exposure.has_sample_times() { stream.one(Draw::Time, 0) } else { 0.0 }
     }
 }
 
@@ -352,9 +352,9 @@ mod tests {
     use etendue_core::ray::ConstantField;
     use glam::DVec3;
 
-    struct Half;
+    struct LeftHalfRays;
 
-    impl RaySource for Half {
+    impl RaySource for LeftHalfRays {
         fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
             let ray = PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 };
             (raster_px.x < 4.0).then_some(ray)
@@ -362,8 +362,8 @@ mod tests {
     }
 
     fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static> {
-        let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
-        RenderJob { tile_px, shard, ..still_job(&Half, [9, 5], layout, sampling(PassAt::only(64), 2)) }
+        let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
+        RenderJob { tile_px, shard, ..still_job(&LeftHalfRays, [9, 5], layout, sampling(NumberedPass::only(64), 2)) }
     }
 
     fn film(tile_px: u32, shard: Shard) -> Film {
@@ -384,15 +384,15 @@ mod tests {
 
     #[test]
     fn tiles_and_shards_do_not_change_the_film() {
-        let whole = film(16, Shard::WHOLE);
-        assert_eq!(film(2, Shard::WHOLE), whole);
-        let mut joined = exposure(2, Shard::WHOLE).empty_film();
+        let full = film(16, Shard::WHOLE);
+        assert_eq!(film(2, Shard::WHOLE), full);
+        let mut merged_film = exposure(2, Shard::WHOLE).empty_film();
         for index in 0..3 {
             let shard = Shard::new(index, 3).expect("a shard");
             let part = film(2, shard);
-            tiles(9, 5, 2, shard).into_iter().for_each(|tile| joined.copy_tile(tile, &part));
+            tiles(9, 5, 2, shard).into_iter().for_each(|tile| merged_film.copy_tile(tile, &part));
         }
-        assert_eq!(joined, whole);
+        assert_eq!(merged_film, full);
     }
 
     /// All values of the lit pixels of a uniform field of radiance 1 over a weight of 0.25, in bands of 5 nm.
@@ -403,12 +403,12 @@ mod tests {
         exposure.layout.bands = Bands::covering(380.0, 780.0, 5.0);
         let (low_nm, high_nm) = (380.0, 780.0);
         exposure.sampling =
-            Sampling { pass: PassAt::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
+            Sampling { pass: NumberedPass::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
         let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &Unobserved).expect("not cancelled");
         let cube = film.cube().expect("a cube");
-        let lit =
+        let bands_at =
             |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();
-        (0..40).flat_map(|y| (0..4).flat_map(move |x| lit(y, x)).collect::<Vec<_>>()).collect()
+        (0..40).flat_map(|y| (0..4).flat_map(move |x| bands_at(y, x)).collect::<Vec<_>>()).collect()
     }
 
     fn moments(values: &[f64]) -> (f64, f64) {
@@ -419,17 +419,17 @@ mod tests {
 
     /// 64 wavelengths of 80 bands: none or one in each, where independent ones gave 0 to 7.5.
     #[test]
-    fn bands_of_even_light_are_met_as_evenly_as_wavelengths_allow() {
-        let even = bands(16, 4, SpectrumSpread::AllReplicates);
-        assert!(even.iter().all(|v| *v == 0.0 || (v - 1.25).abs() < 1e-5), "{:?}", moments(&even));
-        let drawn = bands(16, 4, SpectrumSpread::Drawn);
-        assert!(drawn.iter().any(|v| *v > 4.0), "{:?}", moments(&drawn));
+    fn bands_of_uniform_light_are_sampled_as_evenly_as_wavelengths_allow() {
+        let uniform = bands(16, 4, SpectrumSpread::AllReplicates);
+        assert!(uniform.iter().all(|v| *v == 0.0 || (v - 1.25).abs() < 1e-5), "{:?}", moments(&uniform));
+        let random = bands(16, 4, SpectrumSpread::Drawn);
+        assert!(random.iter().any(|v| *v > 4.0), "{:?}", moments(&random));
         // 320 wavelengths: four in every band.
         assert!(bands(80, 4, SpectrumSpread::AllReplicates).iter().all(|v| (v - 1.0).abs() < 1e-5));
     }
 
     #[test]
-    fn the_noise_of_a_band_is_the_foretold_one_and_its_mean_the_light() {
+    fn the_noise_of_a_band_is_the_estimated_one_and_its_mean_the_light() {
         for (spp, replicates, spread) in [
             (16, 4, SpectrumSpread::AllReplicates),
             (48, 2, SpectrumSpread::AllReplicates),
@@ -438,9 +438,9 @@ mod tests {
         ] {
             let values = bands(spp, replicates, spread);
             let ((mean, noise), n) = (moments(&values), values.len() as f64);
-            let told = spread.band_noise(spp, replicates, 4, 5.0 / 400.0).expect("spread");
-            assert!((mean - 1.0).abs() < 5.0 * told / n.sqrt() + 1e-6, "{spread:?} {spp}: {mean}");
-            assert!((noise / told - 1.0).abs() < 0.05, "{spread:?} {spp}: {noise} for {told}");
+            let estimated = spread.band_noise(spp, replicates, 4, 5.0 / 400.0).expect("spread");
+            assert!((mean - 1.0).abs() < 5.0 * estimated / n.sqrt() + 1e-6, "{spread:?} {spp}: {mean}");
+            assert!((noise / estimated - 1.0).abs() < 0.05, "{spread:?} {spp}: {noise} for {estimated}");
         }
     }
 }

@@ -10,7 +10,7 @@ use etendue_tracer::render_space::{RenderSpace, Truth};
 use glam::{DVec2, DVec3};
 
 /// A frame of a camera and the world during it.
-pub(crate) struct LookAt<'a> {
+pub(crate) struct GroundTruthView<'a> {
     /// The frame.
     pub(crate) frame: FrameView<'a>,
     plan: &'a Plan,
@@ -31,7 +31,7 @@ pub(crate) struct PixelRay {
     pub(crate) pose: CameraPose,
 }
 
-impl<'a> LookAt<'a> {
+impl<'a> GroundTruthView<'a> {
     pub(crate) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
         let origin_m = frame.pose_at(frame.interval().middle_s()).position_m;
         let view = plan.world.render_space_with(origin_m, frame.interval(), simd);
@@ -52,7 +52,7 @@ impl<'a> LookAt<'a> {
     }
 
     /// First hit from a point of the camera's frame (m) along a direction of it, with the camera at `pose` at a time.
-    pub(crate) fn meets(
+    pub(crate) fn first_hit(
         &self,
         pose: &CameraPose,
         origin_m: DVec3,
@@ -62,18 +62,18 @@ impl<'a> LookAt<'a> {
     ) -> Option<Truth> {
         // The view's origin is the camera's position at the middle of the frame.
         let from_m = pose.position_m - self.view.origin_m() + pose.point_to_render(origin_m);
-        let wanted = |index: u32| instance.is_none_or(|wanted| wanted == index);
+        let is_wanted = |index: u32| instance.is_none_or(|wanted_index| wanted_index == index);
         self.view.truth(from_m, pose.direction_to_world(direction), ray_time_s, |point| {
-            wanted(point.instance) && is_there(&self.view, &self.plan.material_table, point)
+            is_wanted(point.instance) && is_there(&self.view, &self.plan.material_table, point)
         })
     }
 
     /// Returns true if an image point would show an instance (its index in the world's list) if that were alone.
-    pub(crate) fn meets_alone(&self, at_px: DVec2, instance: u32) -> bool {
-        let found = self.ray(at_px).and_then(|ray| {
+    pub(crate) fn would_show(&self, at_px: DVec2, instance: u32) -> bool {
+        let hit = self.ray(at_px).and_then(|ray| {
             let line = ray.front.ray;
-            self.meets(&ray.pose, line.origin_m, line.direction, ray.ray_time_s, Some(instance))
+            self.first_hit(&ray.pose, line.origin_m, line.direction, ray.ray_time_s, Some(instance))
         });
-        found.is_some_and(|truth| truth.instance == instance)
+        hit.is_some_and(|truth| truth.instance == instance)
     }
 }

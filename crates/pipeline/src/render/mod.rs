@@ -49,8 +49,8 @@ pub mod training;
 pub mod truth;
 pub mod weather_layers;
 
-pub use camera_light::{FilmKeeping, Request, change_over, light, light_counts, pass};
-pub use exposure::Shot;
-pub use light::GatherError;
+pub use camera_light::{FilmStorage, LightRequest, change_over, light, light_counts, pass};
+pub use exposure::FrameCapture;
+pub use light::RenderError;
 pub(crate) use near_precipitation::region_of_projection;
 pub(crate) use surrounded::surrounding_object;

@@ -32,9 +32,9 @@ pub struct Mosaic {
 impl Mosaic {
     /// Tile of a sensor whose pixels' wavelengths are sampled with these densities.
     #[must_use]
-    pub fn of(sensor: &Sensor, density: &PixelDensity<'_>) -> Self {
+    pub fn new(sensor: &Sensor, density: &PixelDensity<'_>) -> Self {
         let cfa = &sensor.parameters().cfa;
-        let channel = |responsivity: Spectrum| Site { density: density.of(&responsivity), responsivity };
+        let channel = |responsivity: Spectrum| Site { density: density.density(&responsivity), responsivity };
         let channels: Vec<Site> = sensor.rate_responsivities().into_iter().map(channel).collect();
         let sites = cfa.channels().iter().map(|channel| channels[*channel].clone()).collect();
         Self { columns: cfa.width(), margin_px: [0, 0], sites }

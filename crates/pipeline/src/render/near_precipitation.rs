@@ -7,26 +7,26 @@ use etendue_core::TimeInterval;
 use etendue_optics::PupilProjection;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::media::Media;
-use etendue_tracer::precipitation::{ChangeOver, NearParticles, SeenRegion, ViewPlacement};
+use etendue_tracer::precipitation::{ChangeOver, NearParticles, VisibleRegion, ViewPlacement};
 use glam::{DMat3, DVec2};
 
 /// Points along a side of the film whose rays bound the view.
 const SIDE: u32 = 13;
 
 /// Margin for rays between these points, rad.
-const ROOM_RAD: f64 = 0.03;
+const MARGIN_RAD: f64 = 0.03;
 
 /// Points of the pupil whose rays bound the view.
 const PUPIL: [[f64; 2]; 5] = [[0.5, 0.5], [0.001, 0.001], [0.999, 0.001], [0.001, 0.999], [0.999, 0.999]];
 
 /// Distance of alternative points inside the film's edges, px, for edges without a ray.
-const WITHIN_PX: f64 = 1e-6;
+const EDGE_OFFSET_PX: f64 = 1e-6;
 
 /// A central wavelength of the spectrum, nm.
 const MIDDLE_NM: f64 = 550.0;
 
 /// Region that a camera sees during an exposure of a film of a size in px, relative to the origin of its view.
-pub(super) fn seen_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, width: u32, height: u32) -> SeenRegion {
+pub(super) fn visible_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, width: u32, height: u32) -> VisibleRegion {
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);
     for [at, within] in grid(width, height) {
@@ -40,15 +40,15 @@ pub(super) fn seen_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, w
             }
         }
     }
-    SeenRegion::around(&directions, ROOM_RAD, margin_m)
+    VisibleRegion::around(&directions, MARGIN_RAD, margin_m)
 }
 
 /// Region that the static camera of a stored image sees, with its axes rotated to the world's.
-pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3) -> SeenRegion {
+pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3) -> VisibleRegion {
     let (width, height) = (projection.width() as u32, projection.height() as u32);
     let direction = |[at, within]: [DVec2; 2]| projection.direction(at).or_else(|| projection.direction(within));
     let directions: Vec<_> = grid(width, height).filter_map(direction).map(|direction| rotation * direction).collect();
-    SeenRegion::around(&directions, ROOM_RAD, 0.0)
+    VisibleRegion::around(&directions, MARGIN_RAD, 0.0)
 }
 
 /// Points over a film, including its edges, each with an alternative just inside the edges.
@@ -56,7 +56,7 @@ fn grid(width: u32, height: u32) -> impl Iterator<Item = [DVec2; 2]> {
     let size = DVec2::new(f64::from(width), f64::from(height));
     (0..SIDE * SIDE).map(move |i| {
         let at = size * DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) / f64::from(SIDE - 1);
-        [at, at.min(size - WITHIN_PX)]
+        [at, at.min(size - EDGE_OFFSET_PX)]
     })
 }
 
@@ -70,7 +70,7 @@ pub(super) fn near<'a>(
     media: &Media<'a>,
     exposure: &FilmExposure<'_>,
     simd: Simd,
-    region: &SeenRegion,
+    region: &VisibleRegion,
     change_over: &ChangeOver,
 ) -> NearParticles<'a> {
     let view = ViewPlacement { origin_m: exposure.origin_m(), interval: exposure.interval(), simd };

@@ -13,13 +13,13 @@ pub struct NoiseReached {
     /// Standard error over the permitted one: root mean square over all pixels with samples. 1 at the limit.
     pub error: f64,
     /// Fraction of the pixels that received more than half of the maximum samples and still exceed the limit.
-    pub short: f64,
+    pub beyond_limit_fraction: f64,
 }
 
 impl NoiseReached {
     /// Evaluates the pixels of a film that have samples, at most `max_spp` each; `None` without a monitored signal or without samples.
     #[must_use]
-    pub fn of(film: &Film, tolerance: &Tolerance, max_spp: u32) -> Option<Self> {
+    pub fn new(film: &Film, tolerance: &Tolerance, max_spp: u32) -> Option<Self> {
         let watched = film.watched.as_ref()?;
         let (mut samples, mut range, mut squares, mut short, mut count) = (0.0, (u32::MAX, 0), 0.0, 0.0, 0.0);
         let light = watched.mean.samples().iter().zip(watched.variance.samples());
@@ -37,7 +37,7 @@ impl NoiseReached {
             mean_spp: samples / count,
             range_spp: range,
             error: (squares / count).sqrt(),
-            short: short / count,
+            beyond_limit_fraction: short / count,
         })
     }
 }

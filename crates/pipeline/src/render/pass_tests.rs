@@ -4,8 +4,8 @@ use super::film::Film;
 use super::light::RaySource;
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
-use crate::plan::{Pass, PassAt, Passes};
-use crate::sizes::film::Layout;
+use crate::plan::{Pass, NumberedPass, Passes};
+use crate::sizes::film::FilmLayout;
 use etendue_core::random::Draw;
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::{DVec2, DVec3};
@@ -13,9 +13,9 @@ use glam::{DVec2, DVec3};
 const WIDTH: usize = 24;
 const HEIGHT: usize = 16;
 
-struct Ahead;
+struct ForwardRays;
 
-impl RaySource for Ahead {
+impl RaySource for ForwardRays {
     fn ray(&self, _: DVec2, _: DVec2, _: f64) -> Option<PupilRay> {
         Some(PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 })
     }
@@ -26,32 +26,32 @@ fn pixels() -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// Light that varies from sample to sample, with mean 1.
-struct Uneven;
+struct NoisyField;
 
-impl RadianceField<4> for Uneven {
-    fn radiance(&self, asked: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
+impl RadianceField<4> for NoisyField {
+    fn radiance(&self, field_ray: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
         // The low-order digits of a stratified number are not stratified.
-        Spectral::splat(2.0 * (f64::from(asked.stream.one(Draw::Pupil, 0)) * 9973.0).fract() as f32)
+        Spectral::splat(2.0 * (f64::from(field_ray.stream.one(Draw::Pupil, 0)) * 9973.0).fract() as f32)
     }
 }
 
-fn pass_of(pass: PassAt, before: Option<&Film>) -> Film {
-    let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
-    let job = still_job(&Ahead, [WIDTH as u32, HEIGHT as u32], layout, sampling(pass, 4));
-    job.gather::<4>(&Uneven, before, &Unobserved).expect("not cancelled")
+fn pass_of(pass: NumberedPass, before: Option<&Film>) -> Film {
+    let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
+    let job = still_job(&ForwardRays, [WIDTH as u32, HEIGHT as u32], layout, sampling(pass, 4));
+    job.gather::<4>(&NoisyField, before, &Unobserved).expect("not cancelled")
 }
 
 fn passes() -> Passes {
-    Passes::new(vec![Pass::whole(8), Pass { samples: 4, part: 64 }, Pass::whole(16)])
+    Passes::new(vec![Pass::all_pixels(8), Pass { samples: 4, part: 64 }, Pass::all_pixels(16)])
 }
 
 #[test]
 fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
     let passes = passes();
     let alone: Vec<Film> = (0..3).map(|number| pass_of(passes.at(number), None)).collect();
-    let mut joined = pass_of(passes.at(0), None);
+    let mut merged_film = pass_of(passes.at(0), None);
     for number in 1..3 {
-        joined = pass_of(passes.at(number), Some(&joined));
+        merged_film = pass_of(passes.at(number), Some(&merged_film));
     }
     let cube = |film: &Film| film.cube().expect("a cube").clone();
     let mut parts = 0;
@@ -63,12 +63,12 @@ fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
         let variance = alone.iter().zip(&weights);
         let variance: f64 =
             variance.map(|(film, n)| n * n * f64::from(cube(film).variance.planes()[2].at(pixel.0, pixel.1))).sum();
-        let film = cube(&joined);
-        let found = f64::from(film.variance.planes()[2].at(pixel.0, pixel.1));
+        let film = cube(&merged_film);
+        let actual = f64::from(film.variance.planes()[2].at(pixel.0, pixel.1));
         // Two roundings to f32.
-        assert!((mean_of(&joined) / (mean / total) - 1.0).abs() < 3e-7, "{pixel:?}");
-        assert!((found / (variance / (total * total)) - 1.0).abs() < 3e-7, "{pixel:?}");
-        assert_eq!(f64::from(joined.samples.at(pixel.0, pixel.1)), total);
+        assert!((mean_of(&merged_film) / (mean / total) - 1.0).abs() < 3e-7, "{pixel:?}");
+        assert!((actual / (variance / (total * total)) - 1.0).abs() < 3e-7, "{pixel:?}");
+        assert_eq!(f64::from(merged_film.samples.at(pixel.0, pixel.1)), total);
         parts += usize::from(total == 28.0);
     }
     // A quarter of 24 × 16 pixels, evenly distributed.
@@ -77,19 +77,19 @@ fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
 
 #[test]
 fn the_stated_variance_of_joined_passes_is_their_scatter() {
-    let passes = Passes::new(vec![Pass::whole(8), Pass::whole(8), Pass::whole(16)]);
-    let mut joined = pass_of(passes.at(0), None);
+    let passes = Passes::new(vec![Pass::all_pixels(8), Pass::all_pixels(8), Pass::all_pixels(16)]);
+    let mut merged_film = pass_of(passes.at(0), None);
     for number in 1..3 {
-        joined = pass_of(passes.at(number), Some(&joined));
+        merged_film = pass_of(passes.at(number), Some(&merged_film));
     }
-    let cube = joined.cube().expect("a cube");
+    let cube = merged_film.cube().expect("a cube");
     let sum =
         |plane: &dyn Fn(usize, usize) -> f64| pixels().map(|(x, y)| plane(x, y)).sum::<f64>() / (WIDTH * HEIGHT) as f64;
     let planes = cube.mean.planes();
     let mean = sum(&|x, y| f64::from(planes[2].at(x, y)));
     let off = |x, y| f64::from(planes[2].at(x, y)) - mean;
     let scatter = sum(&|x, y| off(x, y) * off(x, y));
-    let told = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
+    let stated = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
     // For n pixels the relative uncertainty of the scatter is √(2/n), that of the estimate less; the limit is four times that.
-    assert!((scatter / told - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {told}");
+    assert!((scatter / stated - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {stated}");
 }

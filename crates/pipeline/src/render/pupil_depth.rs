@@ -5,8 +5,8 @@
 //! distances is tan α times that angle.
 
 use crate::plan::{CameraPlan, Plan, Route};
-use crate::render::exposure::{FilmExposure, Shot};
-use crate::render::truth::{Seen, Viewpoint, seen, truth_time_s};
+use crate::render::exposure::{FilmExposure, FrameCapture};
+use crate::render::truth::{GroundTruthHit, Viewpoint, trace, truth_time_s};
 use etendue_core::quantity::Length;
 use etendue_core::{Plane, PupilRay};
 use etendue_optics::FrontRay;
@@ -28,17 +28,17 @@ pub struct PupilDepth {
 pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> Option<PupilDepth> {
     let Route::Pupil(projection) = &camera.settings.route else { return None };
     let (width, height) = (projection.width(), projection.height());
-    let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
+    let exposure = FilmExposure::new(camera, FrameCapture { frame, capture: 0 });
     let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
     let viewpoint = Viewpoint::new(&view, camera, truth_time_s(camera, frame, 0));
-    let look = |i: usize| {
+    let hit_of = |i: usize| {
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
-        direction.map_or(Seen::Nothing, |direction| {
+        direction.map_or(GroundTruthHit::Nothing, |direction| {
             let ray = PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 };
-            seen(&view, &plan.material_table, &viewpoint, &FrontRay::bare(ray))
+            trace(&view, &plan.material_table, &viewpoint, &FrontRay::without_front(ray))
         })
     };
-    let pairs = (0..width * height).into_par_iter().map(look).map(|seen| (seen.distance(), seen.depth()));
+    let pairs = (0..width * height).into_par_iter().map(hit_of).map(|hit| (hit.distance(), hit.depth()));
     let (distance, depth): (Vec<f32>, Vec<f32>) = pairs.unzip();
     let plane = |samples| Plane::from_samples(width, height, samples).expect("one sample a pixel");
     Some(PupilDepth { distance: plane(distance), depth: plane(depth) })

@@ -1,14 +1,14 @@
 //! Cameras inside a solid object, which see only the inside of its surface.
 
 use crate::plan::{CameraPlan, Plan};
-use crate::render::exposure::{FilmExposure, Shot};
+use crate::render::exposure::{FilmExposure, FrameCapture};
 use etendue_core::Ray;
 use glam::Vec3;
 
 /// Name of the object that contains a camera at the start of the first frame; `None` if the camera sees anything else: a surface from outside, or through
 /// one. Tests fourteen directions: those of the faces and corners of a cube.
 pub(crate) fn surrounding_object<'p>(plan: &'p Plan, camera: &CameraPlan) -> Option<&'p str> {
-    let exposure = FilmExposure::of(camera, Shot::default());
+    let exposure = FilmExposure::new(camera, FrameCapture::default());
     let view = plan.world.render_space_for_few(exposure.origin_m(), exposure.interval());
     let (mut object, mut is_inside) = (None, true);
     for direction in directions() {
@@ -59,8 +59,8 @@ mod tests {
             warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [1, 0, 0]")).contains(inside)
         );
         assert!(warnings(PINHOLE, &object("type = \"sphere\", radius_m = 2", "")).contains(inside));
-        let beside = warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [9, 0, 0]"));
-        assert_eq!(beside, "");
+        let outside = warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [9, 0, 0]"));
+        assert_eq!(outside, "");
     }
 
     #[test]
@@ -73,10 +73,10 @@ mod tests {
         assert!(car("[450, 180, 150]").contains("check the scale of its mesh"));
         assert!(car("[0.0045, 0.0018, 0.0015]").contains("check the scale of its mesh"));
         assert!(car("[1.8, 1.5, 4.5]").contains("check up_axis"));
-        let far = object("type = \"sphere\", radius_m = 1", "position_m = [9, 0, 0]");
+        let distant = object("type = \"sphere\", radius_m = 1", "position_m = [9, 0, 0]");
         for lens in ["focal_length_mm = 0.05", "focal_length_mm = 6000"] {
-            let found = warnings(&format!("type = \"pinhole\", {lens}, f_number = 2"), &far);
-            assert!(found.contains("the field of view is"), "{lens}: {found}");
+            let actual = warnings(&format!("type = \"pinhole\", {lens}, f_number = 2"), &distant);
+            assert!(actual.contains("the field of view is"), "{lens}: {actual}");
         }
     }
 }

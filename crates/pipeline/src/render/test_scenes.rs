@@ -43,7 +43,7 @@ pub(super) fn with_motion(mut plan: Plan, instance: usize, motion: &Track) -> Pl
     let meshes: Vec<_> = plan.world.meshes().iter().map(|mesh| builder.add_mesh(mesh.clone())).collect();
     assert!(!meshes.is_empty());
     for (i, placed) in plan.world.instances().iter().enumerate() {
-        let still = placed.to_world.as_still().expect("a still description");
+        let still = placed.to_world.as_constant().expect("a still description");
         let to_world = if i == instance { motion.after(&still).into() } else { placed.to_world.clone() };
         builder.add_instance(Instance { to_world, ..placed.clone() });
     }

@@ -28,7 +28,7 @@ impl TileBands {
     }
 
     /// A tile of cubes in memory.
-    pub(super) fn of(tile: Tile, mean: &SpectralCube<Irradiance>, variance: &SpectralCube<Variance>) -> Self {
+    pub(super) fn from_cubes(tile: Tile, mean: &SpectralCube<Irradiance>, variance: &SpectralCube<Variance>) -> Self {
         let mut samples = Vec::with_capacity(2 * mean.planes().len() * tile.len());
         let width = mean.width();
         let planes = mean.planes().iter().map(Plane::samples).chain(variance.planes().iter().map(Plane::samples));

@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct TiledCube {
     bands: Bands,
-    grid: Grid,
+    grid: TileGrid,
     store: Arc<dyn ScratchStore>,
     scratch: Arc<dyn Scratch>,
     mean: Arc<dyn BandReader>,
@@ -33,7 +33,7 @@ impl PartialEq for TiledCube {
 
 /// Positions of the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Grid {
+struct TileGrid {
     width: usize,
     height: usize,
     /// Side of a tile, px.
@@ -54,11 +54,11 @@ impl TiledCube {
         has_variance: bool,
     ) -> Result<Self, String> {
         let planes = scratch_planes(bands, has_variance);
-        let grid = Grid { width: width as usize, height: height as usize, side: side as usize, planes };
+        let grid = TileGrid { width: width as usize, height: height as usize, side: side as usize, planes };
         let scratch = store.room(grid.offset(0, grid.height))?;
-        let reader = |first| Arc::new(Reader { grid, scratch: Arc::clone(&scratch), first });
+        let reader = |first| Arc::new(PlaneReader { grid, scratch: Arc::clone(&scratch), first });
         let mean = reader(0);
-        let variance: Arc<dyn BandReader> = if has_variance { reader(bands.count()) } else { Arc::new(Unknown) };
+        let variance: Arc<dyn BandReader> = if has_variance { reader(bands.count()) } else { Arc::new(UnknownVariance) };
         Ok(Self { bands, grid, store: Arc::clone(store), scratch, mean, variance })
     }
 
@@ -98,8 +98,8 @@ impl TiledCube {
     /// It cannot be written.
     pub(super) fn write(&self, bands: &TileBands) -> Result<(), String> {
         let tile = bands.tile();
-        let kept = &bands.samples()[..self.grid.planes * tile.len()];
-        write_numbers(&*self.scratch, self.grid.offset(tile.x0 as usize, tile.y0 as usize), kept)
+        let values = &bands.samples()[..self.grid.planes * tile.len()];
+        write_numbers(&*self.scratch, self.grid.offset(tile.x0 as usize, tile.y0 as usize), values)
     }
 
     /// Reads a tile of the grid.
@@ -114,7 +114,7 @@ impl TiledCube {
     }
 }
 
-impl Grid {
+impl TileGrid {
     /// Offset of the piece of the tile that starts at column `x`, row `y`, bytes.
     fn offset(&self, x: usize, y: usize) -> u64 {
         let rows = self.side.min(self.height - y);
@@ -124,16 +124,16 @@ impl Grid {
 
 /// Planes of the pieces.
 #[derive(Debug)]
-struct Reader {
-    grid: Grid,
+struct PlaneReader {
+    grid: TileGrid,
     scratch: Arc<dyn Scratch>,
     /// Index of the plane of band 0.
     first: usize,
 }
 
-impl BandReader for Reader {
+impl BandReader for PlaneReader {
     fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
-        let Grid { width, height, side, .. } = self.grid;
+        let TileGrid { width, height, side, .. } = self.grid;
         let mut part = Vec::new();
         for y0 in (rows.start / side * side..rows.end).step_by(side) {
             let y1 = (y0 + side).min(height);
@@ -154,9 +154,9 @@ impl BandReader for Reader {
 
 /// Variances of a single replicate.
 #[derive(Debug)]
-struct Unknown;
+struct UnknownVariance;
 
-impl BandReader for Unknown {
+impl BandReader for UnknownVariance {
     fn read(&self, _: usize, _: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
         samples.fill(f32::NAN);
         Ok(())

@@ -2,7 +2,7 @@
 
 use crate::plan::camera_body::has_planar_depth;
 use crate::plan::{CameraPlan, Plan, TimeDependence};
-use crate::render::exposure::{FilmExposure, Shot};
+use crate::render::exposure::{FilmExposure, FrameCapture};
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
 use etendue_core::{CameraPose, Plane};
 use etendue_optics::front::{FrontRay, Optic};
@@ -51,7 +51,7 @@ pub struct GroundTruth {
 pub const FAR_M: f64 = 1000.0;
 
 /// Hit of one pixel.
-pub(crate) enum Seen {
+pub(crate) enum GroundTruthHit {
     /// No principal ray: the lens blocks it.
     Nothing,
     Sky {
@@ -93,10 +93,10 @@ pub fn truth_time_s(camera: &CameraPlan, frame: u32, row: usize) -> f64 {
 }
 
 /// A pixel's ray and its hit.
-struct Look {
+struct PixelHit {
     /// As [`GroundTruth::ray`].
     ray: u32,
-    seen: Seen,
+    hit: GroundTruthHit,
     mirror_m: Option<DVec3>,
 }
 
@@ -124,7 +124,7 @@ impl<'a> TruthRows<'a> {
     /// Ground truth of a frame.
     #[must_use]
     pub fn new(plan: &'a Plan, camera: &'a CameraPlan, frame: u32, simd: Simd) -> Self {
-        let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
+        let exposure = FilmExposure::new(camera, FrameCapture { frame, capture: 0 });
         let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
         let rows = 0..camera.body.raster.height();
         let viewpoints = rows.map(|row| Viewpoint::new(&view, camera, truth_time_s(camera, frame, row))).collect();
@@ -141,8 +141,8 @@ impl<'a> TruthRows<'a> {
     /// Bytes of all planes of a camera in memory.
     #[must_use]
     pub fn bytes(camera: &CameraPlan) -> f64 {
-        let asked = [camera.products.camera_space_position, has_mirror(camera), is_far(camera)];
-        let vectors = 2 + asked.into_iter().filter(|is_asked| *is_asked).count();
+        let optional_planes = [camera.products.camera_space_position, has_mirror(camera), is_far(camera)];
+        let vectors = 2 + optional_planes.into_iter().filter(|is_requested| *is_requested).count();
         let numbers = 6 + 3 * vectors;
         let raster = &camera.body.raster;
         raster.width() as f64 * raster.height() as f64 * (numbers * size_of::<f32>()) as f64
@@ -151,7 +151,7 @@ impl<'a> TruthRows<'a> {
     /// Returns the memory of the hits of a strip of rows, bytes.
     #[must_use]
     pub fn strip_bytes(camera: &CameraPlan) -> f64 {
-        (STRIP_ROWS * camera.body.raster.width() * size_of::<Look>()) as f64
+        (STRIP_ROWS * camera.body.raster.width() * size_of::<PixelHit>()) as f64
     }
 
     /// Returns true if some pixel has no depth along the axis: it has no ray, or does not look forward. Traces nothing.
@@ -171,8 +171,8 @@ impl<'a> TruthRows<'a> {
         let mut truth = self.empty(rows.len());
         for first in rows.clone().step_by(STRIP_ROWS) {
             let strip = first..(first + STRIP_ROWS).min(rows.end);
-            let looks = self.looks(strip.clone());
-            self.store(&mut truth, (first - rows.start) * self.size().0, strip, &looks);
+            let hits = self.trace_rows(strip.clone());
+            self.store(&mut truth, (first - rows.start) * self.size().0, strip, &hits);
         }
         truth
     }
@@ -180,7 +180,7 @@ impl<'a> TruthRows<'a> {
     /// Returns empty planes of `height` rows.
     fn empty(&self, height: usize) -> GroundTruth {
         let width = self.size().0;
-        let vectors = |is_asked: bool| is_asked.then(|| Plane::new(width, height));
+        let vectors = |is_requested: bool| is_requested.then(|| Plane::new(width, height));
         GroundTruth {
             depth: Plane::new(width, height),
             distance: Plane::new(width, height),
@@ -197,38 +197,38 @@ impl<'a> TruthRows<'a> {
     }
 
     /// Traces the pixels of some rows and returns their hits.
-    fn looks(&self, rows: Range<usize>) -> Vec<Look> {
+    fn trace_rows(&self, rows: Range<usize>) -> Vec<PixelHit> {
         let width = self.size().0;
-        let look = |i: usize| {
+        let hit_of = |i: usize| {
             let row = rows.start + i / width;
             let centre = DVec2::new((i % width) as f64, row as f64) + 0.5;
-            look(&self.view, self.material_table, self.camera, &self.viewpoints[row], centre)
+            trace_pixel(&self.view, self.material_table, self.camera, &self.viewpoints[row], centre)
         };
-        (0..width * rows.len()).into_par_iter().map(look).collect()
+        (0..width * rows.len()).into_par_iter().map(hit_of).collect()
     }
 
     /// Stores the hits of the pixels of `rows` in the planes, from the sample `at` on.
-    fn store(&self, truth: &mut GroundTruth, at: usize, rows: Range<usize>, looks: &[Look]) {
+    fn store(&self, truth: &mut GroundTruth, at: usize, rows: Range<usize>, hits: &[PixelHit]) {
         let rest = |truth: &Truth| truth.position_m - truth.position_m.as_vec3().as_dvec3();
-        fill(&mut truth.depth, at, looks, |l| l.seen.depth());
-        fill(&mut truth.distance, at, looks, |l| l.seen.distance());
-        fill(&mut truth.normal, at, looks, |l| l.seen.vector(|truth| truth.normal));
-        fill(&mut truth.position, at, looks, |l| l.seen.vector(|truth| truth.position_m));
-        fill(&mut truth.instance, at, looks, |l| l.seen.identity(|truth| truth.instance_id));
-        fill(&mut truth.semantic, at, looks, |l| l.seen.identity(|truth| truth.semantic_id));
-        fill(&mut truth.material, at, looks, |l| l.seen.identity(|truth| truth.material + 1));
-        fill(&mut truth.ray, at, looks, |l| l.ray);
+        fill(&mut truth.depth, at, hits, |l| l.hit.depth());
+        fill(&mut truth.distance, at, hits, |l| l.hit.distance());
+        fill(&mut truth.normal, at, hits, |l| l.hit.vector(|truth| truth.normal));
+        fill(&mut truth.position, at, hits, |l| l.hit.vector(|truth| truth.position_m));
+        fill(&mut truth.instance, at, hits, |l| l.hit.identity(|truth| truth.instance_id));
+        fill(&mut truth.semantic, at, hits, |l| l.hit.identity(|truth| truth.semantic_id));
+        fill(&mut truth.material, at, hits, |l| l.hit.identity(|truth| truth.material + 1));
+        fill(&mut truth.ray, at, hits, |l| l.ray);
         if let Some(plane) = &mut truth.position_low {
-            fill(plane, at, looks, |l| l.seen.vector(rest));
+            fill(plane, at, hits, |l| l.hit.vector(rest));
         }
         if let Some(plane) = &mut truth.mirror {
-            fill(plane, at, looks, Look::mirror);
+            fill(plane, at, hits, PixelHit::mirror);
         }
         if let Some(plane) = &mut truth.camera_space_position {
             let viewpoints = self.viewpoints[rows].iter().flat_map(|v| std::iter::repeat_n(v, self.size().0));
             let samples = plane.samples_mut()[at..].iter_mut();
-            for ((sample, look), viewpoint) in samples.zip(looks).zip(viewpoints) {
-                *sample = look.seen.vector(|truth| viewpoint.pose.point_to_camera(truth.position_m));
+            for ((sample, hit), viewpoint) in samples.zip(hits).zip(viewpoints) {
+                *sample = hit.hit.vector(|truth| viewpoint.pose.point_to_camera(truth.position_m));
             }
         }
     }
@@ -244,46 +244,46 @@ impl<'a> TruthRows<'a> {
 }
 
 fn is_far(camera: &CameraPlan) -> bool {
-    camera.path.farthest_coordinate_m() > FAR_M
+    camera.path.max_coordinate_m() > FAR_M
 }
 
 fn has_mirror(camera: &CameraPlan) -> bool {
     matches!(camera.body.front.as_ref().and_then(|front| front.optic()), Some(Optic::Mirror(_)))
 }
 
-fn look(
+fn trace_pixel(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
     camera: &CameraPlan,
     viewpoint: &Viewpoint,
     raster_px: DVec2,
-) -> Look {
+) -> PixelHit {
     match camera.body.truth_ray(raster_px) {
-        None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
-        Some((front, off_centre)) => Look {
+        None => PixelHit { ray: 0, hit: GroundTruthHit::Nothing, mirror_m: None },
+        Some((front, off_centre)) => PixelHit {
             ray: 1 + u32::from(off_centre),
-            seen: seen(view, material_table, viewpoint, &front),
+            hit: trace(view, material_table, viewpoint, &front),
             mirror_m: front.mirror_m,
         },
     }
 }
 
 /// Hit of a ray that has left a camera.
-pub(crate) fn seen(
+pub(crate) fn trace(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
     viewpoint: &Viewpoint,
     front: &FrontRay,
-) -> Seen {
+) -> GroundTruthHit {
     let ray = &front.ray;
     let direction = viewpoint.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
     let origin_m = viewpoint.pose.point_to_render(ray.origin_m) + viewpoint.offset_m;
     match view.truth(origin_m, direction, viewpoint.time_s, |point| is_there(view, material_table, point)) {
-        None => Seen::Sky { ahead },
+        None => GroundTruthHit::Sky { ahead },
         Some(truth) => {
             let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };
-            Seen::Surface { depth_m, distance_m: truth.distance_m + front.path_m, truth }
+            GroundTruthHit::Surface { depth_m, distance_m: truth.distance_m + front.path_m, truth }
         }
     }
 }
@@ -299,17 +299,17 @@ pub(crate) fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, p
 }
 
 /// Stores a sample of each hit in the plane, from the sample `at` on.
-fn fill<Q: Quantity>(plane: &mut Plane<Q>, at: usize, looks: &[Look], of: impl Fn(&Look) -> Q::Sample) {
-    plane.samples_mut()[at..].iter_mut().zip(looks).for_each(|(sample, look)| *sample = of(look));
+fn fill<Q: Quantity>(plane: &mut Plane<Q>, at: usize, hits: &[PixelHit], of: impl Fn(&PixelHit) -> Q::Sample) {
+    plane.samples_mut()[at..].iter_mut().zip(hits).for_each(|(sample, hit)| *sample = of(hit));
 }
 
-impl Look {
+impl PixelHit {
     fn mirror(&self) -> [f32; 3] {
         self.mirror_m.map_or([f32::NAN; 3], |m| m.as_vec3().to_array())
     }
 }
 
-impl Seen {
+impl GroundTruthHit {
     pub(crate) fn depth(&self) -> f32 {
         match self {
             Self::Nothing | Self::Sky { ahead: false } => f32::NAN,

@@ -23,7 +23,7 @@ pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.95 * PATH_CPU_S;
 pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.70 * PATH_CPU_S;
 pub(crate) const FLAT_PATH_CPU_S: f64 = 0.57 * PATH_CPU_S;
 /// Time of one additional branch, as a fraction of the path: 0.52 to 0.57 in the wet night, 0.69 in the Cornell box (docs/decisions/branching.md).
-const BRANCH: f64 = 0.6;
+const BRANCH_FRACTION: f64 = 0.6;
 
 /// A pixel with a tap of a kernel of few taps: a multiplication and two tests; too short to be measured on a film.
 const TAP_S: f64 = 1e-9;
@@ -39,8 +39,8 @@ const PATTERN_S: f64 = 31e-3;
 const GHOST_SURFACE_S: f64 = 60e-9;
 const GHOST_BEAM_S: f64 = 0.08e-3;
 /// Number of sources of an image's ghosts: if a sun or lamps dominate, and for uniform light. Between 1 and 1024, depending on the image.
-const SOURCES_OUTSHONE: f64 = 270.0;
-const SOURCES_EVEN: f64 = 1000.0;
+const DOMINATED_SOURCES: f64 = 270.0;
+const UNIFORM_SOURCES: f64 = 1000.0;
 /// A band of a stored pixel looked up for an image, with its distance. scenes/lenses/defocus.toml, camera sharp, from through-lens.
 const RESAMPLED_S: f64 = 300e-9;
 /// The outline of a pixel's blur, and a band of a row of it. defocus.toml, camera physical, focused at 6 m and at 1 m.
@@ -69,13 +69,13 @@ pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {
 }
 
 /// Time of all branches of a path except the first, as a fraction of the path.
-pub(crate) fn branches_share(camera: &CameraPlan) -> f64 {
-    f64::from(camera.settings.paths.branches - 1) * BRANCH
+pub(crate) fn branches_fraction(camera: &CameraPlan) -> f64 {
+    f64::from(camera.settings.paths.branches - 1) * BRANCH_FRACTION
 }
 
 /// A part of the work on a finished film.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Share {
+pub struct FilmWork {
     /// Name, as text.
     pub name: &'static str,
     /// CPU time, s.
@@ -85,19 +85,19 @@ pub struct Share {
 }
 
 /// Work on the film of a camera; parts that it does not have take no time.
-pub(crate) fn shares(plan: &Plan, camera: &CameraPlan) -> Vec<Share> {
-    let share = |name, cpu_s| Share { name, cpu_s, holds_for: "" };
+pub(crate) fn film_work(plan: &Plan, camera: &CameraPlan) -> Vec<FilmWork> {
+    let work = |name, cpu_s| FilmWork { name, cpu_s, holds_for: "" };
     let (ghosts_s, holds_for) = ghosts(plan, camera);
     vec![
-        share(Effect::PointSpread.name(), point_spread(camera)),
-        share(Effect::Glare.name(), glare(camera)),
-        Share { name: Effect::Ghosts.name(), cpu_s: ghosts_s, holds_for },
-        share("the lens on the picture", if is_made(plan, camera) { at_pupil(camera) } else { 0.0 }),
-        share("ground truth", truth(camera)),
-        share("spectral files", files(camera)),
-        share("layers of weather", weather(camera)),
-        share("the sensor", sensor(camera)),
-        share("processing", processing(camera)),
+        work(Effect::PointSpread.name(), point_spread(camera)),
+        work(Effect::Glare.name(), glare(camera)),
+        FilmWork { name: Effect::Ghosts.name(), cpu_s: ghosts_s, holds_for },
+        work("the lens on the picture", if applies_lens(plan, camera) { at_pupil(camera) } else { 0.0 }),
+        work("ground truth", truth(camera)),
+        work("spectral files", files(camera)),
+        work("layers of weather", weather(camera)),
+        work("the sensor", sensor(camera)),
+        work("processing", processing(camera)),
     ]
 }
 
@@ -106,11 +106,11 @@ fn bands(camera: &CameraPlan) -> Option<Bands> {
     camera.settings.bands
 }
 
-fn of(camera: &CameraPlan, effect: Effect) -> f64 {
+fn frame_cpu_s(camera: &CameraPlan, effect: Effect) -> f64 {
     let Some(bands) = bands(camera) else { return 0.0 };
     let with_variance = camera.settings.replicates > 1 && camera.settings.route == Route::Lens;
-    let works = camera.body.effects.operation_counts(&camera.body.raster, bands, with_variance);
-    works.into_iter().filter(|(which, _)| *which == effect).map(|(_, work)| seconds(work)).sum()
+    let operations = camera.body.effects.operation_counts(&camera.body.raster, bands, with_variance);
+    operations.into_iter().filter(|(which, _)| *which == effect).map(|(_, work)| seconds(work)).sum()
 }
 
 fn seconds(work: OperationCounts) -> f64 {
@@ -119,12 +119,12 @@ fn seconds(work: OperationCounts) -> f64 {
 
 /// Diffraction and wavefront error, or an image of a point's light.
 fn point_spread(camera: &CameraPlan) -> f64 {
-    of(camera, Effect::PointSpread)
+    frame_cpu_s(camera, Effect::PointSpread)
 }
 
 /// Veiling glare.
 fn glare(camera: &CameraPlan) -> f64 {
-    of(camera, Effect::Glare)
+    frame_cpu_s(camera, Effect::Glare)
 }
 
 /// Ghosts, and the condition that determines the number of their sources.
@@ -136,12 +136,12 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
     };
     let sky = plan.sources.environment.is_some();
     let (sources, holds_for) = match plan.sources.suns.iter().any(|sun| is_seen(camera, sun)) {
-        true => (SOURCES_OUTSHONE, "for an image dominated by a sun; twice as long for uniform illumination"),
-        false if sky => (SOURCES_EVEN, "for uniform illumination; half as long for an image dominated by a few lights"),
-        false => (SOURCES_OUTSHONE, "for an image dominated by a few lights; twice as long for uniform illumination"),
+        true => (DOMINATED_SOURCES, "for an image dominated by a sun; twice as long for uniform illumination"),
+        false if sky => (UNIFORM_SOURCES, "for uniform illumination; half as long for an image dominated by a few lights"),
+        false => (DOMINATED_SOURCES, "for an image dominated by a few lights; twice as long for uniform illumination"),
     };
     let work = ghosts::operation_counts(lens, settings, [bands.low_nm(), bands.high_nm()], sources);
-    (work.met * GHOST_SURFACE_S + work.laid * GHOST_BEAM_S, holds_for)
+    (work.surface_hits * GHOST_SURFACE_S + work.splats * GHOST_BEAM_S, holds_for)
 }
 
 /// Returns true if a sun is within the film of a camera, occluded or not.
@@ -153,7 +153,7 @@ fn is_seen(camera: &CameraPlan, sun: &Sun) -> bool {
 }
 
 /// Returns true if the lens is applied to the image: not if the film is on disk and no product needs it.
-fn is_made(plan: &Plan, camera: &CameraPlan) -> bool {
+fn applies_lens(plan: &Plan, camera: &CameraPlan) -> bool {
     plan.scratch(camera).is_none() || needs_irradiance(camera)
 }
 
@@ -184,19 +184,19 @@ fn truth(camera: &CameraPlan) -> f64 {
     let products = &camera.products;
     let annotations = &products.annotations;
     let planes = products.ground_truth || products.depth_png_per_m.is_some() || products.rays;
-    let wanted = [
-        (planes, Truth::Planes),
-        (annotations.needs_neighbours(), Truth::Neighbours),
-        (annotations.disparity.is_some(), Truth::Disparity),
-        (annotations.boxes, Truth::Boxes),
-        (annotations.cryptomatte, Truth::Coverage),
+    let is_wanted = [
+        (planes, GroundTruthRays::Planes),
+        (annotations.needs_neighbours(), GroundTruthRays::Neighbours),
+        (annotations.disparity.is_some(), GroundTruthRays::Disparity),
+        (annotations.boxes, GroundTruthRays::Boxes),
+        (annotations.cryptomatte, GroundTruthRays::Coverage),
     ];
-    wanted.into_iter().filter(|(wanted, _)| *wanted).map(|(_, what)| truth_cpu_s(camera, what)).sum()
+    is_wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, what)| truth_cpu_s(camera, what)).sum()
 }
 
 /// Purpose of rays of the ground truth.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Truth {
+pub(super) enum GroundTruthRays {
     /// The frame itself.
     Planes,
     /// The previous and next frames.
@@ -210,14 +210,14 @@ pub(super) enum Truth {
 }
 
 /// CPU time of a part of the ground truth, s.
-pub(super) fn truth_cpu_s(camera: &CameraPlan, what: Truth) -> f64 {
+pub(super) fn truth_cpu_s(camera: &CameraPlan, what: GroundTruthRays) -> f64 {
     // One ray of the frame itself, and one of each compared frame or camera; boxes: about one for every object that a pixel's ray passes.
     let rays = match what {
-        Truth::Planes => 1.0,
-        Truth::Neighbours => 3.0,
-        Truth::Disparity => 2.0,
-        Truth::Boxes => BOX_RAYS,
-        Truth::Coverage => f64::from(identity_coverage::spp(camera)),
+        GroundTruthRays::Planes => 1.0,
+        GroundTruthRays::Neighbours => 3.0,
+        GroundTruthRays::Disparity => 2.0,
+        GroundTruthRays::Boxes => BOX_RAYS,
+        GroundTruthRays::Coverage => f64::from(identity_coverage::spp(camera)),
     };
     pixels(camera.body.raster.width(), camera.body.raster.height()) * TRUTH_S * rays
 }
@@ -232,7 +232,7 @@ fn weather(camera: &CameraPlan) -> f64 {
 /// Encoding of cubes of bands.
 fn files(camera: &CameraPlan) -> f64 {
     let p = &camera.products;
-    let cubes = [p.radiance, p.irradiance, p.ghosts].into_iter().filter(|wanted| *wanted).count() as f64;
+    let cubes = [p.radiance, p.irradiance, p.ghosts].into_iter().filter(|is_wanted| *is_wanted).count() as f64;
     let cubes = if p.variance { 2.0 * cubes } else { cubes };
     cubes * cube_cpu_s(camera)
 }
@@ -240,23 +240,23 @@ fn files(camera: &CameraPlan) -> f64 {
 /// All captures of a frame, if electrons are computed.
 fn sensor(camera: &CameraPlan) -> f64 {
     let products = &camera.products;
-    let is_made = products.raw || products.picture || products.signal_breakdown;
-    let Some(sensor) = camera.body.sensor.as_ref().filter(|_| is_made) else { return 0.0 };
+    let makes_frames = products.raw || products.picture || products.signal_breakdown;
+    let Some(sensor) = camera.body.sensor.as_ref().filter(|_| makes_frames) else { return 0.0 };
     let captures = 1 + sensor.parameters().hdr.captures.len();
-    picture_pixels(camera) * captures as f64 * SENSOR_S
+    image_pixels(camera) * captures as f64 * SENSOR_S
 }
 
 /// Processing from raw to image.
 fn processing(camera: &CameraPlan) -> f64 {
-    if camera.products.picture { picture_pixels(camera) * PROCESSING_S } else { 0.0 }
+    if camera.products.picture { image_pixels(camera) * PROCESSING_S } else { 0.0 }
 }
 
 /// CPU time of encoding a cube of bands, s.
 pub(super) fn cube_cpu_s(camera: &CameraPlan) -> f64 {
-    bands(camera).map_or(0.0, |bands| picture_pixels(camera) * bands.count() as f64 * WRITTEN_S)
+    bands(camera).map_or(0.0, |bands| image_pixels(camera) * bands.count() as f64 * WRITTEN_S)
 }
 
-fn picture_pixels(camera: &CameraPlan) -> f64 {
+fn image_pixels(camera: &CameraPlan) -> f64 {
     pixels(camera.body.raster.width(), camera.body.raster.height())
 }
 
@@ -289,8 +289,8 @@ mod tests {
         let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("a job");
         let plan = compile(&job, &Assets::default(), &Choices::default());
         let plan =
-            plan.unwrap_or_else(|faults| panic!("{}", faults.iter().map(|f| format!("{f}\n")).collect::<String>()));
-        shares(&plan, &plan.cameras[0]).into_iter().map(|share| share.cpu_s).collect()
+            plan.unwrap_or_else(|errors| panic!("{}", errors.iter().map(|f| format!("{f}\n")).collect::<String>()));
+        film_work(&plan, &plan.cameras[0]).into_iter().map(|work| work.cpu_s).collect()
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! The time per path is that of the street scene (docs/evidence/performance.md): in other scenes it is from a tenth of that to three times as long.
 
-use super::cpu_time::{self, Share, branches_share, path_cpu_s};
+use super::cpu_time::{self, FilmWork, branches_fraction, path_cpu_s};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::training;
 use crate::report::FilmBytes;
@@ -15,7 +15,7 @@ pub struct FrameCost {
     /// CPU time of these paths at the rate of the street scene, s.
     pub paths_cpu_s: f64,
     /// Work on the finished film; parts that the camera does not have take no time.
-    pub parts: Vec<Share>,
+    pub parts: Vec<FilmWork>,
     /// Bytes of the film in memory and on disk.
     pub film: FilmBytes,
     /// True if more than the minimum of samples may be needed.
@@ -25,7 +25,7 @@ pub struct FrameCost {
 impl FrameCost {
     /// Cost of a frame of a camera of the plan.
     #[must_use]
-    pub fn of(plan: &Plan, camera: &CameraPlan) -> Self {
+    pub fn new(plan: &Plan, camera: &CameraPlan) -> Self {
         let (width, height) = camera.film_size();
         let settings = &camera.settings;
         let is_served = plan.cameras.iter().any(|other| other.light == camera.light && other.index < camera.index);
@@ -36,8 +36,8 @@ impl FrameCost {
         Self {
             paths: own + guiding,
             // Paths that train the guiding do not branch.
-            paths_cpu_s: (own * (1.0 + branches_share(camera)) + guiding) * path_cpu_s(camera),
-            parts: cpu_time::shares(plan, camera),
+            paths_cpu_s: (own * (1.0 + branches_fraction(camera)) + guiding) * path_cpu_s(camera),
+            parts: cpu_time::film_work(plan, camera),
             film: plan.film_bytes(camera),
             is_lower_bound: settings.adaptive.is_some(),
         }

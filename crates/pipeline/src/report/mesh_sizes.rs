@@ -11,7 +11,7 @@ const OF_A_BOX: usize = 12;
 /// Minimum and maximum plausible length of a road user, m.
 const ROAD_USER_M: [f64; 2] = [0.01, 200.0];
 /// Ratio of height to the longer side above which a vehicle is considered upended.
-const ON_END: f64 = 1.5;
+const UPENDED_RATIO: f64 = 1.5;
 
 /// Names of the classes of road users.
 const ROAD_USERS: [&str; 22] = [
@@ -39,7 +39,7 @@ const ROAD_USERS: [&str; 22] = [
     "emergency-vehicle",
 ];
 /// Those of them that are longer or wider than they are high.
-const LONG: [&str; 9] = ["bus", "car", "caravan", "train", "tram", "trailer", "truck", "van", "lorry"];
+const LONG_ROAD_USERS: [&str; 9] = ["bus", "car", "caravan", "train", "tram", "trailer", "truck", "van", "lorry"];
 
 /// A mesh in the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +58,7 @@ pub struct MeshSize {
 #[must_use]
 pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
     let mut places: BTreeMap<MeshId, usize> = BTreeMap::new();
-    let mut found: Vec<MeshSize> = Vec::new();
+    let mut sizes: Vec<MeshSize> = Vec::new();
     for instance in plan.world.instances() {
         let Shape::Mesh(id) = instance.shape else { continue };
         let Some(identity) = plan.identity(instance.instance_id) else { continue };
@@ -68,17 +68,17 @@ pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
         }
         let place = *places.entry(id).or_insert_with(|| {
             let (size, _) = SolidBox::in_world(plan, instance, 0.0);
-            found.push(MeshSize { object: identity.name.clone(), objects: 0, triangles, size_m: size.to_array() });
-            found.len() - 1
+            sizes.push(MeshSize { object: identity.name.clone(), objects: 0, triangles, size_m: size.to_array() });
+            sizes.len() - 1
         });
-        found[place].objects += 1;
+        sizes[place].objects += 1;
     }
-    found
+    sizes
 }
 
 /// Warnings of road users that are too small or too large, and of upended vehicles: for each shape and class the first object.
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
-    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+    let (mut listed, mut reported) = (Vec::new(), BTreeSet::new());
     for instance in plan.world.instances() {
         let Some(identity) = plan.identity(instance.instance_id) else { continue };
         let Some(class) = identity.class.as_ref().map(|class| class.to_lowercase().replace([' ', '_'], "-")) else {
@@ -88,23 +88,23 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             Shape::Mesh(id) => Some(id),
             Shape::Sphere { .. } => None,
         };
-        if !ROAD_USERS.contains(&class.as_str()) || !seen.insert((mesh, class.clone())) {
+        if !ROAD_USERS.contains(&class.as_str()) || !reported.insert((mesh, class.clone())) {
             continue;
         }
         let (size_m, _) = SolidBox::in_world(plan, instance, 0.0);
-        found.extend(fault(&class, size_m).map(|fault| format!("{}: {fault}", identity.name)));
+        listed.extend(implausible_size(&class, size_m).map(|problem| format!("{}: {problem}", identity.name)));
     }
-    found
+    listed
 }
 
 /// Describes an implausible size of a road user along its own axes, m.
-fn fault(class: &str, size_m: DVec3) -> Option<String> {
+fn implausible_size(class: &str, size_m: DVec3) -> Option<String> {
     let DVec3 { x: length, y: width, z: height } = size_m;
     let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");
     if !(ROAD_USER_M[0]..=ROAD_USER_M[1]).contains(&size_m.max_element()) {
         return Some(format!("a {class} of {measures}: check the scale of its mesh (metres per unit of the file)"));
     }
-    let is_on_end = LONG.contains(&class) && height > ON_END * length.max(width);
+    let is_on_end = LONG_ROAD_USERS.contains(&class) && height > UPENDED_RATIO * length.max(width);
     is_on_end
         .then(|| format!("a {class} higher than long and wide, {measures}: check up_axis and forward_axis of its mesh"))
 }

@@ -13,7 +13,7 @@ mod mesh_sizes;
 pub mod summary;
 mod warnings;
 
-pub use cpu_time::Share;
+pub use cpu_time::FilmWork;
 pub use frame_cost::FrameCost;
 pub use memory::{CameraMemory, FilmBytes, ROWS_WAITING_BYTES, RunMemory, StageMemory};
 pub use mesh_sizes::{MeshSize, mesh_sizes};

@@ -1,6 +1,6 @@
 //! Warnings of a plan that a render repeats: reasons for which the image may differ from the user's intent.
 
-use crate::plan::remark::{Weight, grouped};
+use crate::plan::remark::{Severity, grouped};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::{light_counts, surrounding_object};
 use crate::report::mesh_sizes;
@@ -12,11 +12,11 @@ impl Plan {
     /// of view, of each camera inside an object, and of road users of implausible size.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let groups = grouped(&self.remarks).into_iter().filter(|group| group.weight == Weight::Warning);
-        let said = groups.map(|group| group.to_string());
+        let groups = grouped(&self.notes).into_iter().filter(|group| group.weight == Severity::Warning);
+        let listed = groups.map(|group| group.to_string());
         let extreme = self.cameras.iter().filter_map(extreme_field);
         let inside = self.cameras.iter().filter_map(|camera| self.inside(camera));
-        said.chain(self.dark_cameras()).chain(extreme).chain(inside).chain(mesh_sizes::warnings(self)).collect()
+        listed.chain(self.dark_cameras()).chain(extreme).chain(inside).chain(mesh_sizes::warnings(self)).collect()
     }
 
     fn inside(&self, camera: &CameraPlan) -> Option<String> {
@@ -44,8 +44,8 @@ fn extreme_field(camera: &CameraPlan) -> Option<String> {
         return None;
     }
     let angle_deg = field_of_view_rad(camera)?.to_degrees();
-    let [least, most] = PLAUSIBLE_FIELD_DEG;
-    (angle_deg < least || angle_deg > most).then(|| {
+    let [min_deg, max_deg] = PLAUSIBLE_FIELD_DEG;
+    (angle_deg < min_deg || angle_deg > max_deg).then(|| {
         let name = &camera.name;
         format!(
             "camera {name}: the field of view is {angle_deg:.4}°; check the focal length (mm) and the pixel pitch (µm)"

@@ -48,9 +48,9 @@ impl Blocks {
 
     /// Smallest side of a tile, at least `wanted`, that does not split a block.
     #[must_use]
-    pub fn tile_px(self, wanted: u32) -> u32 {
+    pub fn tile_px(self, requested_px: u32) -> u32 {
         let (columns, rows) = self.cell();
-        wanted.next_multiple_of(least_common_multiple(columns, rows))
+        requested_px.next_multiple_of(least_common_multiple(columns, rows))
     }
 
     /// Side of the cells whose pixels estimate their noise together, px: they do not split a block. Cells are aligned to a grid of the whole frame.
@@ -60,7 +60,7 @@ impl Blocks {
     }
 
     /// Blocks of a tile that splits none, each with its pixels; consecutive pixels are far apart in the block.
-    pub fn of(self, tile: Tile) -> impl Iterator<Item = Vec<Pixel>> {
+    pub fn in_tile(self, tile: Tile) -> impl Iterator<Item = Vec<Pixel>> {
         let (columns, rows) = self.cell();
         let corners =
             starts(tile.y0, tile.y1, rows).flat_map(move |y| starts(tile.x0, tile.x1, columns).map(move |x| (x, y)));
@@ -108,8 +108,8 @@ mod tests {
 
     /// Blocks of a frame of 37 × 23 pixels, divided into tiles of at least `tile_px`.
     fn blocks(blocks: Blocks, tile_px: u32) -> Vec<Vec<(u32, u32)>> {
-        let cut = tiles(37, 23, blocks.tile_px(tile_px), Shard::WHOLE);
-        let all = cut.into_iter().flat_map(|tile| blocks.of(tile));
+        let block_tiles = tiles(37, 23, blocks.tile_px(tile_px), Shard::WHOLE);
+        let all = block_tiles.into_iter().flat_map(|tile| blocks.in_tile(tile));
         let mut all: Vec<Vec<_>> = all.map(|block| block.into_iter().map(|p| (p.x, p.y)).collect()).collect();
         all.sort_unstable();
         all

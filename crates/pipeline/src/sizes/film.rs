@@ -6,19 +6,19 @@ use etendue_core::storage::NUMBER_BYTES;
 
 /// Planes that accumulate each pixel's samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layout {
+pub struct FilmLayout {
     /// Spectral bands, if a cube is stored.
     pub bands: Option<Bands>,
     /// True if each pixel weights radiance by its responsivity and accumulates electrons.
-    pub folded: bool,
+    pub accumulates_electrons: bool,
     /// True if a noise limit monitors the pixel's light: its electrons if these are accumulated, otherwise its irradiance over all wavelengths.
     pub watched: bool,
 }
 
-impl Layout {
+impl FilmLayout {
     /// Number of values per pixel: the bands, the pupil's weight, the electrons or, instead of them, the monitored irradiance.
     pub(crate) fn slots(&self) -> usize {
-        self.band_count() + 1 + usize::from(self.folded || self.watched)
+        self.band_count() + 1 + usize::from(self.accumulates_electrons || self.watched)
     }
 
     /// Index of the monitored value.
@@ -33,7 +33,7 @@ impl Layout {
     /// Bytes of a film of this size and layout in memory; a float, because an impossibly large image must not overflow.
     #[must_use]
     pub fn bytes(&self, width: usize, height: usize) -> f64 {
-        self.cube_bytes(width, height) + self.bytes_beside_cube(width, height)
+        self.cube_bytes(width, height) + self.bytes_without_cube(width, height)
     }
 
     /// Bytes of the bands of a film in memory.
@@ -44,8 +44,8 @@ impl Layout {
 
     /// Bytes of everything else, which is always in memory.
     #[must_use]
-    pub fn bytes_beside_cube(&self, width: usize, height: usize) -> f64 {
-        let planes = 2 * (usize::from(self.folded) + usize::from(self.watched)) + 3;
+    pub fn bytes_without_cube(&self, width: usize, height: usize) -> f64 {
+        let planes = 2 * (usize::from(self.accumulates_electrons) + usize::from(self.watched)) + 3;
         plane_bytes(width, height) * planes as f64
     }
 }

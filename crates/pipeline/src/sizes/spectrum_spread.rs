@@ -31,24 +31,24 @@ impl SpectrumSpread {
     /// of the density falls in the band. With ⌊m⌋ or ⌈m⌉ wavelengths in the band, m their mean in a group, the variance is f (1 − f), f the fractional part
     /// of m. `None` if wavelengths are sampled independently, or their number is unknown.
     #[must_use]
-    pub fn band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
-        let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
+    pub fn band_noise(self, spp: u32, replicates: u32, wavelengths: u32, band_fraction: f64) -> Option<f64> {
+        let (mean, groups) = self.samples_in_band(spp, replicates, wavelengths, band_fraction)?;
         let fraction = (mean - (mean + 1e-9).floor()).max(0.0);
         Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
     }
 
     /// Maximum of [`SpectrumSpread::band_noise`] if at least the fraction `share` of the density falls in the band.
     #[must_use]
-    pub fn most_band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
-        let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
+    pub fn max_band_noise(self, spp: u32, replicates: u32, wavelengths: u32, band_fraction: f64) -> Option<f64> {
+        let (mean, groups) = self.samples_in_band(spp, replicates, wavelengths, band_fraction)?;
         let fraction = mean.min(0.5);
         Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
     }
 
     /// Mean number of wavelengths of a group in a band, and the number of groups.
-    fn in_band(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<(f64, f64)> {
+    fn samples_in_band(self, spp: u32, replicates: u32, wavelengths: u32, band_fraction: f64) -> Option<(f64, f64)> {
         let groups = f64::from(self.groups(replicates));
         matches!(self, Self::EachReplicate | Self::AllReplicates)
-            .then(|| (f64::from(spp) * f64::from(wavelengths) * share / groups, groups))
+            .then(|| (f64::from(spp) * f64::from(wavelengths) * band_fraction / groups, groups))
     }
 }

@@ -99,13 +99,13 @@ mod tests {
 
     #[test]
     fn shards_share_every_pixel_once() {
-        let mut seen = vec![0; 37 * 23];
+        let mut counts = vec![0; 37 * 23];
         for index in 0..3 {
             for tile in tiles(37, 23, 8, Shard::new(index, 3).expect("a shard")) {
-                tile.pixels().for_each(|p| seen[(p.y * 37 + p.x) as usize] += 1);
+                tile.pixels().for_each(|p| counts[(p.y * 37 + p.x) as usize] += 1);
             }
         }
-        assert!(seen.iter().all(|n| *n == 1));
+        assert!(counts.iter().all(|n| *n == 1));
         assert!(Shard::new(3, 3).is_none());
     }
 }

@@ -3,7 +3,7 @@
 use etendue_sensor::TemporalNoise;
 
 /// Number of standard deviations of the mean above white from which a pixel's error is ignored.
-const SURELY_WHITE: f64 = 4.0;
+const CLIPPED_SIGMAS: f64 = 4.0;
 
 /// Samples until noise is below a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Tolerance {
             return f64::INFINITY;
         }
         let mean_e = mean * exposure_s;
-        let beyond_e = (mean_e - noise.white_e()).max(0.0) / SURELY_WHITE;
+        let beyond_e = (mean_e - noise.white_e()).max(0.0) / CLIPPED_SIGMAS;
         (factor * factor * noise.variance_e2(mean_e)).max(beyond_e * beyond_e) / (exposure_s * exposure_s)
     }
 }
@@ -62,12 +62,12 @@ mod tests {
 
     #[test]
     fn a_sensor_lets_more_be_the_brighter_it_is_and_all_beyond_white() {
-        let noise = TemporalNoise::of_one_capture(0.5, 9.0, 1000.0);
+        let noise = TemporalNoise::from_one_capture(0.5, 9.0, 1000.0);
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: 0.5, min_spp: 16 }, Some(noise));
         // Electrons per second; the exposure is half a second.
         let at = |mean: f64| tolerance.variance(mean);
         assert!((at(0.0) - 0.25 * 9.0 * 4.0).abs() < 1e-9 && (at(200.0) - 0.25 * 109.0 * 4.0).abs() < 1e-9);
-        let far = 2.0 * 9000.0;
-        assert!((at(far) - 2000.0 * 2000.0 * 4.0).abs() < 1.0);
+        let bright = 2.0 * 9000.0;
+        assert!((at(bright) - 2000.0 * 2000.0 * 4.0).abs() < 1.0);
     }
 }

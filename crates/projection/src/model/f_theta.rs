@@ -7,7 +7,7 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::profile::{Edge, Profile, Projection, Stretched};
+use super::profile::{FieldEdge, Profile, Projection, AffineMapped};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
@@ -23,7 +23,7 @@ pub enum FThetaSense {
 
 /// The f-theta model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FTheta(Stretched<Polynomial>);
+pub struct FTheta(AffineMapped<FThetaPolynomial>);
 
 impl FTheta {
     /// Creates the camera from c₀ = 0, c₁, c₂, …, up to a field angle.
@@ -43,7 +43,7 @@ impl FTheta {
         let inside = greatest_angle_rad > 0.0 && greatest_angle_rad <= PI;
         legal("the greatest angle", greatest_angle_rad.to_degrees(), inside, "above 0° and no more than 180°")?;
         affine.check()?;
-        Ok(Self(Stretched { profile: Polynomial::new(sense, coefficients, greatest_angle_rad), affine }))
+        Ok(Self(AffineMapped { profile: FThetaPolynomial::new(sense, coefficients, greatest_angle_rad), affine }))
     }
 
     /// Direction of the polynomial.
@@ -60,7 +60,7 @@ impl FTheta {
 
     /// The maximum field angle as stated, rad.
     #[must_use]
-    pub fn greatest_angle_rad(&self) -> f64 {
+    pub fn max_angle_rad(&self) -> f64 {
         self.0.profile.stated_rad
     }
 
@@ -76,32 +76,32 @@ impl FTheta {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Polynomial {
+struct FThetaPolynomial {
     sense: FThetaSense,
     c: Vec<f64>,
     slope: Vec<f64>,
     /// The maximum angle as stated.
     stated_rad: f64,
     /// The maximum argument: an angle or a radius.
-    greatest: f64,
-    edge: Edge,
+    max_argument: f64,
+    edge: FieldEdge,
 }
 
-impl Polynomial {
+impl FThetaPolynomial {
     fn new(sense: FThetaSense, c: Vec<f64>, greatest_angle_rad: f64) -> Self {
         let slope = derivative(&c);
         let by_angle = sense == FThetaSense::AngleToRadius;
         let last = if by_angle { greatest_angle_rad } else { radius_reaching(&c, &slope, greatest_angle_rad) };
         let fold = first_sign_change(&slope, last);
-        let greatest = fold.unwrap_or(last);
-        let angle_rad = if by_angle { greatest } else { polynomial(&c, greatest).min(greatest_angle_rad) };
+        let maximum = fold.unwrap_or(last);
+        let angle_rad = if by_angle { maximum } else { polynomial(&c, maximum).min(greatest_angle_rad) };
         Self {
             sense,
             c,
             slope,
             stated_rad: greatest_angle_rad,
-            greatest,
-            edge: Edge { angle_rad, folds: fold.is_some() },
+            max_argument: greatest: maximum,
+            edge: FieldEdge { angle_rad, folds: fold.is_some() },
         }
     }
 
@@ -111,7 +111,7 @@ impl Polynomial {
 
     /// The argument of a value; `None` at the maximum or beyond.
     fn inverse(&self, value: f64) -> Option<f64> {
-        increasing(value, [0.0, self.greatest], value / self.c[1], |x| self.value(x))
+        increasing(value, [0.0, self.max_argument], value / self.c[1], |x| self.value(x))
     }
 }
 
@@ -126,15 +126,15 @@ fn radius_reaching(c: &[f64], slope: &[f64], angle_rad: f64) -> f64 {
     reached.unwrap_or(high)
 }
 
-impl Profile for Polynomial {
-    fn edge(&self) -> Edge {
+impl Profile for FThetaPolynomial {
+    fn edge(&self) -> FieldEdge {
         self.edge
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
         match self.sense {
             FThetaSense::AngleToRadius => self.value(angle_rad)[0],
-            FThetaSense::RadiusToAngle => self.inverse(angle_rad).unwrap_or(self.greatest),
+            FThetaSense::RadiusToAngle => self.inverse(angle_rad).unwrap_or(self.max_argument),
         }
     }
 
@@ -148,7 +148,7 @@ impl Profile for Polynomial {
     fn angle(&self, radius: f64) -> Option<f64> {
         match self.sense {
             FThetaSense::AngleToRadius => self.inverse(radius),
-            FThetaSense::RadiusToAngle => (radius < self.greatest).then(|| self.value(radius)[0]),
+            FThetaSense::RadiusToAngle => (radius < self.max_argument).then(|| self.value(radius)[0]),
         }
     }
 }

@@ -15,19 +15,19 @@
 //! | COLMAP RAD_TAN_THIN_PRISM_FISHEYE, Aria's Fisheye624 | k₁ … k₆ | p₁, p₂, s₁ … s₄ |
 
 use super::ModelError;
-use super::profile::{Distorted, Edge, Profile, Projection};
+use super::profile::{DistortedProfile, FieldEdge, Profile, Projection};
 use crate::plane::{Distortion, DistortionTerms};
 use crate::rectilinear::finite_list;
 use crate::root::{first_sign_change, increasing};
 
 /// Coefficients of the longest polynomial.
-const LONGEST: usize = 6;
+const MAX_COEFFICIENTS: usize = 6;
 
 /// The polynomial fisheye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KannalaBrandt {
-    coefficients: [f64; LONGEST],
-    edge: Edge,
+    coefficients: [f64; MAX_COEFFICIENTS],
+    edge: FieldEdge,
 }
 
 impl KannalaBrandt {
@@ -43,21 +43,21 @@ impl KannalaBrandt {
     ///
     /// # Errors
     /// If one is not finite.
-    pub fn long(coefficients: [f64; LONGEST]) -> Result<Self, ModelError> {
+    pub fn long(coefficients: [f64; MAX_COEFFICIENTS]) -> Result<Self, ModelError> {
         finite_list("k", 1, &coefficients)?;
-        let mut slope = [1.0; LONGEST + 1];
+        let mut slope = [1.0; MAX_COEFFICIENTS + 1];
         for (i, k) in coefficients.iter().enumerate() {
             slope[i + 1] = (2 * i + 3) as f64 * k;
         }
-        let sphere = Edge::SPHERE;
+        let sphere = FieldEdge::SPHERE;
         let fold = first_sign_change(&slope, sphere.angle_rad * sphere.angle_rad);
-        let edge = fold.map_or(sphere, |square| sphere.nearer(Edge::fold(square.sqrt())));
+        let edge = fold.map_or(sphere, |square| sphere.nearer(FieldEdge::fold(square.sqrt())));
         Ok(Self { coefficients, edge })
     }
 
     /// k₁ … k₆.
     #[must_use]
-    pub fn coefficients(&self) -> [f64; LONGEST] {
+    pub fn coefficients(&self) -> [f64; MAX_COEFFICIENTS] {
         self.coefficients
     }
 
@@ -74,7 +74,7 @@ impl KannalaBrandt {
 }
 
 impl Profile for KannalaBrandt {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         self.edge
     }
 
@@ -93,7 +93,7 @@ impl Profile for KannalaBrandt {
 
 /// A fisheye with tangential and thin-prism terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ThinPrismFisheye(Distorted<KannalaBrandt>);
+pub struct ThinPrismFisheye(DistortedProfile<KannalaBrandt>);
 
 impl ThinPrismFisheye {
     /// Creates the fisheye from a polynomial and the distortion terms of its plane.
@@ -103,7 +103,7 @@ impl ThinPrismFisheye {
     pub fn new(fisheye: KannalaBrandt, terms: DistortionTerms) -> Result<Self, ModelError> {
         terms.check()?;
         let reach = fisheye.radius(Profile::edge(&fisheye).angle_rad);
-        Ok(Self(Distorted { profile: fisheye, distortion: Distortion::new(terms, reach) }))
+        Ok(Self(DistortedProfile { profile: fisheye, distortion: Distortion::new(terms, reach) }))
     }
 
     /// The polynomial of θ.
@@ -125,7 +125,7 @@ impl ThinPrismFisheye {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Edge;
+    use super::super::FieldEdge;
     use super::*;
 
     #[test]
@@ -137,6 +137,6 @@ mod tests {
         // 1 − 0.3 θ² = 0 in either; one unit in the last place of a root and of its inverse.
         assert!((edge(-0.1, 0.0).angle_rad - fold).abs() < 1e-14);
         assert!((edge(0.0, -0.1).angle_rad - fold).abs() < 1e-14 && edge(0.0, -0.1).folds);
-        assert_eq!(edge(0.0, 0.0), Edge::SPHERE);
+        assert_eq!(edge(0.0, 0.0), FieldEdge::SPHERE);
     }
 }

@@ -27,7 +27,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use etendue_core::maths::f64::{asin, atan, atan2, cos, sin, sin_cos, tan};
 use glam::{DVec2, DVec3};
 
-use super::profile::{Edge, Profile, Projection, field_angle};
+use super::profile::{FieldEdge, Profile, Projection, field_angle};
 
 /// An ideal projection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,10 +45,10 @@ pub enum Ideal {
 }
 
 impl Profile for Ideal {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         match self {
-            Self::Equidistant | Self::Equisolid | Self::Stereographic => Edge::SPHERE,
-            Self::Orthographic | Self::Rectilinear => Edge::FRONT,
+            Self::Equidistant | Self::Equisolid | Self::Stereographic => FieldEdge::SPHERE,
+            Self::Orthographic | Self::Rectilinear => FieldEdge::FRONT,
         }
     }
 
@@ -64,13 +64,13 @@ impl Profile for Ideal {
 
     fn slope(&self, angle_rad: f64) -> f64 {
         let half = cos(0.5 * angle_rad);
-        let whole = cos(angle_rad);
+        let cosine = cos(angle_rad);
         match self {
             Self::Equidistant => 1.0,
             Self::Equisolid => half,
             Self::Stereographic => 1.0 / (half * half),
-            Self::Orthographic => whole,
-            Self::Rectilinear => 1.0 / (whole * whole),
+            Self::Orthographic => cosine,
+            Self::Rectilinear => 1.0 / (cosine * cosine),
         }
     }
 
@@ -105,8 +105,8 @@ impl Panorama {
 }
 
 impl Projection for Panorama {
-    fn edge(&self) -> Edge {
-        Edge::SPHERE
+    fn edge(&self) -> FieldEdge {
+        FieldEdge::SPHERE
     }
 
     fn project(&self, direction: DVec3) -> Option<DVec2> {
@@ -161,9 +161,9 @@ mod tests {
             for i in 1..15 {
                 let angle = 0.1 * f64::from(i);
                 let point = DVec2::new(0.6, -0.8) * ideal.radius(angle);
-                let found = ideal.solid_angle_per_area(point).expect("seen");
+                let actual = ideal.solid_angle_per_area(point).expect("seen");
                 // A dozen roundings; near 90° the orthographic angle loses accuracy as its cosine (0.17 at 1.4 rad) becomes small.
-                assert!((found / expected(angle) - 1.0).abs() < 1e-13, "{ideal:?} at {angle}");
+                assert!((actual / expected(angle) - 1.0).abs() < 1e-13, "{ideal:?} at {angle}");
             }
             assert_eq!(ideal.solid_angle_per_area(DVec2::ZERO), Some(1.0));
         }

@@ -40,7 +40,7 @@ mod tabulated;
 use glam::{DVec2, DVec3};
 
 use crate::plane::DistortionTerms;
-use crate::radial::{RadialDistortion, Sense};
+use crate::radial::{RadialDistortion, DistortionDirection};
 use profile::Projection;
 
 pub use crate::rectilinear::ModelError;
@@ -49,7 +49,7 @@ pub use fisheye::{KannalaBrandt, ThinPrismFisheye};
 pub use ideal::{Ideal, Panorama};
 pub use ocam::Ocam;
 pub use perspective::{Division, FieldOfView, Perspective};
-pub use profile::{Edge, Sight};
+pub use profile::{FieldEdge, DirectionAndSolidAngle};
 pub use spherical::{DoubleSphere, ExtendedUnified, Unified};
 pub use tabulated::Tabulated;
 
@@ -109,13 +109,13 @@ impl Model {
 
     /// The direction and the solid angle of an image point, at little more than the cost of one of them; `None` if there is no direction.
     #[must_use]
-    pub fn sight(&self, point: DVec2) -> Option<Sight> {
+    pub fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         self.projection().sight(point)
     }
 
     /// The edge of the field.
     #[must_use]
-    pub fn edge(&self) -> Edge {
+    pub fn edge(&self) -> FieldEdge {
         self.projection().edge()
     }
 
@@ -174,12 +174,12 @@ macro_rules! camera_models {
 }
 
 camera_models! {
-    Pinhole "pinhole", "No distortion": perspective(Radial::Polynomial(0), false);
-    Opencv "opencv", "k1 k2 p1 p2": perspective(Radial::Polynomial(2), true);
-    Opencv5 "opencv5", "k1 k2 p1 p2 k3": perspective(Radial::Polynomial(3), true);
-    Opencv8 "opencv8", "k1 … k6 p1 p2": perspective(Radial::Rational, true);
-    Radial "radial", "k1 k2, from ideal to observed": Family::Polynomial(Sense::IdealToObserved);
-    RadialInverse "radial-inverse", "k1 k2, from observed to ideal": Family::Polynomial(Sense::ObservedToIdeal);
+    Pinhole "pinhole", "No distortion": perspective(RadialTerms::Polynomial(0), false);
+    Opencv "opencv", "k1 k2 p1 p2": perspective(RadialTerms::Polynomial(2), true);
+    Opencv5 "opencv5", "k1 k2 p1 p2 k3": perspective(RadialTerms::Polynomial(3), true);
+    Opencv8 "opencv8", "k1 … k6 p1 p2": perspective(RadialTerms::Rational, true);
+    Radial "radial", "k1 k2, from ideal to observed": Family::Polynomial(DistortionDirection::IdealToObserved);
+    RadialInverse "radial-inverse", "k1 k2, from observed to ideal": Family::Polynomial(DistortionDirection::ObservedToIdeal);
     KannalaBrandt "kannala-brandt", "Polynomial fisheye, k1 … k4": Family::KannalaBrandt(4);
     Division "division", "Division model": Family::Division;
     FieldOfView "field-of-view", "FOV model": Family::FieldOfView;
@@ -192,13 +192,13 @@ camera_models! {
     Orthographic "orthographic", "r = f sin θ": Family::Ideal(Ideal::Orthographic);
 }
 
-fn perspective(radial: Radial, tangential: bool) -> Family {
+fn perspective(radial: RadialTerms, tangential: bool) -> Family {
     Family::Perspective { radial, tangential }
 }
 
 /// Radial terms of a perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Radial {
+pub enum RadialTerms {
     /// k₁ … kₙ, n from 0 to 3.
     Polynomial(usize),
     /// k₁ … k₆ of OpenCV's rational model.
@@ -211,12 +211,12 @@ pub enum Family {
     /// Perspective with OpenCV's radial terms, and optionally p₁, p₂.
     Perspective {
         /// Radial terms.
-        radial: Radial,
+        radial: RadialTerms,
         /// True if p₁ and p₂ are fitted.
         tangential: bool,
     },
     /// Perspective with r (1 + k₁ r² + k₂ r⁴) in either direction, r in focal lengths.
-    Polynomial(Sense),
+    Polynomial(DistortionDirection),
     /// Polynomial fisheye with k₁ … kₙ, n from 0 to 4.
     KannalaBrandt(usize),
     /// Division model.
@@ -241,8 +241,8 @@ impl Family {
         match self {
             Self::Perspective { radial, tangential } => {
                 let terms = match radial {
-                    Radial::Polynomial(n) => n.min(3),
-                    Radial::Rational => 6,
+                    RadialTerms::Polynomial(n) => n.min(3),
+                    RadialTerms::Rational => 6,
                 };
                 let tangential: &[&str] = if tangential { &["p1", "p2"] } else { &[] };
                 [&K[..terms], tangential].concat()
@@ -280,7 +280,7 @@ impl Family {
             Self::Perspective { radial, tangential } => {
                 let terms = self.names().len() - if tangential { 2 } else { 0 };
                 let k = |i: usize| if i < terms { at(i) } else { 0.0 };
-                let denominator = if radial == Radial::Rational { [k(3), k(4), k(5)] } else { [0.0; 3] };
+                let denominator = if radial == RadialTerms::Rational { [k(3), k(4), k(5)] } else { [0.0; 3] };
                 let tangential = if tangential { [at(terms), at(terms + 1)] } else { [0.0; 2] };
                 let numerator = [k(0), k(1), k(2), 0.0];
                 let terms = DistortionTerms { numerator, denominator, tangential, ..DistortionTerms::default() };

@@ -11,14 +11,14 @@
 use etendue_core::maths::f64::atan2;
 
 use super::ModelError;
-use super::profile::{Edge, Profile, Projection, Stretched};
+use super::profile::{FieldEdge, Profile, Projection, AffineMapped};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 
 /// Scaramuzza's model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ocam(Stretched<Polynomial>);
+pub struct Ocam(AffineMapped<OcamPolynomial>);
 
 impl Ocam {
     /// Creates the camera from a₀, a₁, … (px, …) and the affine map.
@@ -30,7 +30,7 @@ impl Ocam {
         let a0 = coefficients.first().copied().unwrap_or(0.0);
         legal("a0", a0, a0 < 0.0, "a negative number of pixels (a camera that looks along its axis)")?;
         affine.check()?;
-        Ok(Self(Stretched { profile: Polynomial::new(coefficients), affine }))
+        Ok(Self(AffineMapped { profile: OcamPolynomial::new(coefficients), affine }))
     }
 
     /// a₀, a₁, …
@@ -51,24 +51,24 @@ impl Ocam {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Polynomial {
+struct OcamPolynomial {
     f: Vec<f64>,
     slope: Vec<f64>,
-    greatest_px: f64,
-    edge: Edge,
+    max_radius_px: f64,
+    edge: FieldEdge,
 }
 
 /// Larger than any image, px.
 const MAX_PX: f64 = 1e6;
 
-impl Polynomial {
+impl OcamPolynomial {
     fn new(f: Vec<f64>) -> Self {
         // dθ/dρ has the sign of −f + ρ f′ = Σ (k − 1) aₖ ρᵏ.
         let turn: Vec<f64> = f.iter().enumerate().map(|(k, a)| (k as f64 - 1.0) * a).collect();
         let fold = first_sign_change(&turn, MAX_PX);
         let greatest_px = fold.unwrap_or(MAX_PX);
         let angle_rad = atan2(greatest_px, -polynomial(&f, greatest_px));
-        Self { slope: derivative(&f), f, greatest_px, edge: Edge { angle_rad, folds: fold.is_some() } }
+        Self { slope: derivative(&f), f, max_radius_px: greatest_px, edge: FieldEdge { angle_rad, folds: fold.is_some() } }
     }
 
     /// θ and dθ/dρ.
@@ -79,14 +79,14 @@ impl Polynomial {
     }
 }
 
-impl Profile for Polynomial {
-    fn edge(&self) -> Edge {
+impl Profile for OcamPolynomial {
+    fn edge(&self) -> FieldEdge {
         self.edge
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
         let guess = -self.f[0] * angle_rad;
-        increasing(angle_rad, [0.0, self.greatest_px], guess, |r| self.value(r)).unwrap_or(self.greatest_px)
+        increasing(angle_rad, [0.0, self.max_radius_px], guess, |r| self.value(r)).unwrap_or(self.max_radius_px)
     }
 
     fn slope(&self, angle_rad: f64) -> f64 {
@@ -94,6 +94,6 @@ impl Profile for Polynomial {
     }
 
     fn angle(&self, radius: f64) -> Option<f64> {
-        (radius < self.greatest_px).then(|| self.value(radius)[0])
+        (radius < self.max_radius_px).then(|| self.value(radius)[0])
     }
 }

@@ -27,7 +27,7 @@ use etendue_core::maths::f64::{atan, atan2, sin_cos, tan};
 use glam::{DVec2, DVec3};
 
 use super::ModelError;
-use super::profile::{Edge, Profile, Projection, Sight};
+use super::profile::{FieldEdge, Profile, Projection, DirectionAndSolidAngle};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
 use crate::radial::RadialDistortion;
 use crate::rectilinear::{finite, finite_list, legal};
@@ -51,13 +51,13 @@ impl Perspective {
             legal(name, tau, tau.abs() < 1.5, "an angle between -1.5 and 1.5 rad")?;
         }
         let tilt = (tilt_rad != [0.0; 2]).then(|| Box::new(Tilt::new(tilt_rad)));
-        Ok(Self { distortion: Distortion::new(terms, FARTHEST), tilt })
+        Ok(Self { distortion: Distortion::new(terms, MAX_TANGENT), tilt })
     }
 
     /// A pinhole without distortion.
     #[must_use]
     pub fn pinhole() -> Self {
-        Self { distortion: Distortion::new(DistortionTerms::default(), FARTHEST), tilt: None }
+        Self { distortion: Distortion::new(DistortionTerms::default(), MAX_TANGENT), tilt: None }
     }
 
     /// Creates the camera from OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
@@ -112,8 +112,8 @@ impl Perspective {
 }
 
 impl Projection for Perspective {
-    fn edge(&self) -> Edge {
-        self.distortion.fold().map_or(Edge::FRONT, |limit| Edge::fold(atan(limit)))
+    fn edge(&self) -> FieldEdge {
+        self.distortion.fold().map_or(FieldEdge::FRONT, |limit| FieldEdge::fold(atan(limit)))
     }
 
     fn project(&self, direction: DVec3) -> Option<DVec2> {
@@ -135,14 +135,14 @@ impl Projection for Perspective {
         self.per_area(point, self.ideal(point)?)
     }
 
-    fn sight(&self, point: DVec2) -> Option<Sight> {
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let ideal = self.ideal(point)?;
-        Some(Sight { direction: ideal.extend(1.0).normalize(), sr_per_area: self.per_area(point, ideal)? })
+        Some(DirectionAndSolidAngle { direction: ideal.extend(1.0).normalize(), sr_per_area: self.per_area(point, ideal)? })
     }
 }
 
 /// The tangent of the largest field angle: 0.06″ from 90°.
-const FARTHEST: f64 = 1e8;
+const MAX_TANGENT: f64 = 1e8;
 
 /// The division model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -168,11 +168,11 @@ impl Division {
 }
 
 impl Profile for Division {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         match self.k {
-            k if k > 0.0 => Edge::fold(atan2(1.0 / k.sqrt(), 2.0)),
-            k if k < 0.0 => Edge::end(PI),
-            _ => Edge::FRONT,
+            k if k > 0.0 => FieldEdge::fold(atan2(1.0 / k.sqrt(), 2.0)),
+            k if k < 0.0 => FieldEdge::end(PI),
+            _ => FieldEdge::FRONT,
         }
     }
 
@@ -196,9 +196,9 @@ impl Profile for Division {
 }
 
 impl Projection for RadialDistortion {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         let fold = self.fold_ideal_mm();
-        if fold.is_finite() { Edge::fold(atan(fold)) } else { Edge::FRONT }
+        if fold.is_finite() { FieldEdge::fold(atan(fold)) } else { FieldEdge::FRONT }
     }
 
     fn project(&self, direction: DVec3) -> Option<DVec2> {
@@ -214,9 +214,9 @@ impl Projection for RadialDistortion {
         per_area(self, point, self.ideal(point)?)
     }
 
-    fn sight(&self, point: DVec2) -> Option<Sight> {
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let ideal = self.ideal(point)?;
-        Some(Sight { direction: ideal.extend(1.0).normalize(), sr_per_area: per_area(self, point, ideal)? })
+        Some(DirectionAndSolidAngle { direction: ideal.extend(1.0).normalize(), sr_per_area: per_area(self, point, ideal)? })
     }
 }
 
@@ -253,8 +253,8 @@ impl FieldOfView {
 }
 
 impl Profile for FieldOfView {
-    fn edge(&self) -> Edge {
-        Edge::FRONT
+    fn edge(&self) -> FieldEdge {
+        FieldEdge::FRONT
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
@@ -271,6 +271,6 @@ impl Profile for FieldOfView {
     fn angle(&self, radius: f64) -> Option<f64> {
         let turned = radius * self.omega;
         let (sin, cos) = sin_cos(turned);
-        (turned < Edge::FRONT.angle_rad).then(|| atan2(sin, self.stretch * cos))
+        (turned < FieldEdge::FRONT.angle_rad).then(|| atan2(sin, self.stretch * cos))
     }
 }

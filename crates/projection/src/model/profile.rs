@@ -11,14 +11,14 @@ use crate::plane::{Affine, Distortion};
 
 /// The edge of a model's field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Edge {
+pub struct FieldEdge {
     /// The exclusive limit of the field angle (from the axis), rad.
     pub angle_rad: f64,
     /// True if the image folds there: the fitted function turns back and is undefined beyond. Otherwise the formula or the calibration ends.
     pub folds: bool,
 }
 
-impl Edge {
+impl FieldEdge {
     /// The whole sphere except the point behind the camera.
     pub(crate) const SPHERE: Self = Self::end(PI);
     /// The hemisphere in front of the camera.
@@ -40,27 +40,27 @@ impl Edge {
 
 /// The interface of every model ([`Model`](super::Model) documents it).
 pub(crate) trait Projection {
-    fn edge(&self) -> Edge;
+    fn edge(&self) -> FieldEdge;
     fn project(&self, direction: DVec3) -> Option<DVec2>;
     fn unproject(&self, point: DVec2) -> Option<DVec3>;
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64>;
 
     /// Both results for an image point. Models with a numerical inverse solve it once.
-    fn sight(&self, point: DVec2) -> Option<Sight> {
-        Some(Sight { direction: self.unproject(point)?, sr_per_area: self.solid_angle_per_area(point)? })
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
+        Some(DirectionAndSolidAngle { direction: self.unproject(point)?, sr_per_area: self.solid_angle_per_area(point)? })
     }
 }
 
 /// Direction and solid angle of an image point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct DirectionAndSolidAngle {
     /// Unit direction.
     pub direction: DVec3,
     /// dΩ/dA, sr per unit area of the image plane.
     pub sr_per_area: f64,
 }
 
-impl Sight {
+impl DirectionAndSolidAngle {
     /// The same through a map of the plane that multiplies areas by `ratio`.
     pub(crate) fn enlarged(self, ratio: f64) -> Self {
         Self { sr_per_area: self.sr_per_area / ratio, ..self }
@@ -69,7 +69,7 @@ impl Sight {
 
 /// r(θ), increasing from r(0) = 0 to the edge.
 pub(crate) trait Profile {
-    fn edge(&self) -> Edge;
+    fn edge(&self) -> FieldEdge;
 
     /// r of an angle before the edge.
     fn radius(&self, angle_rad: f64) -> f64;
@@ -81,14 +81,14 @@ pub(crate) trait Profile {
     fn angle(&self, radius: f64) -> Option<f64>;
 
     /// The angle of a radius, before the edge.
-    fn seen(&self, radius: f64) -> Option<f64> {
+    fn checked_radius(&self, radius: f64) -> Option<f64> {
         let angle = if radius > 0.0 { self.angle(radius)? } else { radius };
         (angle < Profile::edge(self).angle_rad).then_some(angle)
     }
 }
 
 impl<P: Profile> Projection for P {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         Profile::edge(self)
     }
 
@@ -104,24 +104,24 @@ impl<P: Profile> Projection for P {
 
     fn unproject(&self, point: DVec2) -> Option<DVec3> {
         let radius = point.length();
-        let (sin, cos) = sin_cos(self.seen(radius)?);
+        let (sin, cos) = sin_cos(self.checked_radius(radius)?);
         let azimuth = if radius > 0.0 { point / radius } else { DVec2::ZERO };
         Some((azimuth * sin).extend(cos))
     }
 
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         let radius = point.length();
-        let angle = self.seen(radius)?;
+        let angle = self.checked_radius(radius)?;
         Some(per_area(radius, sin(angle), self.slope(angle)))
     }
 
-    fn sight(&self, point: DVec2) -> Option<Sight> {
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let radius = point.length();
-        let angle = self.seen(radius)?;
+        let angle = self.checked_radius(radius)?;
         let (sin, cos) = sin_cos(angle);
         let azimuth = if radius > 0.0 { point / radius } else { DVec2::ZERO };
         let sr_per_area = per_area(radius, sin, self.slope(angle));
-        Some(Sight { direction: (azimuth * sin).extend(cos), sr_per_area })
+        Some(DirectionAndSolidAngle { direction: (azimuth * sin).extend(cos), sr_per_area })
     }
 }
 
@@ -139,16 +139,16 @@ pub(crate) fn field_angle(direction: DVec3) -> Option<f64> {
 
 /// r(θ), then a distortion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Distorted<P> {
+pub(super) struct DistortedProfile<P> {
     pub(super) profile: P,
     pub(super) distortion: Distortion,
 }
 
-impl<P: Profile> Projection for Distorted<P> {
-    fn edge(&self) -> Edge {
+impl<P: Profile> Projection for DistortedProfile<P> {
+    fn edge(&self) -> FieldEdge {
         let fold = self.distortion.fold().and_then(|radius| self.profile.angle(radius));
         let edge = Profile::edge(&self.profile);
-        fold.map_or(edge, |angle| edge.nearer(Edge::fold(angle)))
+        fold.map_or(edge, |angle| edge.nearer(FieldEdge::fold(angle)))
     }
 
     fn project(&self, direction: DVec3) -> Option<DVec2> {
@@ -164,7 +164,7 @@ impl<P: Profile> Projection for Distorted<P> {
         Some(self.profile.solid_angle_per_area(ideal)? / self.distortion.area_ratio(ideal))
     }
 
-    fn sight(&self, point: DVec2) -> Option<Sight> {
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let ideal = self.distortion.ideal(point)?;
         Some(self.profile.sight(ideal)?.enlarged(self.distortion.area_ratio(ideal)))
     }
@@ -172,13 +172,13 @@ impl<P: Profile> Projection for Distorted<P> {
 
 /// r(θ), then an affine map.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stretched<P> {
+pub(super) struct AffineMapped<P> {
     pub(super) profile: P,
     pub(super) affine: Affine,
 }
 
-impl<P: Profile> Projection for Stretched<P> {
-    fn edge(&self) -> Edge {
+impl<P: Profile> Projection for AffineMapped<P> {
+    fn edge(&self) -> FieldEdge {
         Profile::edge(&self.profile)
     }
 
@@ -194,7 +194,7 @@ impl<P: Profile> Projection for Stretched<P> {
         Some(self.profile.solid_angle_per_area(self.affine.back(point))? / self.affine.area_ratio())
     }
 
-    fn sight(&self, point: DVec2) -> Option<Sight> {
+    fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         Some(self.profile.sight(self.affine.back(point))?.enlarged(self.affine.area_ratio()))
     }
 }

@@ -27,13 +27,13 @@
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 
 use super::ModelError;
-use super::profile::{Distorted, Edge, Profile, Projection};
+use super::profile::{DistortedProfile, FieldEdge, Profile, Projection};
 use crate::plane::{Distortion, DistortionTerms};
 use crate::rectilinear::legal;
 
 /// The unified model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unified(Distorted<Sphere>);
+pub struct Unified(DistortedProfile<UnifiedSphere>);
 
 impl Unified {
     /// Creates the camera from ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
@@ -43,8 +43,8 @@ impl Unified {
     pub fn new(xi: f64, terms: DistortionTerms) -> Result<Self, ModelError> {
         legal("xi", xi, xi >= 0.0, "0 or a positive number")?;
         terms.check()?;
-        let profile = Sphere { xi };
-        Ok(Self(Distorted { profile, distortion: Distortion::new(terms, profile.reach()) }))
+        let profile = UnifiedSphere { xi };
+        Ok(Self(DistortedProfile { profile, distortion: Distortion::new(terms, profile.reach()) }))
     }
 
     /// ξ.
@@ -65,20 +65,20 @@ impl Unified {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Sphere {
+struct UnifiedSphere {
     xi: f64,
 }
 
-impl Sphere {
+impl UnifiedSphere {
     /// The upper bound of the radius.
     fn reach(self) -> f64 {
         if self.xi > 1.0 { 1.0 / (self.xi * self.xi - 1.0).sqrt() } else { 1e8 }
     }
 }
 
-impl Profile for Sphere {
-    fn edge(&self) -> Edge {
-        Edge::end(acos(-self.xi.min(1.0 / self.xi)))
+impl Profile for UnifiedSphere {
+    fn edge(&self) -> FieldEdge {
+        FieldEdge::end(acos(-self.xi.min(1.0 / self.xi)))
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
@@ -136,9 +136,9 @@ impl ExtendedUnified {
 }
 
 impl Profile for ExtendedUnified {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         let w = self.alpha.min(1.0 - self.alpha) / self.alpha.max(1.0 - self.alpha);
-        Edge::end(atan2((1.0 - w * w).sqrt(), -w * self.beta.sqrt()))
+        FieldEdge::end(atan2((1.0 - w * w).sqrt(), -w * self.beta.sqrt()))
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
@@ -200,11 +200,11 @@ impl DoubleSphere {
 }
 
 impl Profile for DoubleSphere {
-    fn edge(&self) -> Edge {
+    fn edge(&self) -> FieldEdge {
         let w = self.alpha.min(1.0 - self.alpha) / self.alpha.max(1.0 - self.alpha);
         let rest = 1.0 - w * w;
         let cos = -self.xi * rest - w * (1.0 - self.xi * self.xi * rest).sqrt();
-        Edge::end(acos(cos.clamp(-1.0, 1.0)))
+        FieldEdge::end(acos(cos.clamp(-1.0, 1.0)))
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {

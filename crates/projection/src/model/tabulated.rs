@@ -7,7 +7,7 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::profile::{Edge, Profile};
+use super::profile::{FieldEdge, Profile};
 use crate::rectilinear::legal;
 use crate::root::{first_sign_change, increasing};
 
@@ -75,8 +75,8 @@ impl Tabulated {
             let t = from.angle;
             let slope = [c0 + t * c1, 2.0 * (c1 + t * c2), 3.0 * (c2 + t * c3), 4.0 * c3];
             let falls = slope[0] <= 0.0 || first_sign_change(&slope, h).is_some();
-            let told = "a table whose curve rises everywhere; check its numbers, since its points jump";
-            legal("a field angle before which the radius falls", pair[1].angle.to_degrees(), !falls, told)?;
+            let expected = "a table whose curve rises everywhere; check its numbers, since its points jump";
+            legal("a field angle before which the radius falls", pair[1].angle.to_degrees(), !falls, expected)?;
         }
         Ok(())
     }
@@ -126,8 +126,8 @@ fn solve_second_derivatives(knots: &mut [Knot]) {
 }
 
 impl Profile for Tabulated {
-    fn edge(&self) -> Edge {
-        Edge::end(self.knots[self.knots.len() - 1].angle)
+    fn edge(&self) -> FieldEdge {
+        FieldEdge::end(self.knots[self.knots.len() - 1].angle)
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {
@@ -141,8 +141,8 @@ impl Profile for Tabulated {
     fn angle(&self, radius: f64) -> Option<f64> {
         let after = self.knots.partition_point(|knot| knot.radius <= radius);
         let pair = self.knots.get(after.checked_sub(1)?..=after)?;
-        let share = (radius - pair[0].radius) / (pair[1].radius - pair[0].radius);
-        let guess = pair[0].angle + share * (pair[1].angle - pair[0].angle);
+        let fraction = (radius - pair[0].radius) / (pair[1].radius - pair[0].radius);
+        let guess = pair[0].angle + fraction * (pair[1].angle - pair[0].angle);
         increasing(radius, [pair[0].angle, pair[1].angle], guess, |angle| self.value(angle))
     }
 }
@@ -152,8 +152,8 @@ mod tests {
     use super::*;
     use etendue_core::maths::f64::{sin, tan};
 
-    fn table(r: impl Fn(f64) -> f64, greatest: f64, count: usize) -> Tabulated {
-        let at = |i: usize| greatest * (i + 1) as f64 / count as f64;
+    fn table(r: impl Fn(f64) -> f64, maximum: f64, count: usize) -> Tabulated {
+        let at = |i: usize| maximum * (i + 1) as f64 / count as f64;
         let points: Vec<(f64, f64)> = (0..count).map(|i| (at(i), r(at(i)))).collect();
         Tabulated::new(&points).expect("a rising table")
     }
@@ -162,34 +162,34 @@ mod tests {
     fn curves_between_points_are_those_that_points_were_taken_of() {
         let distorted = |t: f64| 8.0 * tan(t) * (1.0 - 0.1 * tan(t) * tan(t));
         let fisheye = |t: f64| 2.0 * sin(0.5 * t);
-        for (r, greatest) in [(&distorted as &dyn Fn(f64) -> f64, 0.7), (&fisheye, 3.0)] {
-            let found = table(r, greatest, 40);
+        for (r, maximum) in [(&distorted as &dyn Fn(f64) -> f64, 0.7), (&fisheye, 3.0)] {
+            let tabulated = table(r, maximum, 40);
             for i in 1..400 {
-                let angle = greatest * f64::from(i) / 401.0;
-                let [radius, slope] = found.value(angle);
+                let angle = maximum * f64::from(i) / 401.0;
+                let [radius, slope] = tabulated.value(angle);
                 let h = 1e-5;
                 let expected = (r(angle + h) - r(angle - h)) / (2.0 * h);
                 // The last interval's curvature is assumed constant: errors of h² there, of h⁴ elsewhere.
-                let near_end = angle > greatest * 0.9;
+                let near_end = angle > maximum * 0.9;
                 let bound = if near_end { 3e-5 } else { 2e-6 };
                 assert!((radius / r(angle) - 1.0).abs() < bound, "{angle}: {radius} {}", r(angle));
                 assert!((slope / expected - 1.0).abs() < 100.0 * bound, "{angle}: {slope} {expected}");
-                let back = found.angle(radius).expect("within the table");
+                let back = tabulated.angle(radius).expect("within the table");
                 assert!((back - angle).abs() < 1e-12 * (1.0 + angle), "{angle} {back}");
             }
-            assert_eq!(found.angle(r(greatest) * 1.001), None);
-            assert!((found.value(0.0)[1] - (r(1e-6) / 1e-6)).abs() < 1e-4 * found.value(0.0)[1]);
+            assert_eq!(tabulated.angle(r(maximum) * 1.001), None);
+            assert!((tabulated.value(0.0)[1] - (r(1e-6) / 1e-6)).abs() < 1e-4 * tabulated.value(0.0)[1]);
         }
     }
 
     #[test]
-    fn points_are_met_and_bad_tables_told() {
+    fn points_are_exact_and_bad_tables_refused() {
         let points = [(0.1, 1.0), (0.25, 2.4), (0.3, 2.95), (0.6, 5.5)];
-        let found = Tabulated::new(&points).expect("rising");
+        let tabulated = Tabulated::new(&points).expect("rising");
         for (angle, radius) in points {
-            assert!((found.value(angle)[0] - radius).abs() < 1e-12);
+            assert!((tabulated.value(angle)[0] - radius).abs() < 1e-12);
         }
-        assert_eq!(found.points().collect::<Vec<_>>(), points);
+        assert_eq!(tabulated.points().collect::<Vec<_>>(), points);
         for bad in [
             &points[..1],
             &[(0.2, 1.0), (0.1, 2.0)],

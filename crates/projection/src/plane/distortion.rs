@@ -100,7 +100,7 @@ impl Distortion {
         }
         // Beyond the image of the disc's edge by the radial terms alone, the search starts at the edge.
         let guess = guess.unwrap_or_else(|| distorted * (self.limit / distorted.length()));
-        let ideal = self.newton(distorted, guess).or_else(|| self.followed(distorted))?;
+        let ideal = self.newton(distorted, guess).or_else(|| self.continued_newton(distorted))?;
         (ideal.length() < self.limit).then_some(ideal)
     }
 
@@ -168,7 +168,7 @@ impl Distortion {
     }
 
     /// Newton along the straight line from the axis to the point, used if it fails from the radial guess.
-    fn followed(&self, distorted: DVec2) -> Option<DVec2> {
+    fn continued_newton(&self, distorted: DVec2) -> Option<DVec2> {
         const STAGES: i32 = 64;
         (1..=STAGES).try_fold(DVec2::ZERO, |p, i| self.newton(distorted * (f64::from(i) / f64::from(STAGES)), p))
     }
@@ -180,7 +180,7 @@ impl Distortion {
         let folds =
             (0..DIRECTIONS).map(|i| f64::from(i) * width).map(|azimuth| (self.fold_towards(azimuth, &radii), azimuth));
         let (nearest, azimuth) = folds.fold((f64::INFINITY, 0.0), |a, b| if b.0 < a.0 { b } else { a });
-        nearest.is_finite().then(|| self.least_fold([azimuth - width, azimuth + width], &radii).min(nearest))
+        nearest.is_finite().then(|| self.min_fold([azimuth - width, azimuth + width], &radii).min(nearest))
     }
 
     /// The radii between which a change of sign is searched: equal steps of the angle, up to the limit.
@@ -191,21 +191,21 @@ impl Distortion {
     }
 
     /// The fold's smallest radius over a range of azimuths with a single minimum, by golden section.
-    fn least_fold(&self, [mut low, mut high]: [f64; 2], radii: &[f64]) -> f64 {
+    fn min_fold(&self, [mut low, mut high]: [f64; 2], radii: &[f64]) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let mut least = f64::INFINITY;
+        let mut minimum = f64::INFINITY;
         // The radius has a minimum there: its error is the square of the azimuth's, 1e-4.
         for _ in 0..18 {
             let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
             let (at_a, at_b) = (self.fold_towards(a, radii), self.fold_towards(b, radii));
-            least = least.min(at_a).min(at_b);
+            minimum = minimum.min(at_a).min(at_b);
             if at_a < at_b {
                 high = b;
             } else {
                 low = a;
             }
         }
-        least
+        minimum
     }
 
     /// The first radius towards an azimuth at which the determinant vanishes within the limit; infinite if there is none.
@@ -248,8 +248,8 @@ mod tests {
         let d = Distortion::new(real(), 1e3);
         let limit = d.fold().expect("folds");
         let around = |r: f64| (0..2000).map(move |i| r * DVec2::from(sin_cos(TAU * f64::from(i) / 2000.0)));
-        for share in [0.1, 0.5, 0.9, 0.999_99] {
-            assert!(around(limit * share).all(|p| d.area_ratio(p) > 0.0), "at {share}");
+        for fraction in [0.1, 0.5, 0.9, 0.999_99] {
+            assert!(around(limit * fraction).all(|p| d.area_ratio(p) > 0.0), "at {fraction}");
         }
         assert!(around(limit * 1.000_01).any(|p| d.area_ratio(p) < 0.0));
         assert!(d.distorted(DVec2::new(limit, 0.0)).is_none());

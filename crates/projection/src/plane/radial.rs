@@ -6,7 +6,7 @@
 use crate::root::{derivative, first_sign_change, increasing, product};
 
 /// Radius beyond which values count as infinite (6e-7° from 90° for a tangent).
-const FARTHEST: f64 = 1e8;
+const MAX_RADIUS: f64 = 1e8;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rational {
@@ -30,7 +30,7 @@ impl Rational {
 
     /// The first radius with a vanishing derivative or a pole; `None` if there is none below `reach`.
     pub(super) fn fold(&self, reach: f64) -> Option<f64> {
-        let reach = reach.min(FARTHEST);
+        let reach = reach.min(MAX_RADIUS);
         let pole = first_sign_change(&self.denominator, reach * reach);
         let stationary = first_sign_change(&self.stationary(), reach * reach);
         let first = [pole, stationary].into_iter().flatten().fold(f64::INFINITY, f64::min);

@@ -8,7 +8,7 @@ use etendue_projection::model::{
     Perspective, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
-use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, RadialDistortion, Sense};
+use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, RadialDistortion, DistortionDirection};
 use glam::{DVec2, DVec3};
 
 const SIZE: [usize; 2] = [1920, 1208];
@@ -38,8 +38,8 @@ fn cameras() -> Vec<(&'static str, Calibration, f64)> {
         ("equidistant to 360°", camera(fisheye([0.0; 4]), 400.0), 1.0),
         ("Kannala-Brandt", camera(fisheye([-0.012, 0.0042, -0.0031, 0.0006]), 700.0), 1.0),
         ("Kannala-Brandt beyond 180°", camera(fisheye([0.05, -0.02, 0.004, -0.0003]), 540.0), 1.0),
-        ("radial, ideal to observed", camera(radial(Sense::IdealToObserved, -0.1), 1400.0), 1.0),
-        ("radial, observed to ideal", camera(radial(Sense::ObservedToIdeal, 0.1), 1400.0), 1.0),
+        ("radial, ideal to observed", camera(radial(DistortionDirection::IdealToObserved, -0.1), 1400.0), 1.0),
+        ("radial, observed to ideal", camera(radial(DistortionDirection::ObservedToIdeal, 0.1), 1400.0), 1.0),
         ("division, barrel", camera(Model::Division(Division::new(-0.4).expect("legal")), 600.0), 1.0),
         ("division, cushion", camera(Model::Division(Division::new(0.1).expect("legal")), 900.0), 1.0),
         ("field of view", camera(Model::FieldOfView(FieldOfView::new(0.93).expect("legal")), 900.0), 1.0),
@@ -58,7 +58,7 @@ fn cameras() -> Vec<(&'static str, Calibration, f64)> {
     .collect()
 }
 
-fn radial(sense: Sense, k1: f64) -> Model {
+fn radial(sense: DistortionDirection, k1: f64) -> Model {
     Model::Radial(RadialDistortion::new(sense, k1, 0.01, 1.0).expect("legal"))
 }
 
@@ -89,7 +89,7 @@ fn in_pixels() -> Vec<(&'static str, Calibration, f64)> {
     let camera = |model| Calibration::new(model, matrix, SIZE).expect("legal");
     let affine = Affine { c: 1.0005, d: 0.0003, e: -0.0002 };
     let ocam = Ocam::new(vec![-620.0, 0.0, 5.2e-4, -1.1e-7, 1.9e-10], affine).expect("legal");
-    let f_theta = |sense, c, greatest| Model::FTheta(FTheta::new(sense, c, greatest, affine).expect("legal"));
+    let f_theta = |sense, c, maximum| Model::FTheta(FTheta::new(sense, c, maximum, affine).expect("legal"));
     let by_angle = f_theta(FThetaSense::AngleToRadius, vec![0.0, 700.0, 3.0, -21.0, 4.0], 2.0);
     let by_radius = f_theta(FThetaSense::RadiusToAngle, vec![0.0, 1.4e-3, -1e-8, 9e-11, 2e-14], 1.8);
     vec![
@@ -101,7 +101,7 @@ fn in_pixels() -> Vec<(&'static str, Calibration, f64)> {
 
 fn ideal() -> Vec<(&'static str, Calibration, f64)> {
     let sphere = CameraMatrix { fx: 1920.0 / TAU, fy: 1208.0 / PI, skew: 0.0, cx: 960.0, cy: 604.0 };
-    let whole = Calibration::new(Model::Panorama(Panorama::Equirectangular), sphere, SIZE).expect("legal");
+    let panorama = Calibration::new(Model::Panorama(Panorama::Equirectangular), sphere, SIZE).expect("legal");
     vec![
         ("equidistant", camera(Model::Ideal(Ideal::Equidistant), 380.0), 1.0),
         ("equisolid", camera(Model::Ideal(Ideal::Equisolid), 600.0), 1.0),
@@ -110,13 +110,13 @@ fn ideal() -> Vec<(&'static str, Calibration, f64)> {
         ("orthographic", camera(Model::Ideal(Ideal::Orthographic), 600.0), 0.4),
         ("rectilinear", camera(Model::Ideal(Ideal::Rectilinear), 600.0), 1.0),
         // All except points of the border that rounding puts outside.
-        ("equirectangular", whole, 0.95),
+        ("equirectangular", panorama, 0.95),
         ("cylindrical", camera(Model::Panorama(Panorama::Cylindrical), 310.0), 0.97),
     ]
 }
 
 /// Points of the whole image, its border included.
-fn picture() -> impl Iterator<Item = DVec2> {
+fn pixels() -> impl Iterator<Item = DVec2> {
     let [width, height] = SIZE.map(|n| n as f64);
     (0..=96)
         .flat_map(move |i| (0..=60).map(move |j| DVec2::new(f64::from(i) / 96.0 * width, f64::from(j) / 60.0 * height)))
@@ -125,11 +125,11 @@ fn picture() -> impl Iterator<Item = DVec2> {
 #[test]
 fn every_pixel_comes_back_and_so_does_every_direction() {
     for (name, camera, filled) in cameras() {
-        let (mut seen, mut all) = (0, 0);
-        for pixel in picture() {
+        let (mut count, mut all) = (0, 0);
+        for pixel in pixels() {
             all += 1;
             let Some(direction) = camera.unproject(pixel) else { continue };
-            seen += 1;
+            count += 1;
             // Three roundings of unit vectors.
             assert!((direction.length() - 1.0).abs() < 1e-15, "{name}: {direction}");
             let back = camera.project(direction * 3.7).unwrap_or_else(|| panic!("{name}: {pixel} is not seen again"));
@@ -138,7 +138,7 @@ fn every_pixel_comes_back_and_so_does_every_direction() {
             let error_px = (again - direction).length() / camera.solid_angle_per_area(pixel).expect("seen").sqrt();
             assert!(error_px < 1e-9, "{name}: {error_px} px at {pixel}");
         }
-        assert!(f64::from(seen) >= filled * f64::from(all), "{name}: {seen} of {all}");
+        assert!(f64::from(count) >= filled * f64::from(all), "{name}: {count} of {all}");
     }
 }
 
@@ -146,7 +146,7 @@ fn every_pixel_comes_back_and_so_does_every_direction() {
 fn the_solid_angle_is_the_jacobian() {
     for (name, camera, filled) in cameras() {
         let mut compared = 0;
-        for pixel in picture().step_by(37) {
+        for pixel in pixels().step_by(37) {
             // At the edge of an orthographic image the directions' derivatives are unbounded.
             let far =
                 [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|axis| camera.unproject(pixel + 100.0 * axis));
@@ -155,9 +155,9 @@ fn the_solid_angle_is_the_jacobian() {
             }
             let expected = area_of_directions(&camera, pixel).expect("seen");
             compared += 1;
-            let found = camera.solid_angle_per_area(pixel).expect("seen");
+            let actual = camera.solid_angle_per_area(pixel).expect("seen");
             // Sixth-order differences over 4 px of a function smooth over hundreds.
-            assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found} for {expected} at {pixel}");
+            assert!((actual / expected - 1.0).abs() < 1e-9, "{name}: {actual} for {expected} at {pixel}");
         }
         assert!(f64::from(compared) > 0.5 * filled * 160.0, "{name}: {compared} points");
     }
@@ -175,7 +175,7 @@ fn area_of_directions(camera: &Calibration, pixel: DVec2) -> Option<f64> {
 }
 
 #[test]
-fn a_fold_inside_the_picture_is_refused_with_its_radius() {
+fn a_fold_inside_the_image_is_refused_with_its_radius() {
     // r (1 − 0.3 r²) turns at r = 1/√0.9, where it is 2/3 of that.
     let fold = 2.0 / (3.0 * 0.9_f64.sqrt());
     let matrix = CameraMatrix { fx: 1000.0, fy: 1000.0, skew: 0.0, cx: 960.0, cy: 604.0 };
@@ -198,20 +198,20 @@ fn a_fold_inside_the_picture_is_refused_with_its_radius() {
 }
 
 #[test]
-fn a_stated_greatest_angle_takes_the_fold_out_of_the_picture() {
+fn a_stated_greatest_angle_takes_the_fold_out_of_the_image() {
     let camera = camera(fisheye([-0.1, 0.0, 0.0, 0.0]), 400.0);
     // 1 − 0.3 θ² = 0.
     let fold = (1.0_f64 / 0.3).sqrt();
     let refused = camera.check().expect_err("folds");
     assert!(matches!(refused, CalibrationError::Fold { angle_rad, .. } if (angle_rad - fold).abs() < 1e-14));
-    let limited = camera.clone().limited_to(1.6).expect("legal");
+    let limited = camera.clone().with_max_angle(1.6).expect("legal");
     assert!(limited.check().is_ok());
     let (sin, cos) = sin_cos(1.61);
     let beyond = DVec3::new(0.0, sin, cos);
     let pixel = camera.project(beyond).expect("before the fold");
     assert!(limited.project(beyond).is_none() && limited.unproject(pixel).is_none());
     assert!(limited.solid_angle_per_area(pixel).is_none() && camera.solid_angle_per_area(pixel).is_some());
-    assert!(camera.limited_to(4.0).is_err());
+    assert!(camera.with_max_angle(4.0).is_err());
 }
 
 #[test]
@@ -229,15 +229,15 @@ fn polynomials_in_pixels_fold_where_they_turn_back() {
     assert!((radius_px / 500_000.0_f64.sqrt() - 1.0).abs() < 1e-6, "{radius_px}");
     assert!((tan(angle_rad) - 500_000.0_f64.sqrt() / 1000.0).abs() < 1e-12);
     let f_theta =
-        |sense, c, greatest| camera(Model::FTheta(FTheta::new(sense, c, greatest, Affine::default()).expect("legal")));
+        |sense, c, maximum| camera(Model::FTheta(FTheta::new(sense, c, maximum, Affine::default()).expect("legal")));
     // r = 600 (θ − θ³/10) turns at θ² = 10/3; a maximum angle before it is the end.
-    let by_angle = |greatest| f_theta(FThetaSense::AngleToRadius, vec![0.0, 600.0, 0.0, -60.0], greatest);
+    let by_angle = |maximum| f_theta(FThetaSense::AngleToRadius, vec![0.0, 600.0, 0.0, -60.0], maximum);
     let turn = (10.0_f64 / 3.0).sqrt();
     let [radius_px, angle_rad] = fold(&by_angle(2.5));
     assert!((angle_rad - turn).abs() < 1e-14 && (radius_px - 600.0 * turn * 2.0 / 3.0).abs() < 1e-9);
     assert!(by_angle(1.8).check().is_ok());
     // θ = ρ/400 − ρ³/1e9 turns at ρ² = 1e9/1200 with 1.52 rad.
-    let by_radius = |greatest| f_theta(FThetaSense::RadiusToAngle, vec![0.0, 0.0025, 0.0, -1e-9], greatest);
+    let by_radius = |maximum| f_theta(FThetaSense::RadiusToAngle, vec![0.0, 0.0025, 0.0, -1e-9], maximum);
     let turn_px = (1e9_f64 / 1200.0).sqrt();
     assert!((fold(&by_radius(2.5))[0] / turn_px - 1.0).abs() < 1e-6);
     assert!(by_radius(2.5).unproject(DVec2::new(960.0 + turn_px + 1e-6, 604.0)).is_none());
@@ -246,7 +246,7 @@ fn polynomials_in_pixels_fold_where_they_turn_back() {
 }
 
 #[test]
-fn a_circle_in_a_larger_picture_is_no_fold() {
+fn a_circle_in_a_larger_image_is_no_fold() {
     let camera = camera(fisheye([0.0; 4]), 150.0);
     assert!(camera.check().is_ok());
     assert!(camera.unproject(DVec2::new(1.0, 1.0)).is_none());

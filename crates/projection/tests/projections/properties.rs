@@ -39,9 +39,9 @@ fn perspective() -> impl Strategy<Value = Model> {
 
 fn f_theta() -> impl Strategy<Value = Model> {
     let c = (0.5..2.0f64, prop::array::uniform3(-0.3..0.3f64));
-    (any::<bool>(), c, 0.3..3.1f64, affine()).prop_map(|(by_angle, (c1, [c2, c3, c4]), greatest, affine)| {
+    (any::<bool>(), c, 0.3..3.1f64, affine()).prop_map(|(by_angle, (c1, [c2, c3, c4]), maximum, affine)| {
         let sense = if by_angle { FThetaSense::AngleToRadius } else { FThetaSense::RadiusToAngle };
-        Model::FTheta(FTheta::new(sense, vec![0.0, c1, c2, c3, c4], greatest, affine).expect("legal"))
+        Model::FTheta(FTheta::new(sense, vec![0.0, c1, c2, c3, c4], maximum, affine).expect("legal"))
     })
 }
 
@@ -91,9 +91,9 @@ proptest! {
     #[test]
     fn what_a_point_sees_is_seen_there(model in models(), x in -2.5..2.5f64, y in -1.5..1.5f64) {
         let point = DVec2::new(x, y);
-        let seen = model.unproject(point);
-        prop_assert_eq!(model.solid_angle_per_area(point).is_some(), seen.is_some());
-        if let Some(direction) = seen {
+        let direction_seen = model.unproject(point);
+        prop_assert_eq!(model.solid_angle_per_area(point).is_some(), direction_seen.is_some());
+        if let Some(direction) = direction_seen {
             prop_assert!((direction.length() - 1.0).abs() < 1e-14);
             prop_assert!(model.solid_angle_per_area(point) > Some(0.0));
             // The same operations, done once.

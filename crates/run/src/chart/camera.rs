@@ -11,7 +11,7 @@ use etendue_scene::{Overrides, load_camera, named_files};
 use std::path::{Path, PathBuf};
 
 /// Reference camera files that name no other files.
-const STAND_INS: [(&str, &str); 5] = [
+const REFERENCE_CAMERAS: [(&str, &str); 5] = [
     ("web", include_str!("../../../../scenes/cameras/web.toml")),
     ("ccd-mono", include_str!("../../../../scenes/cameras/ccd-mono.toml")),
     ("ccd-bayer", include_str!("../../../../scenes/cameras/ccd-bayer.toml")),
@@ -20,7 +20,7 @@ const STAND_INS: [(&str, &str); 5] = [
 ];
 
 /// Unit number of a series whose camera states none.
-const SPECIMEN: u64 = 1;
+const DEFAULT_UNIT: u64 = 1;
 
 /// A camera and the place of its file.
 pub(super) struct ChartCamera {
@@ -36,14 +36,14 @@ enum Source {
 
 impl ChartCamera {
     /// Reads and compiles a camera file, or a reference camera given by name, with changes `key=value` of its keys.
-    pub(super) fn load(given: &str, changes: &[String]) -> Result<Self, Error> {
-        let stand_in = STAND_INS.iter().find(|(name, _)| *name == given);
-        let source = match stand_in {
+    pub(super) fn load(name_or_file: &str, changes: &[String]) -> Result<Self, Error> {
+        let reference = REFERENCE_CAMERAS.iter().find(|(name, _)| *name == name_or_file);
+        let source = match reference {
             Some((name, text)) => Source::StandIn(format!("{name}.toml"), text),
-            None if given.ends_with(".toml") => Source::File(PathBuf::from(given)),
+            None if name_or_file.ends_with(".toml") => Source::File(PathBuf::from(name_or_file)),
             None => {
-                let names = STAND_INS.map(|(name, _)| name).join(", ");
-                let message = format!("`camera` {given}: expected a camera file (.toml) or one of {names}");
+                let names = REFERENCE_CAMERAS.map(|(name, _)| name).join(", ");
+                let message = format!("`camera` {name_or_file}: expected a camera file (.toml) or one of {names}");
                 return Err(Error::argument("camera", message));
             }
         };
@@ -55,13 +55,13 @@ impl ChartCamera {
             Some(text) if file == path => Ok(text.to_owned()),
             _ => read_text(file),
         };
-        let camera = load_camera(&path, &read, &Overrides::new(changes)).map_err(|f| Error::inputs(f.list()))?;
-        let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
+        let camera = load_camera(&path, &read, &Overrides::new(changes)).map_err(|f| Error::inputs(f.as_slice()))?;
+        let assets = load_assets(&named_files::camera_files(&camera)).map_err(Error::inputs)?;
         Ok(Self { body: compile_camera(&camera, &assets).map_err(Error::inputs)?, source })
     }
 
     /// The reference camera's file and its text.
-    pub(super) fn stand_in(&self) -> Option<(String, &'static str)> {
+    pub(super) fn reference_camera(&self) -> Option<(String, &'static str)> {
         match &self.source {
             Source::File(_) => None,
             Source::StandIn(name, text) => Some((name.clone(), text)),
@@ -74,12 +74,12 @@ impl ChartCamera {
             Source::StandIn(name, _) => return Ok(name.clone()),
             Source::File(path) => path,
         };
-        let whole = |path: &Path| {
+        let absolute = |path: &Path| {
             let here = if path.as_os_str().is_empty() { Path::new(".") } else { path };
             here.canonicalize()
                 .map_err(|error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", path.display())))
         };
-        let from_to = relative_path(&whole(folder)?, &whole(file)?);
+        let from_to = relative_path(&absolute(folder)?, &absolute(file)?);
         let text = from_to.to_str().filter(|text| !text.contains(['"', '\\']));
         let message = || {
             Error::coded(
@@ -98,10 +98,10 @@ impl ChartCamera {
     }
 
     /// Unit number for the cameras of a series, so that all of them are the same physical unit.
-    pub(super) fn specimen(&self, stations: &[CameraStation]) -> Option<u64> {
+    pub(super) fn default_unit(&self, stations: &[CameraStation]) -> Option<u64> {
         let sensor = self.body.sensor.as_ref()?;
-        let open = sensor.parameters().specimen.is_none();
-        (open && stations.len() > 1).then_some(SPECIMEN)
+        let open = sensor.parameters().unit.is_none();
+        (open && stations.len() > 1).then_some(DEFAULT_UNIT)
     }
 }
 
@@ -110,8 +110,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stand_ins_are_whole() {
-        for (name, _) in STAND_INS {
+    fn reference_cameras_are_complete() {
+        for (name, _) in REFERENCE_CAMERAS {
             let camera = ChartCamera::load(name, &[]).unwrap_or_else(|failure| panic!("{name}: {failure}"));
             assert_eq!(camera.body.sensor.is_some(), name != "laboratory");
         }

@@ -22,7 +22,7 @@ const CAMERA_TABLES: [&str; 5] = ["lens", "external_optics", "effects", "sensor"
 pub(super) struct Changes<'c>(pub(super) &'c [String]);
 
 /// The file that contains a key.
-enum Target<'c> {
+enum KeyFile<'c> {
     /// The camera file, with the key and value within it.
     Camera(&'c str),
     Scene(&'c str),
@@ -33,15 +33,15 @@ impl<'c> Changes<'c> {
     /// Returns the changes of the camera, as changes of its file.
     pub(super) fn camera_changes(self) -> Vec<String> {
         let key = |change: &String| match target(change) {
-            Target::Camera(key) => Some(key.to_owned()),
-            Target::Scene(_) | Target::Job => None,
+            KeyFile::Camera(key) => Some(key.to_owned()),
+            KeyFile::Scene(_) | KeyFile::Job => None,
         };
         self.0.iter().filter_map(key).collect()
     }
 
     /// Returns the changes that are applied after the chart is drawn.
     pub(super) fn job_changes(self) -> Vec<String> {
-        self.0.iter().filter(|change| !matches!(target(change), Target::Camera(_))).cloned().collect()
+        self.0.iter().filter(|change| !matches!(target(change), KeyFile::Camera(_))).cloned().collect()
     }
 
     /// Reads the job of `files` with the changes: the errors are those of rendering it with them.
@@ -60,16 +60,16 @@ impl<'c> Changes<'c> {
         let mut by_file: BTreeMap<&str, Vec<String>> = BTreeMap::new();
         for change in self.0 {
             match target(change) {
-                Target::Camera(key) => {
+                KeyFile::Camera(key) => {
                     camera_files.iter().for_each(|file| by_file.entry(file).or_default().push(key.to_owned()));
                 }
-                Target::Scene(key) => by_file.entry(SCENE).or_default().push(key.to_owned()),
-                Target::Job => by_file.entry(JOB).or_default().push(change.clone()),
+                KeyFile::Scene(key) => by_file.entry(SCENE).or_default().push(key.to_owned()),
+                KeyFile::Job => by_file.entry(JOB).or_default().push(change.clone()),
             }
         }
         for (file, changes) in by_file {
             let Some(text) = files.get_mut(file) else { continue };
-            *text = edit(&folder.join(file), text, &changes).map_err(|faults| Error::inputs(faults.list()))?;
+            *text = edit(&folder.join(file), text, &changes).map_err(|errors| Error::inputs(errors.as_slice()))?;
         }
         self.check_written(folder, files)
     }
@@ -77,7 +77,7 @@ impl<'c> Changes<'c> {
     /// Refuses the exposure of a series, in which each camera has its own.
     fn check_series(self, camera_files: &[String]) -> Result<(), Error> {
         let is_exposure = |change: &&String| {
-            let Target::Camera(key) = target(change) else { return false };
+            let KeyFile::Camera(key) = target(change) else { return false };
             let key = key.split('=').next().unwrap_or_default().trim();
             key == "sensor" || key == "sensor.exposure_s"
         };
@@ -95,8 +95,8 @@ impl<'c> Changes<'c> {
         let written = load(folder, files, &Overrides::default())?;
         let values = self.0.iter().filter(|change| !is_removal(change));
         for change in values {
-            let again = load(folder, files, &Overrides::new([change]))?;
-            if again.to_table() != written.to_table() {
+            let repeated = load(folder, files, &Overrides::new([change]))?;
+            if repeated.to_table() != written.to_table() {
                 return Err(Error::argument(
                     "set",
                     format!(
@@ -110,14 +110,14 @@ impl<'c> Changes<'c> {
 }
 
 /// Returns the file into which a change is written.
-fn target(change: &str) -> Target<'_> {
+fn target(change: &str) -> KeyFile<'_> {
     let (key, _) = change.split_once('=').unwrap_or((change, ""));
     let parts: Vec<&str> = key.split('.').map(str::trim).collect();
     let after = |parts: usize| change.splitn(parts + 1, '.').nth(parts).unwrap_or("");
     match parts.as_slice() {
-        ["cameras", _, table, ..] if CAMERA_TABLES.contains(table) => Target::Camera(after(2)),
-        ["scene", _, ..] => Target::Scene(after(1)),
-        _ => Target::Job,
+        ["cameras", _, table, ..] if CAMERA_TABLES.contains(table) => KeyFile::Camera(after(2)),
+        ["scene", _, ..] => KeyFile::Scene(after(1)),
+        _ => KeyFile::Job,
     }
 }
 
@@ -129,7 +129,7 @@ fn load(folder: &Path, files: &BTreeMap<String, String>, overrides: &Overrides) 
     let texts: BTreeMap<PathBuf, &String> = files.iter().map(|(name, text)| (folder.join(name), text)).collect();
     let read = |path: &Path| texts.get(path).map_or_else(|| read_text(path), |text| Ok((*text).clone()));
     let description = Description::load(&folder.join(JOB), &read, overrides);
-    description.map_err(|faults| Error::inputs(faults.list()))
+    description.map_err(|errors| Error::inputs(errors.as_slice()))
 }
 
 #[cfg(test)]

@@ -9,19 +9,19 @@ use changes::Changes;
 pub use etendue_charts::design;
 pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
 use etendue_charts::{
-    Contents, Drawing, Footprint, Light, Meter, RasterRay, RayCamera, Request, camera_file, camera_stations, files,
-    picture,
+    Contents, Drawing, Footprint, Light, CameraResponse, RasterRay, RayCamera, ChartSpecification, camera_file, camera_stations, files,
+    chart_image,
 };
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
-use etendue_io::failure::check_whole;
+use etendue_io::failure::check_integer;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 use etendue_pipeline::light_meter::LightMeter;
 use glam::DVec2;
-pub use own_camera::ChartBeforeCamera;
+pub use own_camera::ChartForCamera;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ const LUMINANCE_CD_M2: f64 = 1000.0;
 
 /// A series of exposures, one camera each.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct ExposureSeries {
     /// Level of white in each exposure.
     pub exposures: Exposures,
     /// If true, a camera whose exposure cannot be computed is refused; otherwise the chart is made without the series.
@@ -70,7 +70,7 @@ pub struct ChartRequest {
     /// If true, the views deviate at random (by `seed`), as if hand-held: up to 0.5 % of the distance sideways, 2 % farther away, rolled by 1.5 degrees.
     pub hand_held: bool,
     /// Exposures, one camera each; `None`: the camera's own.
-    pub series: Option<Series>,
+    pub series: Option<ExposureSeries>,
     /// If true, each exposure has a dark frame.
     pub dark: bool,
 }
@@ -99,7 +99,7 @@ impl ChartRequest {
 
 impl ChartRequest {
     /// The light: of the requested luminance, or of the one that reaches the requested fraction of saturation.
-    fn light(&self, meter: Option<&Meter<'_>>, otherwise_cd_m2: f64) -> Result<Light, ChartError> {
+    fn light(&self, meter: Option<&CameraResponse<'_>>, otherwise_cd_m2: f64) -> Result<Light, ChartError> {
         let named = |luminance_cd_m2| Light::named(&self.illuminant, luminance_cd_m2);
         if let Some(luminance_cd_m2) = self.luminance_cd_m2 {
             return named(luminance_cd_m2);
@@ -109,25 +109,25 @@ impl ChartRequest {
             return Err(ChartError::option("white", white, "expected a fraction of saturation above 0"));
         }
         let unit = named(1.0)?;
-        let share = meter.map(|meter| meter.share(unit.radiance())).filter(|share| *share > 0.0);
-        named(share.map_or(otherwise_cd_m2, |share| white / share))
+        let saturation = meter.map(|meter| meter.saturation_fraction(unit.radiance())).filter(|saturation| *saturation > 0.0);
+        named(saturation.map_or(otherwise_cd_m2, |saturation| white / saturation))
     }
 
     /// Exposures of the series, s; empty without a series.
-    fn exposures_s(&self, light: &Light, drawing: &Drawing, meter: Option<&Meter<'_>>) -> Result<Vec<f64>, ChartError> {
-        let Some(Series { exposures, required }) = &self.series else { return Ok(Vec::new()) };
-        let share = meter.map(|meter| meter.share(&drawing.inks[0].radiance(light))).filter(|share| *share > 0.0);
-        let (Some(meter), Some(share)) = (meter, share) else {
-            let told = || {
+    fn exposures_s(&self, light: &Light, drawing: &Drawing, meter: Option<&CameraResponse<'_>>) -> Result<Vec<f64>, ChartError> {
+        let Some(ExposureSeries { exposures, required }) = &self.series else { return Ok(Vec::new()) };
+        let saturation = meter.map(|meter| meter.saturation_fraction(&drawing.inks[0].radiance(light))).filter(|saturation| *saturation > 0.0);
+        let (Some(meter), Some(saturation)) = (meter, saturation) else {
+            let problem = || {
                 "this camera has no electronics that respond to the light; give a camera whose sensor has electronics"
                     .to_owned()
             };
             return match required {
                 false => Ok(Vec::new()),
-                true => Err(ChartError::Camera(format!("`exposures`, `levels`: {}", told()))),
+                true => Err(ChartError::Camera(format!("`exposures`, `levels`: {}", problem()))),
             };
         };
-        let exposures_s: Vec<f64> = exposures.shares.iter().map(|s| meter.exposure_s * s / share).collect();
+        let exposures_s: Vec<f64> = exposures.fractions.iter().map(|s| meter.exposure_s * s / saturation).collect();
         let longest_s = exposures_s.iter().copied().fold(0.0, f64::max);
         match meter.longest_s {
             Some(limit_s) if longest_s > limit_s => Err(ChartError::Camera(format!(
@@ -143,8 +143,8 @@ impl ChartRequest {
 ///
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
-pub fn make(request: &ChartRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
-    check_whole("views", request.views, 1..=MAX_VIEWS)?;
+pub fn make(request: &ChartRequest, folder: &Path, existing: ExistingFiles) -> Result<Vec<PathBuf>, Error> {
+    check_integer("views", request.views, 1..=MAX_VIEWS)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);
     let camera_changes = changes.camera_changes();
@@ -200,9 +200,9 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
     };
     let size_px = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
     let ray_camera = RayCamera { size_px, ray: &ray };
-    let light_meter = LightMeter::of(body);
+    let light_meter = LightMeter::new(body);
     let electrons = |radiance: &_| light_meter.as_ref().map_or_else(Vec::new, |meter| meter.electrons(radiance));
-    let meter = light_meter.as_ref().zip(body.sensor.as_ref()).map(|(meter, sensor)| Meter {
+    let meter = light_meter.as_ref().zip(body.sensor.as_ref()).map(|(meter, sensor)| CameraResponse {
         exposure_s: sensor.parameters().exposure.exposure_s,
         longest_s: sensor.parameters().exposure.frame_period_s,
         saturation_e: meter.saturation_e(),
@@ -210,26 +210,26 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
     });
     // An exposure time of zero cannot be metered.
     let meter = meter.filter(|meter| meter.exposure_s > 0.0);
-    let seen = footprint(request, &camera, &ray_camera)?;
-    let drawing = request.chart.draw(&seen, request.seed).map_err(chart_error)?;
+    let footprint_m = footprint(request, &camera, &ray_camera)?;
+    let drawing = request.chart.draw(&footprint_m, request.seed).map_err(chart_error)?;
     let light = request.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(chart_error)?;
     let exposures_s = request.exposures_s(&light, &drawing, meter.as_ref()).map_err(chart_error)?;
-    let mut stations = camera_stations(seen.distance_m, request.views, &exposures_s, request.dark);
+    let mut stations = camera_stations(footprint_m.distance_m, request.views, &exposures_s, request.dark);
     if request.hand_held {
         stations = stations.into_iter().zip(0..).map(|(station, nth)| station.hand_held(request.seed, nth)).collect();
     }
     let base = camera.base(folder)?;
-    let files = Request {
+    let files = ChartSpecification {
         chart: &request.chart,
         drawing: &drawing,
-        seen,
+        footprint: footprint_m,
         ray_camera: &ray_camera,
-        meter: meter.as_ref(),
+        response: meter.as_ref(),
         light: &light,
         stations: &stations,
         camera: &base,
         remove: camera.removed_keys(),
-        specimen: camera.specimen(&stations),
+        unit_seed: camera.default_unit(&stations),
         seed: request.seed,
         changes: &Changes(&request.set).job_changes(),
     };
@@ -265,11 +265,11 @@ fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamer
     ray_camera.footprint(distance_m).map_err(chart_error)
 }
 
-fn chart_files(request: &Request<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
-    let print = png_dpi.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(chart_error)?;
+fn chart_files(request: &ChartSpecification<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
+    let print = png_dpi.map(|dpi| chart_image(request.drawing, dpi)).transpose().map_err(chart_error)?;
     let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Error::run)?;
-    let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));
-    let mut all: Vec<(String, Vec<u8>)> = stand_in.into_iter().collect();
+    let reference = camera.reference_camera().map(|(name, text)| (name, text.as_bytes().to_vec()));
+    let mut all: Vec<(String, Vec<u8>)> = reference.into_iter().collect();
     for file in files(request) {
         all.push((file.name, bytes(file.contents)?));
     }

@@ -9,7 +9,7 @@ use crate::result_files::write_file;
 use etendue_core::Integrator;
 use etendue_core::observer::Observer;
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::{Existing, Sandbox};
+use etendue_io::{ExistingFiles, Sandbox};
 use etendue_scene::CameraSetup;
 use etendue_scene::record::paths::PathKeys;
 use etendue_scene::record::samples::SampleKeys;
@@ -22,17 +22,17 @@ use std::path::{Path, PathBuf};
 const FAR_M: f64 = 1000.0;
 const CAMERA: &str = "job-camera.toml";
 const JOB: &str = "job.toml";
-const CHANGED: &str = "changed.toml";
+const CHANGED_CAMERA: &str = "changed.toml";
 const PHOTOGRAPHS: &str = "photographs";
 
 /// A chart in a folder, made for a camera of a job. Exposure and distance are those that the job states for the camera.
 #[derive(Clone, Debug)]
-pub struct ChartBeforeCamera {
+pub struct ChartForCamera {
     folder: PathBuf,
     camera: String,
 }
 
-impl ChartBeforeCamera {
+impl ChartForCamera {
     /// Makes the chart of `request` before a camera of a job. The request's own camera is ignored. Without a stated distance the chart stands at the focus
     /// distance of the job's camera, at most 1 km away. The folder must hold nothing else.
     ///
@@ -45,12 +45,12 @@ impl ChartBeforeCamera {
         // An absolute path, because written files name other files by absolute paths.
         let folder = &folder.canonicalize().map_err(failed)?;
         let file = folder.join(CAMERA);
-        write(&file, &File::new(of_constant_exposure(setup.camera).to_table()))?;
-        let given = file.to_string_lossy().into_owned();
-        let focus_m = ChartCamera::load(&given, &[])?.body.lens.focus_distance_m();
-        let far = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
-        let request = ChartRequest { camera: given, distance_m: request.distance_m.or(far), ..request.clone() };
-        make(&request, folder, Existing::Refuse)?;
+        write(&file, &File::new(without_exposure_control(setup.camera).to_table()))?;
+        let camera_file = file.to_string_lossy().into_owned();
+        let focus_m = ChartCamera::load(&camera_file, &[])?.body.lens.focus_distance_m();
+        let distant_m = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
+        let request = ChartRequest { camera: camera_file, distance_m: request.distance_m.or(distant_m), ..request.clone() };
+        make(&request, folder, ExistingFiles::Refuse)?;
         Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
     }
 
@@ -66,7 +66,7 @@ impl ChartBeforeCamera {
     ///
     /// # Errors
     /// The job is invalid, the camera makes no such image, the observer cancels, or the folder cannot be written.
-    pub fn photograph(
+    pub fn capture(
         &self,
         job: &JobRequest,
         spp: u32,
@@ -76,20 +76,20 @@ impl ChartBeforeCamera {
         let changed = setup(job, &self.camera)?;
         let mut chart = load(&self.folder.join(JOB), &Sandbox::NONE, &Overrides::default())?;
         let mut station = chart.cameras.swap_remove(0);
-        station.camera = of_constant_exposure(changed.camera);
-        station.render = directly_lit(changed.render, spp);
-        let has_picture = station.camera.isp.is_some();
+        station.camera = without_exposure_control(changed.camera);
+        station.render = without_indirect_light(changed.render, spp);
+        let makes_image = station.camera.isp.is_some();
         let no = || Some(false.into());
         station.output =
-            Output { picture: Some(has_picture.into()), ground_truth: no(), radiance: no(), ..station.output };
+            Output { picture: Some(makes_image.into()), ground_truth: no(), radiance: no(), ..station.output };
         chart.cameras = vec![station];
-        let file = self.folder.join(CHANGED);
+        let file = self.folder.join(CHANGED_CAMERA);
         write(&file, &File::new(chart.to_table()))?;
         let request = JobRequest { films: job.films.clone(), textures: job.textures.clone(), ..JobRequest::new(file) };
         let folder = self.folder.join(PHOTOGRAPHS);
-        let written = request.open()?.save(options, &folder, Existing::Replace, observer)?;
-        let start = if has_picture { "picture." } else { "raw." };
-        let is_picture =
+        let written = request.open()?.save(options, &folder, ExistingFiles::Replace, observer)?;
+        let start = if makes_image { "picture." } else { "raw." };
+        let is_image =
             |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
         let none = || {
             Error::coded(
@@ -97,14 +97,14 @@ impl ChartBeforeCamera {
                 format!("camera {}: it produces no image to measure", self.camera),
             )
         };
-        written.iter().find(is_picture).cloned().ok_or_else(none)
+        written.iter().find(is_image).cloned().ok_or_else(none)
     }
 }
 
 fn load(file: &Path, sandbox: &Sandbox, overrides: &Overrides) -> Result<Description, Error> {
     let files = MemoryFiles::new();
     let description = Description::load(file, &|path| files.read(path, sandbox), overrides);
-    description.map_err(|faults| Error::inputs(faults.list()))
+    description.map_err(|errors| Error::inputs(errors.as_slice()))
 }
 
 /// A camera of a job, with absolute paths of its files.
@@ -119,7 +119,7 @@ fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
 }
 
 /// Removes what changes the exposure from frame to frame (it follows the job's scene, not the chart).
-fn of_constant_exposure(mut camera: Camera) -> Camera {
+fn without_exposure_control(mut camera: Camera) -> Camera {
     if let Some(electronics) = &mut camera.sensor.electronics {
         electronics.auto_exposure = None;
     }
@@ -127,11 +127,11 @@ fn of_constant_exposure(mut camera: Camera) -> Camera {
 }
 
 /// Flat sheets light only the camera: no indirect light.
-fn directly_lit(render: Render, spp: u32) -> Render {
+fn without_indirect_light(render: Render, spp: u32) -> Render {
     let samples = SampleKeys { spp: Some(u64::from(spp).into()), replicates: Some(1.into()), ..SampleKeys::default() };
     Render { samples, integrator: Some(Integrator::Direct.into()), paths: PathKeys::default(), ..render }
 }
 
 fn write(path: &Path, file: &File) -> Result<(), Error> {
-    write_file(path, file.to_string().as_bytes(), Existing::Replace)
+    write_file(path, file.to_string().as_bytes(), ExistingFiles::Replace)
 }

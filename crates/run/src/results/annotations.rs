@@ -3,7 +3,7 @@
 use super::camera::CameraResults;
 use super::metadata::add_time;
 use super::writer::{Encoder, ResultWriter};
-use crate::result_files::Files;
+use crate::result_files::ResultFiles;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
@@ -11,10 +11,10 @@ use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitt
 use etendue_io::exr::{self, CryptomatteLayer, ExrImage, cryptomatte_image, encode_disparity, encode_motion};
 use etendue_io::failure::Error;
 use etendue_pipeline::boxes::{
-    ObjectBoxes, PixelBox, SolidBox, Stance, WorldObject, object_boxes, silhouettes, world_objects,
+    ObjectBoxes, PixelBox, SolidBox, BoxPose, WorldObject, object_boxes, silhouettes, world_objects,
 };
 use etendue_pipeline::frame_view::FrameView;
-use etendue_pipeline::identity_coverage::{IdentityCoverage, Share, identity_coverage};
+use etendue_pipeline::identity_coverage::{IdentityCoverage, IdentityFraction, identity_coverage};
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
 use etendue_pipeline::plan::{CorrespondenceFormat, Plan, Products};
 use serde_json::{Value, json};
@@ -79,15 +79,15 @@ impl CameraResults {
     }
 
     pub(super) fn write_annotations(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let asked = &self.camera().products.annotations;
-        if asked.needs_neighbours() {
+        let annotations = &self.camera().products.annotations;
+        if annotations.needs_neighbours() {
             self.write_motion(writer)?;
         }
-        if asked.boxes {
-            writer.json(&self.file(Files::BOXES), &self.boxes_json())?;
+        if annotations.boxes {
+            writer.json(&self.file(ResultFiles::BOXES), &self.boxes_json())?;
         }
-        if asked.cryptomatte {
-            writer.exr(&self.file(Files::CRYPTOMATTE), self.cryptomatte_image())?;
+        if annotations.cryptomatte {
+            writer.exr(&self.file(ResultFiles::CRYPTOMATTE), self.cryptomatte_image())?;
         }
         self.write_disparity(writer)
     }
@@ -104,7 +104,7 @@ impl CameraResults {
     /// It cannot be stored.
     pub fn cryptomatte(&self) -> Result<Vec<u8>, Error> {
         let bytes = self.cryptomatte_image().into_bytes();
-        bytes.map_err(|error| Error::Run(format!("{}: {error}", Files::CRYPTOMATTE)))
+        bytes.map_err(|error| Error::Run(format!("{}: {error}", ResultFiles::CRYPTOMATTE)))
     }
 
     fn cryptomatte_image(&self) -> ExrImage<'static> {
@@ -115,35 +115,35 @@ impl CameraResults {
         let (truth, facts) = (self.motion_truth(), self.provenance());
         let products = &self.camera().products;
         let mut files: Vec<(String, Encoder<'_>)> =
-            vec![(self.file(Files::MOTION), Box::new(|| encode_motion(&planes(&truth, products), &facts)))];
+            vec![(self.file(ResultFiles::MOTION), Box::new(|| encode_motion(&planes(&truth, products), &facts)))];
         let flow = &truth.neighbours[0].flow;
         match products.annotations.optical_flow {
             None | Some(CorrespondenceFormat::Exr) => {}
             Some(CorrespondenceFormat::Middlebury) => {
-                files.push((self.file(Files::FLOW_FLO), Box::new(|| encode_flo(flow))));
+                files.push((self.file(ResultFiles::FLOW_FLO), Box::new(|| encode_flo(flow))));
             }
             Some(CorrespondenceFormat::Kitti) => {
-                files.push((self.file(Files::FLOW_PNG), Box::new(|| encode_kitti_flow(flow))));
+                files.push((self.file(ResultFiles::FLOW_PNG), Box::new(|| encode_kitti_flow(flow))));
             }
         }
-        writer.write_together(files)
+        writer.write_all(files)
     }
 
     fn write_disparity(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let Some((disparity, seen)) = self.disparity() else { return Ok(()) };
-        let asked = self.camera().products.annotations.disparity.expect("disparity is asked for");
-        let right = self.plan.cameras.iter().find(|camera| camera.index == asked.right).expect("a camera of the plan");
+        let Some((disparity, visibility)) = self.disparity() else { return Ok(()) };
+        let product = self.camera().products.annotations.disparity.expect("disparity is asked for");
+        let right = self.plan.cameras.iter().find(|camera| camera.index == product.right).expect("a camera of the plan");
         let facts: Provenance = self.provenance();
-        let exr = encode_disparity(&disparity, &seen, &right.name, &facts);
-        writer.write(&self.file(Files::DISPARITY), exr)?;
-        match asked.format {
+        let exr = encode_disparity(&disparity, &visibility, &right.name, &facts);
+        writer.write(&self.file(ResultFiles::DISPARITY), exr)?;
+        match product.format {
             CorrespondenceFormat::Exr => Ok(()),
             CorrespondenceFormat::Middlebury => {
                 let bytes = encode_pfm(disparity.width(), disparity.samples());
-                writer.write(&self.file(Files::DISPARITY_PFM), bytes)
+                writer.write(&self.file(ResultFiles::DISPARITY_PFM), bytes)
             }
             CorrespondenceFormat::Kitti => {
-                writer.write(&self.file(Files::DISPARITY_PNG), encode_kitti_disparity(&disparity))
+                writer.write(&self.file(ResultFiles::DISPARITY_PNG), encode_kitti_disparity(&disparity))
             }
         }
     }
@@ -151,18 +151,18 @@ impl CameraResults {
 
 /// The requested layers.
 fn planes<'a>(truth: &'a MotionTruth, products: &Products) -> exr::MotionTruth<'a> {
-    let asked = &products.annotations;
-    let flow = asked.optical_flow.is_some();
-    let neighbour = |found: &'a NeighbourTruth| exr::NeighbourTruth {
-        flow: flow.then_some(&found.flow),
-        visibility: flow.then_some(&found.visibility),
-        scene_flow: asked.scene_flow.then_some(&found.scene_flow),
+    let annotations = &products.annotations;
+    let flow = annotations.optical_flow.is_some();
+    let neighbour = |neighbour_truth: &'a NeighbourTruth| exr::NeighbourTruth {
+        flow: flow.then_some(&neighbour_truth.flow),
+        visibility: flow.then_some(&neighbour_truth.visibility),
+        scene_flow: annotations.scene_flow.then_some(&neighbour_truth.scene_flow),
     };
     exr::MotionTruth {
         forward: truth.neighbours.first().map(neighbour),
         backward: truth.neighbours.get(1).map(neighbour),
         motion_vector: flow.then_some(&truth.motion_vector),
-        velocity: asked.scene_flow.then_some(&truth.velocity),
+        velocity: annotations.scene_flow.then_some(&truth.velocity),
         time: Some(&truth.time),
     }
 }
@@ -212,27 +212,27 @@ fn object_json(plan: &Plan, width: usize, height: usize, object: &ObjectBoxes) -
     })
 }
 
-fn edges(found: PixelBox) -> [f64; 4] {
-    found.edges_px()
+fn edges(pixel_box: PixelBox) -> [f64; 4] {
+    pixel_box.edges_px()
 }
 
-fn solid(found: &SolidBox) -> Value {
-    json!({ "size_m": found.size_m.to_array(), "world": stance(&found.world), "camera": stance(&found.camera) })
+fn solid(solid_box: &SolidBox) -> Value {
+    json!({ "size_m": solid_box.size_m.to_array(), "world": stance(&solid_box.world), "camera": stance(&solid_box.camera) })
 }
 
-fn stance(found: &Stance) -> Value {
-    let [x, y, z, w] = found.rotation.to_array();
-    json!({ "centre_m": found.centre_m.to_array(), "rotation_wxyz": [w, x, y, z] })
+fn stance(pose: &BoxPose) -> Value {
+    let [x, y, z, w] = pose.rotation.to_array();
+    json!({ "centre_m": pose.centre_m.to_array(), "rotation_wxyz": [w, x, y, z] })
 }
 
 /// Layers of objects and of materials.
 fn cryptomatte_image_of(coverage: &IdentityCoverage, plan: &Plan, provenance: &Provenance) -> ExrImage<'static> {
     let objects = numbered(plan.identities.iter().map(|identity| identity.name.as_str()));
     let materials = numbered(plan.materials.iter().map(String::as_str));
-    let (seen_objects, seen_materials) = (ranked(&coverage.instances), ranked(&coverage.materials));
+    let (ranked_objects, ranked_materials) = (ranked_identities(&coverage.instances), ranked_identities(&coverage.materials));
     let layers = [
-        CryptomatteLayer { name: "CryptoObject", names: &objects, pixels: &seen_objects },
-        CryptomatteLayer { name: "CryptoMaterial", names: &materials, pixels: &seen_materials },
+        CryptomatteLayer { name: "CryptoObject", names: &objects, pixels: &ranked_objects },
+        CryptomatteLayer { name: "CryptoMaterial", names: &materials, pixels: &ranked_materials },
     ];
     cryptomatte_image(coverage.width, coverage.height, &layers, provenance)
 }
@@ -242,6 +242,6 @@ fn numbered<'a>(names: impl Iterator<Item = &'a str>) -> BTreeMap<u32, &'a str> 
     (1..).zip(names).collect()
 }
 
-fn ranked(shares: &[Vec<Share>]) -> Vec<Vec<(u32, f32)>> {
-    shares.iter().map(|pixel| pixel.iter().map(|share| (share.id, share.coverage)).collect()).collect()
+fn ranked_identities(pixels: &[Vec<IdentityFraction>]) -> Vec<Vec<(u32, f32)>> {
+    pixels.iter().map(|pixel| pixel.iter().map(|identity| (identity.id, identity.coverage)).collect()).collect()
 }

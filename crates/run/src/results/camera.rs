@@ -1,6 +1,6 @@
 //! Results of one camera in memory.
 
-use super::frames::{encoded, frames};
+use super::frames::{encode_picture, frames};
 use crate::job_request::RenderOptions;
 use crate::rig;
 use etendue_core::quantity::{Display, MeanElectrons};
@@ -8,7 +8,7 @@ use etendue_core::{CameraPose, ExactTime, Plane};
 use etendue_io::failure::Error;
 use etendue_io::jpeg::encode_jpeg;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
+use etendue_pipeline::photograph::{Frame, Light, capture, capture_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::{RayTable, ray_table};
@@ -36,7 +36,7 @@ pub struct CameraResults {
     /// State of the sensor before the first of these frames.
     state: SensorState,
     /// The frame, if it has its own light and the sensor keeps a state: later frames depend on it.
-    remembered: Option<RememberedFrame>,
+    cached_frame: Option<FrameWithState>,
     pub(super) simd: Simd,
 }
 
@@ -49,14 +49,14 @@ pub(crate) struct SensorHistory {
 
 /// A rendered frame, and the state of the sensor after it.
 #[derive(Clone, Debug)]
-struct RememberedFrame {
+struct FrameWithState {
     frame: Frame,
-    after: SensorHistory,
+    state_after: SensorHistory,
 }
 
 impl CameraResults {
     /// Computes all results of a camera of the plan from its films, one for each capture with a different exposure. Runs on the caller's thread pool.
-    pub(crate) fn of_films(
+    pub(crate) fn from_films(
         plan: &Arc<Plan>,
         camera: &CameraPlan,
         films: Vec<Film>,
@@ -65,20 +65,20 @@ impl CameraResults {
     ) -> Result<Self, Error> {
         let place = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
         let depth = pupil_depth(plan, camera, options.frames.start, options.simd);
-        let sampling = films.first().filter(|_| camera.products.sampling).map(|film| SamplingPlanes::of(camera, film));
-        let light = Light::of_captures(camera, films, depth.as_ref())
+        let sampling = films.first().filter(|_| camera.products.sampling).map(|film| SamplingPlanes::new(camera, film));
+        let light = Light::from_captures(camera, films, depth.as_ref())
             .map_err(|error| Error::Run(format!("camera {}: {error}", camera.name)))?;
         let undistorted = camera.products.undistorted;
         let undistorted = undistorted.map(|scale| {
-            RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
+            RectifiedCamera::new(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
         let (plan, SensorHistory { state, since }) = (Arc::clone(plan), before);
         let remembered = None;
         let mut results =
-            Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, remembered, simd };
+            Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, cached_frame: remembered, simd };
         if results.has_own_light() {
-            results.remembered = results.remembered_frame(since);
+            results.cached_frame = results.remembered_frame(since);
         }
         Ok(results)
     }
@@ -122,18 +122,18 @@ impl CameraResults {
     /// The frames with their numbers; a frame that was computed before is reused.
     pub(super) fn numbered_frames(&self) -> impl Iterator<Item = (u32, Cow<'_, Frame>)> + '_ {
         let signal_breakdown = self.camera().products.signal_breakdown;
-        let known = self.remembered.as_ref().map(|known| (self.frames.start, Cow::Borrowed(&known.frame)));
+        let known = self.cached_frame.as_ref().map(|known| (self.frames.start, Cow::Borrowed(&known.frame)));
         let light = self.light.captures().filter(|_| known.is_none());
-        let anew = light.map(|light| {
+        let computed = light.map(|light| {
             let (address, state) = (|frame| self.address(frame), self.state.clone());
             frames(&self.camera().body, light, self.frames.clone(), state, address, signal_breakdown)
         });
-        known.into_iter().chain(anew.into_iter().flatten())
+        known.into_iter().chain(computed.into_iter().flatten())
     }
 
     /// The first frame's image as shown on a display, 0 to 1; `None` for a camera without processing.
     #[must_use]
-    pub fn display_picture(&self) -> Option<Plane<Display>> {
+    pub fn display_image(&self) -> Option<Plane<Display>> {
         self.frames().next()?.picture.map(|developed| developed.display)
     }
 
@@ -141,9 +141,9 @@ impl CameraResults {
     ///
     /// # Errors
     /// The image cannot be encoded.
-    pub fn picture_file(&self, frame: &Frame) -> Option<Result<(&'static str, Vec<u8>), Error>> {
-        let (picture, development) = frame.picture.as_ref().zip(self.camera().body.development.as_ref())?;
-        let bytes = encoded(&picture.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
+    pub fn image_file(&self, frame: &Frame) -> Option<Result<(&'static str, Vec<u8>), Error>> {
+        let (image, development) = frame.picture.as_ref().zip(self.camera().body.development.as_ref())?;
+        let bytes = encode_picture(&image.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
         Some(bytes.map(|bytes| (development.format.extension(), bytes)))
     }
 
@@ -186,16 +186,16 @@ impl CameraResults {
 
     /// State of the sensor after a frame with its own light; `None` for a sensor without a state.
     pub(crate) fn state_after(&self) -> Option<&SensorHistory> {
-        self.remembered.as_ref().map(|known| &known.after)
+        self.cached_frame.as_ref().map(|known| &known.state_after)
     }
 
     /// Computes the frame if the sensor keeps a state.
-    fn remembered_frame(&self, since: u32) -> Option<RememberedFrame> {
+    fn remembered_frame(&self, since: u32) -> Option<FrameWithState> {
         let camera = self.camera();
-        let light = self.light.captures().filter(|_| camera.body.sensor.as_ref().is_some_and(Sensor::remembers))?;
-        let step = if camera.products.signal_breakdown { take_with_breakdown } else { take };
+        let light = self.light.captures().filter(|_| camera.body.sensor.as_ref().is_some_and(Sensor::has_memory))?;
+        let step = if camera.products.signal_breakdown { capture_with_breakdown } else { capture };
         let (state, frame) = step(&camera.body, self.state.clone(), light, self.address(self.frames.start))?;
-        Some(RememberedFrame { frame, after: SensorHistory { state, since } })
+        Some(FrameWithState { frame, state_after: SensorHistory { state, since } })
     }
 
     /// Address of a frame of the camera among all frames.
@@ -209,6 +209,6 @@ impl CameraResults {
 ///
 /// # Errors
 /// It cannot be encoded.
-pub fn display_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
-    encode_jpeg(picture, quality).map_err(|error| Error::Run(error.to_string()))
+pub fn display_jpeg(image: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
+    encode_jpeg(image, quality).map_err(|error| Error::Run(error.to_string()))
 }

@@ -1,8 +1,8 @@
 //! Frames that an interrupted run has written: the resumed run continues after them.
 
 use super::metadata;
-use super::sequence::Sequence;
-use crate::result_files::Files;
+use super::sequence::FrameSequence;
+use crate::result_files::ResultFiles;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::read_regular;
@@ -30,7 +30,7 @@ impl DoneFrames {
     ///
     /// # Errors
     /// A frame or a side-car in the folder is of another plan, or cannot be read.
-    pub(crate) fn in_folder(
+    pub(crate) fn find_in_folder(
         folder: &Path,
         plan: &Plan,
         frames: &Range<u32>,
@@ -39,13 +39,13 @@ impl DoneFrames {
         let mut facts = BTreeMap::new();
         for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
             for frame in frames.clone() {
-                let path = folder.join(&camera.name).join(Files::frame(frame));
-                let Some(value) = written(&path, "this is not a frame file")? else { continue };
+                let path = folder.join(&camera.name).join(ResultFiles::frame(frame));
+                let Some(value) = read_facts(&path, "this is not a frame file")? else { continue };
                 if value["plan_hash"] != plan.hash_text() {
                     let why = "it is a frame of another plan; choose another output folder, or `overwrite` it";
-                    return Err(refused(&path, why));
+                    return Err(error(&path, why));
                 }
-                if let Err(why) = metadata::check_whole(&value, frame, &folder.join(&camera.name)) {
+                if let Err(why) = metadata::check_seal(&value, frame, &folder.join(&camera.name)) {
                     let sentence =
                         format!("{}: {why}; frame {frame} of {} is rendered again", path.display(), camera.name);
                     observer.message(Message::Note(&sentence));
@@ -64,54 +64,54 @@ impl DoneFrames {
     }
 
     fn state(&self, camera: &CameraPlan, frame: u32) -> Option<SensorState> {
-        let facts = self.of(camera, frame)?;
-        match camera.body.sensor.as_ref().is_some_and(Sensor::remembers) {
+        let facts = self.frame_facts(camera, frame)?;
+        match camera.body.sensor.as_ref().is_some_and(Sensor::has_memory) {
             true => metadata::state_of(facts, self.first),
             false => Some(SensorState::default()),
         }
     }
 
     /// Registers the frames in a sequence that continues after them.
-    pub(crate) fn note_all(&self, plan: &Arc<Plan>, sequence: &mut Sequence) {
+    pub(crate) fn register_all(&self, plan: &Arc<Plan>, sequence: &mut FrameSequence) {
         let frames = sequence.frames().clone();
         for group in plan.by_light() {
             for frame in frames.clone().filter(|frame| self.states(&group, *frame).is_some()) {
-                let facts = |camera: &CameraPlan| self.of(camera, frame).cloned().map(metadata::without_state);
+                let facts = |camera: &CameraPlan| self.frame_facts(camera, frame).cloned().map(metadata::without_state);
                 group.iter().for_each(|camera| {
-                    facts(camera).into_iter().for_each(|facts| sequence.keep(plan, camera, frame, facts));
+                    facts(camera).into_iter().for_each(|facts| sequence.register(plan, camera, frame, facts));
                 });
             }
         }
     }
 
-    fn of(&self, camera: &CameraPlan, frame: u32) -> Option<&Value> {
+    fn frame_facts(&self, camera: &CameraPlan, frame: u32) -> Option<&Value> {
         self.facts.get(&(camera.name.clone(), frame))
     }
 }
 
 /// Refuses the results of a complete run of another plan: of cameras with constant light no other file states the plan.
 fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
-    let path = folder.join(Files::SIDECAR);
-    match written(&path, "this is not the side-car of a camera")? {
+    let path = folder.join(ResultFiles::SIDECAR);
+    match read_facts(&path, "this is not the side-car of a camera")? {
         Some(facts) if facts["plan_hash"] != plan.hash_text() => {
             let why = "it belongs to a run of another plan; choose another output folder, or `overwrite` it";
-            Err(refused(&path, why))
+            Err(error(&path, why))
         }
         _ => Ok(()),
     }
 }
 
 /// Reads a file of facts; `None` if there is none.
-fn written(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
+fn read_facts(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
     let bytes = match read_regular(path, &DESCRIPTION) {
         Ok(bytes) => bytes,
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(cause) => return Err(refused(path, &format!("it cannot be read: {cause}"))),
+        Err(cause) => return Err(error(path, &format!("it cannot be read: {cause}"))),
     };
     let value = serde_json::from_slice(&bytes);
-    value.map(Some).map_err(|_| refused(path, &format!("{otherwise}; remove it, or choose another output folder")))
+    value.map(Some).map_err(|_| error(path, &format!("{otherwise}; remove it, or choose another output folder")))
 }
 
-fn refused(path: &Path, why: &str) -> Error {
+fn error(path: &Path, why: &str) -> Error {
     Error::coded(ErrorCode::OtherRun, format!("{}: {why}", path.display()))
 }

@@ -2,7 +2,7 @@
 
 use super::metadata;
 use super::writer::{Encoder, ResultWriter};
-use crate::result_files::Files;
+use crate::result_files::ResultFiles;
 use etendue_core::Plane;
 use etendue_core::RawFormat;
 use etendue_core::observer::{Message, Observer};
@@ -12,7 +12,7 @@ use etendue_io::failure::Error;
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
 use etendue_io::{Provenance, png};
-use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
+use etendue_pipeline::photograph::{Frame, capture, capture_with_breakdown};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products};
 use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::rectified::RectifiedCamera;
@@ -24,7 +24,7 @@ use std::ops::Range;
 
 /// Selection of frame products.
 #[derive(Clone, Copy)]
-pub(crate) struct Wanted<'a> {
+pub(crate) struct FrameProducts<'a> {
     /// Products of each frame.
     pub(crate) products: &'a Products,
     /// The camera's name, for files that state it.
@@ -40,12 +40,12 @@ pub(crate) struct Wanted<'a> {
 }
 
 /// Encodes the file of a developed image.
-pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
+pub(crate) fn encode_picture(image: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
     let tone = encoding(&development.processing.tone);
     match development.format {
-        PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
-        PictureFormat::Png { bits: 8 } => png::encode_display(picture, &tone),
-        PictureFormat::Png { bits } => png::encode_display16(picture, bits, &tone),
+        PictureFormat::Jpeg { quality } => encode_jpeg(image, quality),
+        PictureFormat::Png { bits: 8 } => png::encode_display(image, &tone),
+        PictureFormat::Png { bits } => png::encode_display16(image, bits, &tone),
     }
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn frames<'a>(
     address: impl Fn(u32) -> FrameAddress + 'a,
     signal_breakdown: bool,
 ) -> impl Iterator<Item = (u32, Cow<'a, Frame>)> + 'a {
-    let step = if signal_breakdown { take_with_breakdown } else { take };
+    let step = if signal_breakdown { capture_with_breakdown } else { capture };
     frames.scan(before, move |state, number| {
         let (next, frame) = step(body, std::mem::take(state), light, address(number))?;
         *state = next;
@@ -70,29 +70,29 @@ pub(crate) fn frames<'a>(
 /// Writes the requested products of each frame; computes none if nothing is requested. Returns exposure and gain of each frame.
 pub(crate) fn write_frames<'a>(
     body: &CameraBody,
-    taken: impl Iterator<Item = (u32, Cow<'a, Frame>)>,
+    frames: impl Iterator<Item = (u32, Cow<'a, Frame>)>,
     address: impl Fn(u32) -> FrameAddress,
-    wanted: Wanted<'_>,
+    frame_products: FrameProducts<'_>,
     writer: &mut ResultWriter<'_>,
 ) -> Result<Vec<Value>, Error> {
-    let products = wanted.products;
+    let products = frame_products.products;
     let mut points = Vec::new();
     if !(products.raw || products.picture || products.signal_breakdown) {
         return Ok(points);
     }
-    for (number, mut frame) in taken {
+    for (number, mut frame) in frames {
         // Frees the parts of a large image that are not written, before files are made.
-        if let (None, Cow::Owned(Frame { picture: Some(picture), .. })) = (wanted.undistorted, &mut frame) {
-            picture.linear = Plane::new(0, 0);
+        if let (None, Cow::Owned(Frame { picture: Some(image), .. })) = (frame_products.undistorted, &mut frame) {
+            image.linear = Plane::new(0, 0);
         }
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
             let sentence = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
-            wanted.observer.message(Message::Warning(&sentence));
+            frame_products.observer.message(Message::Warning(&sentence));
         }
-        let file = products.raw.then(|| Files::raw(number, products.raw_format));
+        let file = products.raw.then(|| ResultFiles::raw(number, products.raw_format));
         points.push(metadata::raw_frame(number, file, &frame.raw));
-        write_frame(body, &frame, address(number), wanted, writer)?;
+        write_frame(body, &frame, address(number), frame_products, writer)?;
     }
     Ok(points)
 }
@@ -102,39 +102,39 @@ fn write_frame(
     body: &CameraBody,
     frame: &Frame,
     address: FrameAddress,
-    wanted: Wanted<'_>,
+    frame_products: FrameProducts<'_>,
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
-    let (products, number) = (wanted.products, address.frame);
-    let Frame { raw, signal_breakdown, picture } = frame;
+    let (products, number) = (frame_products.products, address.frame);
+    let Frame { raw, signal_breakdown, picture: image } = frame;
     let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
     if products.raw {
-        let name = Files::raw(number, products.raw_format);
+        let name = ResultFiles::raw(number, products.raw_format);
         let encode = || match products.raw_format {
-            RawFormat::Dng => dng(body, raw, wanted.camera),
+            RawFormat::Dng => dng(body, raw, frame_products.camera),
             format => encoded_raw(raw, &raw.plane, format),
         };
         files.push((name, Box::new(encode)));
     }
     if let Some(signal_breakdown) = signal_breakdown {
-        let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
+        let facts = Provenance { frame: number.into(), ..frame_products.facts.clone() };
         let encode = move || encode_breakdown(signal_breakdown, &facts);
-        files.push((Files::signal_breakdown(number), Box::new(encode)));
+        files.push((ResultFiles::signal_breakdown(number), Box::new(encode)));
     }
-    if let Some((picture, development)) = picture.as_ref().filter(|_| products.picture).zip(body.development.as_ref()) {
-        let name = Files::picture(number, development.format);
-        files.push((name.clone(), Box::new(|| encoded(&picture.display, development))));
-        if let Some(twin) = wanted.undistorted {
+    if let Some((image, development)) = image.as_ref().filter(|_| products.picture).zip(body.development.as_ref()) {
+        let name = ResultFiles::picture(number, development.format);
+        files.push((name.clone(), Box::new(|| encode_picture(&image.display, development))));
+        if let Some(rectified) = frame_products.undistorted {
             let encode = move || {
-                let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
-                encoded(&display, development)
+                let display = rectified.picture(body, &image.linear, address).expect("a picture was developed");
+                encode_picture(&display, development)
             };
-            files.push((Files::undistorted(&name), Box::new(encode)));
+            files.push((ResultFiles::undistorted(&name), Box::new(encode)));
         }
     }
-    match wanted.one_by_one {
+    match frame_products.one_by_one {
         true => files.into_iter().try_for_each(|(name, encode)| writer.write(&name, encode())),
-        false => writer.write_together(files),
+        false => writer.write_all(files),
     }
 }
 
@@ -150,15 +150,15 @@ pub(crate) fn encoded_raw(raw: &Raw, plane: &Plane<DigitalNumber>, format: RawFo
 fn encode_breakdown(signal_breakdown: &SignalBreakdown, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {
     let layers: Vec<_> = SignalComponent::ALL
         .iter()
-        .map(|cause| (cause.name().to_owned(), exr::Layer::Float(signal_breakdown.layer(*cause).samples())))
+        .map(|cause| (cause.name().to_owned(), exr::ExrLayer::Float(signal_breakdown.layer(*cause).samples())))
         .collect();
     let signal = signal_breakdown.layer(SignalComponent::Signal);
     exr::encode_layers(signal.width(), signal.height(), &layers, facts)
 }
 
 fn dng(body: &CameraBody, raw: &Raw, camera: &str) -> Result<Vec<u8>, EncodeError> {
-    let colour = body.sensor.as_ref().and_then(RawColour::of).expect("a compiled plan asks for DNG where it can be");
-    let area = raw.picture;
+    let colour = body.sensor.as_ref().and_then(RawColour::new).expect("a compiled plan asks for DNG where it can be");
+    let area = raw.image;
     let facts = DngFacts {
         camera: camera.to_owned(),
         software: format!("etendue {}", metadata::VERSION),

@@ -9,13 +9,13 @@ use serde_json::Value;
 pub(crate) const LEVELS: &str = "levels";
 
 /// Fraction of clipped pixels above which a frame causes a warning.
-const CLIPPED: f64 = 0.99;
+const MAX_CLIPPED_FRACTION: f64 = 0.99;
 /// Mean level above black below which a frame causes a warning, DN: rounding.
 const BLACK_DN: f64 = 0.5;
 
 /// Mean, and fractions at both ends of the range, of a frame.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Levels {
+pub(crate) struct FrameLevels {
     /// Mean, DN.
     mean_dn: f64,
     /// Fraction of pixels at or above the white level.
@@ -24,10 +24,10 @@ pub(crate) struct Levels {
     black_fraction: f64,
 }
 
-impl Levels {
+impl FrameLevels {
     /// Levels of the part of a frame that receives light.
     pub(crate) fn new(raw: &Raw) -> Self {
-        let area = raw.picture;
+        let area = raw.image;
         let rows = raw.plane.samples().chunks(raw.plane.width().max(1)).skip(area.y).take(area.height);
         let (mut sum, mut clipped, mut black) = (0_u64, 0_u64, 0_u64);
         for reading in rows.flat_map(|row| &row[area.x..area.x + area.width]) {
@@ -35,8 +35,8 @@ impl Levels {
             clipped += u64::from(f64::from(*reading) >= raw.white_level_dn);
             black += u64::from(f64::from(*reading) <= raw.black_level_dn);
         }
-        let share = |count: u64| count as f64 / (area.width * area.height).max(1) as f64;
-        Self { mean_dn: share(sum), clipped_fraction: share(clipped), black_fraction: share(black) }
+        let fraction = |count: u64| count as f64 / (area.width * area.height).max(1) as f64;
+        Self { mean_dn: fraction(sum), clipped_fraction: fraction(clipped), black_fraction: fraction(black) }
     }
 
     /// Mean over frames; `None` for no frames.
@@ -53,7 +53,7 @@ impl Levels {
 /// The facts of a frame that its levels require.
 #[derive(Deserialize)]
 struct FrameFacts {
-    levels: Levels,
+    levels: FrameLevels,
     black_level_dn: f64,
     white_level_dn: f64,
 }
@@ -62,8 +62,8 @@ struct FrameFacts {
 /// frames.
 pub(crate) fn report<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, observer: &dyn Observer) {
     let frame_facts: Vec<FrameFacts> = frames.filter_map(|facts| FrameFacts::deserialize(facts).ok()).collect();
-    let levels: Vec<Levels> = frame_facts.iter().map(|frame| frame.levels).collect();
-    let (Some(mean), Some(first)) = (Levels::mean(&levels), frame_facts.first()) else { return };
+    let levels: Vec<FrameLevels> = frame_facts.iter().map(|frame| frame.levels).collect();
+    let (Some(mean), Some(first)) = (FrameLevels::mean(&levels), frame_facts.first()) else { return };
     // Black and white are the same in all frames of a camera.
     let (black, white) = (first.black_level_dn, first.white_level_dn);
     let of = if frame_facts.len() > 1 { format!(" of {} frames", frame_facts.len()) } else { String::new() };
@@ -74,7 +74,7 @@ pub(crate) fn report<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, 
         100.0 * mean.clipped_fraction,
         100.0 * mean.black_fraction
     );
-    if mean.clipped_fraction >= CLIPPED {
+    if mean.clipped_fraction >= MAX_CLIPPED_FRACTION {
         observer.message(Message::Warning(&format!("{line}: shorten the exposure, or dim the scene")));
     } else if mean.mean_dn - black < BLACK_DN {
         observer.message(Message::Warning(&format!("{line}: no light is recorded")));
@@ -90,9 +90,9 @@ mod tests {
     use std::sync::Mutex;
 
     #[derive(Default)]
-    struct Kept(Mutex<Vec<String>>);
+    struct RecordedMessages(Mutex<Vec<String>>);
 
-    impl Observer for Kept {
+    impl Observer for RecordedMessages {
         fn message(&self, message: Message<'_>) {
             let text = match message {
                 Message::Note(text) => format!("note: {text}"),
@@ -107,13 +107,13 @@ mod tests {
             .iter()
             .map(|(mean_dn, clipped_fraction, black_fraction)| {
                 let levels =
-                    Levels { mean_dn: *mean_dn, clipped_fraction: *clipped_fraction, black_fraction: *black_fraction };
+                    FrameLevels { mean_dn: *mean_dn, clipped_fraction: *clipped_fraction, black_fraction: *black_fraction };
                 json!({ LEVELS: levels, "black_level_dn": 64.0, "white_level_dn": 4064.0 })
             })
             .collect();
-        let kept = Kept::default();
-        report("front", facts.iter(), &kept);
-        kept.0.into_inner().expect("one thread").join("\n")
+        let recorded = RecordedMessages::default();
+        report("front", facts.iter(), &recorded);
+        recorded.0.into_inner().expect("one thread").join("\n")
     }
 
     #[test]

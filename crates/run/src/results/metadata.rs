@@ -4,7 +4,7 @@ mod frame;
 
 use frame::pose_rows;
 pub(crate) use frame::{
-    add_time, check_whole, own_frame, raw_frame, sealed, state_of, time_facts, with_state, without_state,
+    add_time, check_seal, own_frame, raw_frame, with_seal, state_of, time_facts, with_state, without_state,
 };
 
 use etendue_io::Provenance;
@@ -57,7 +57,7 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Proven
         time_s: camera.timing.frame_start(frame).seconds(),
         geometry: THROUGH_LENS.to_owned(),
         camera_to_world: Some(pose_rows(&camera.path.at(middle_s(camera, frame)))),
-        further: further(settings).chain(passes_fact(camera)).chain(exposure_facts(camera, frame)).collect(),
+        further: further_facts(settings).chain(passes_fact(camera)).chain(exposure_facts(camera, frame)).collect(),
     }
 }
 
@@ -74,8 +74,8 @@ fn passes(camera: &CameraPlan) -> Option<Vec<f64>> {
     camera.passes.as_ref().map(|passes| passes.list().iter().map(|pass| pass.number()).collect())
 }
 
-fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
-    let even = [
+fn further_facts(settings: &Settings) -> impl Iterator<Item = (String, String)> {
+    let uniform_keys = [
         ("spp", settings.spp.to_string()),
         ("replicates", settings.replicates.to_string()),
         ("correlated_block_px", settings.blocks.len_px().to_string()),
@@ -83,7 +83,7 @@ fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
     let limited = settings
         .adaptive
         .map(|limit| [("noise_threshold", limit.threshold.to_string()), ("min_spp", limit.min_spp.to_string())]);
-    even.into_iter().chain(limited.into_iter().flatten()).map(|(name, value)| (name.to_owned(), value))
+    uniform_keys.into_iter().chain(limited.into_iter().flatten()).map(|(name, value)| (name.to_owned(), value))
 }
 
 /// The passes of the samples, as in the key `passes`.
@@ -119,22 +119,22 @@ pub(crate) fn radiance_provenance(facts: Provenance, camera: &CameraPlan) -> Pro
 }
 
 /// Facts of a rectified camera's results.
-pub(crate) fn undistorted_provenance(mut facts: Provenance, twin: &RectifiedCamera) -> Provenance {
+pub(crate) fn undistorted_provenance(mut facts: Provenance, rectified: &RectifiedCamera) -> Provenance {
     UNDISTORTED.clone_into(&mut facts.geometry);
-    let matrix = twin.matrix;
+    let matrix = rectified.matrix;
     let numbers = [("fx_px", matrix.fx), ("fy_px", matrix.fy), ("cx_px", matrix.cx), ("cy_px", matrix.cy)];
     facts.further.extend(numbers.map(|(name, number)| (name.to_owned(), number.to_string())));
     facts
 }
 
 /// Side-car entry of a rectified camera.
-pub(crate) fn undistorted(twin: &RectifiedCamera) -> Value {
+pub(crate) fn undistorted(rectified: &RectifiedCamera) -> Value {
     json!({
-        "camera_matrix": twin.matrix.rows(),
+        "camera_matrix": rectified.matrix.rows(),
         "camera_matrix_convention": RASTER,
-        "camera_matrix_opencv": twin.matrix.to_opencv().rows(),
-        "width_px": twin.body().raster.width(),
-        "height_px": twin.body().raster.height(),
+        "camera_matrix_opencv": rectified.matrix.to_opencv().rows(),
+        "width_px": rectified.body().raster.width(),
+        "height_px": rectified.body().raster.height(),
         "ground_truth": "traced along the twin's own rays from the centre of the entrance pupil",
         "picture": "the camera's, resampled linearly in linear light; black outside the camera's field of view",
     })

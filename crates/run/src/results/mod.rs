@@ -14,11 +14,11 @@ pub(crate) mod writer;
 pub(crate) use camera::SensorHistory;
 pub use camera::{CameraResults, display_jpeg};
 pub(crate) use done_frames::DoneFrames;
-pub(crate) use sequence::Sequence;
+pub(crate) use sequence::FrameSequence;
 
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 use std::path::{Path, PathBuf};
 
 /// The results of a job's cameras.
@@ -49,17 +49,17 @@ impl Results {
     ///
     /// # Errors
     /// The folder cannot be written, or files exist that must not be replaced.
-    pub fn save(&self, folder: &Path, existing: Existing, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
+    pub fn save(&self, folder: &Path, existing: ExistingFiles, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         for camera in &self.cameras {
-            let names = Sequence::new(&camera.plan, camera.frame_numbers()).file_names(&camera.plan);
+            let names = FrameSequence::new(&camera.plan, camera.frame_numbers()).file_names(&camera.plan);
             let own = names.iter().filter(|name| name.starts_with(&format!("{}/", camera.name())));
             folder.claim(own.map(String::as_str)).map_err(Error::input)?;
         }
         if let Some(first) = self.cameras.first() {
             let frames = self.cameras.iter().map(CameraResults::frame_numbers);
             let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();
-            let mut sequence = Sequence::new(&first.plan, frames);
+            let mut sequence = FrameSequence::new(&first.plan, frames);
             self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
             sequence.finish(&mut folder, observer)?;
         }

@@ -3,12 +3,12 @@
 use super::camera::CameraResults;
 use super::writer::ResultWriter;
 use super::{levels, metadata};
-use crate::result_files::Files;
+use crate::result_files::ResultFiles;
 use crate::rig::{self, RigFiles};
 use etendue_core::observer::Observer;
 use etendue_io::exr::{ExrImage, rays_image};
 use etendue_io::failure::Error;
-use etendue_io::picture::read_picture;
+use etendue_io::picture::read_image;
 use etendue_io::y4m::{VideoFacts, write_frame, write_head};
 use etendue_io::{FileDigest, OutputFolder, Provenance, read_regular};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 /// Frames of a run, and the files written for each camera.
 #[derive(Debug)]
-pub(crate) struct Sequence {
+pub(crate) struct FrameSequence {
     frames: Range<u32>,
     /// Files common to all cameras.
     rig: RigFiles,
@@ -52,10 +52,10 @@ impl CameraFrames {
     }
 }
 
-impl Sequence {
+impl FrameSequence {
     /// Returns the frames of a plan, with nothing written yet.
     pub(crate) fn new(plan: &Plan, frames: Range<u32>) -> Self {
-        Self { rig: rig::asked_files(plan, &frames), frames, cameras: Vec::new() }
+        Self { rig: rig::requested_files(plan, &frames), frames, cameras: Vec::new() }
     }
 
     /// The frames of the run.
@@ -79,7 +79,7 @@ impl Sequence {
     ) -> Result<(), Error> {
         let camera = results.camera();
         let numbers = results.frame_numbers();
-        let known = self.of(&results.plan, camera, &numbers);
+        let known = self.camera_frames(&results.plan, camera, &numbers);
         if !known.has_rays {
             known.has_rays = true;
             write_rays(camera, &metadata::provenance(&results.plan, camera, known.frames.start), folder)?;
@@ -88,32 +88,32 @@ impl Sequence {
         if results.has_own_light() {
             let facts = metadata::own_frame(&results.plan, camera, numbers.start, frames.pop());
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
-            let kept = match results.state_after() {
+            let stored_facts = match results.state_after() {
                 Some(after) => metadata::with_state(facts.clone(), &after.state, after.since),
                 None => facts.clone(),
             };
             let files = files_of_frame(camera, numbers.start, writer.folder)?;
-            writer.json(&Files::frame(numbers.start), &metadata::sealed(kept, &files))?;
+            writer.json(&ResultFiles::frame(numbers.start), &metadata::with_seal(stored_facts, &files))?;
             frames = vec![facts];
         }
-        let known = self.of(&results.plan, camera, &numbers);
+        let known = self.camera_frames(&results.plan, camera, &numbers);
         known.facts.extend(numbers.zip(frames));
         Ok(())
     }
 
     /// Registers a frame written by an earlier run.
-    pub(crate) fn keep(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frame: u32, facts: Value) {
-        self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
+    pub(crate) fn register(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frame: u32, facts: Value) {
+        self.camera_frames(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
     /// Writes the files over all frames and cameras, and the side-cars; reports each camera's levels.
     pub(crate) fn finish(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
-            let files = Files::of_camera(camera, &known.frames);
+            let files = ResultFiles::for_camera(camera, &known.frames);
             let mut facts = metadata::sidecar(&known.plan, camera, known.frames.start, &files);
-            let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
-            facts["undistorted"] = twin.as_ref().map_or(Value::Null, metadata::undistorted);
+            let rectified = camera.products.undistorted.and_then(|scale| RectifiedCamera::new(&camera.body, scale).ok());
+            facts["undistorted"] = rectified.as_ref().map_or(Value::Null, metadata::undistorted);
             facts["frames"] = known.facts.values().cloned().collect();
             if !known.has_rays {
                 let facts = metadata::provenance(&known.plan, camera, known.frames.start);
@@ -126,13 +126,13 @@ impl Sequence {
                 write_video(camera, &known.frames, folder)?;
             }
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder: &mut *folder };
-            writer.json(Files::SIDECAR, &facts)?;
+            writer.json(ResultFiles::SIDECAR, &facts)?;
             levels::report(&camera.name, known.facts.values(), observer);
         }
         rig::write(&self.rig, folder, observer)
     }
 
-    fn of(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frames: &Range<u32>) -> &mut CameraFrames {
+    fn camera_frames(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frames: &Range<u32>) -> &mut CameraFrames {
         let place = self.cameras.iter().position(|known| known.camera().name == camera.name);
         let place = place.unwrap_or_else(|| {
             let index = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
@@ -167,11 +167,11 @@ fn write_rays(camera: &CameraPlan, facts: &Provenance, folder: &mut OutputFolder
         return Ok(());
     }
     let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
-    writer.exr(Files::RAYS, image_of_rays(&ray_table(&camera.body), facts))?;
-    let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
-    let Some(twin) = twin else { return Ok(()) };
-    let facts = metadata::undistorted_provenance(facts.clone(), &twin);
-    writer.exr(&Files::undistorted(Files::RAYS), image_of_rays(&ray_table(twin.body()), &facts))
+    writer.exr(ResultFiles::RAYS, image_of_rays(&ray_table(&camera.body), facts))?;
+    let rectified = camera.products.undistorted.and_then(|scale| RectifiedCamera::new(&camera.body, scale).ok());
+    let Some(rectified) = rectified else { return Ok(()) };
+    let facts = metadata::undistorted_provenance(facts.clone(), &rectified);
+    writer.exr(&ResultFiles::undistorted(ResultFiles::RAYS), image_of_rays(&ray_table(rectified.body()), &facts))
 }
 
 fn image_of_rays<'a>(table: &'a RayTable, facts: &Provenance) -> ExrImage<'a> {
@@ -187,19 +187,19 @@ const OF_FRAME: [&str; 3] = ["frame", "time_s", "time"];
 /// Writes `tracks.json`.
 fn write_tracks(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
     let files: Vec<String> = match camera.time {
-        TimeDependence::None => vec![Files::BOXES.to_owned()],
-        _ => frames.clone().map(|frame| Files::numbered(Files::BOXES, frame)).collect(),
+        TimeDependence::None => vec![ResultFiles::BOXES.to_owned()],
+        _ => frames.clone().map(|frame| ResultFiles::numbered(ResultFiles::BOXES, frame)).collect(),
     };
-    let mut tracks = Tracks::default();
+    let mut tracks = ObjectTracks::default();
     for file in files {
         tracks.add(read_boxes(&format!("{}/{file}", camera.name), folder)?);
     }
     let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
-    writer.json(Files::TRACKS, &tracks.into_json(camera))
+    writer.json(ResultFiles::TRACKS, &tracks.into_json(camera))
 }
 
 fn read_boxes(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
-    let path = folder.readable(name).map_err(Error::run)?;
+    let path = folder.readable_path(name).map_err(Error::run)?;
     let unread = |why: String| Error::run(format!("{}: {why}", path.display()));
     let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
     serde_json::from_slice(&bytes).map_err(|_| unread("this is not a file of a frame's bounding boxes".to_owned()))
@@ -207,14 +207,14 @@ fn read_boxes(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
 
 /// Tracks read so far.
 #[derive(Default)]
-struct Tracks {
+struct ObjectTracks {
     conventions: Value,
     frames: Vec<Value>,
     /// By identity: the object, and its frames.
     objects: BTreeMap<u64, (Value, Vec<Value>)>,
 }
 
-impl Tracks {
+impl ObjectTracks {
     /// Adds a frame's boxes.
     fn add(&mut self, mut boxes: Value) {
         let moment: Map<String, Value> =
@@ -225,9 +225,9 @@ impl Tracks {
             let (Some(id), Some(keys)) = (object["id"].as_u64(), object.as_object_mut()) else { continue };
             let of_object = OF_OBJECT.map(|key| (key.to_owned(), keys.remove(key).unwrap_or(Value::Null)));
             keys.extend(moment.clone());
-            let (_, seen) =
+            let (_, frames) =
                 self.objects.entry(id).or_insert_with(|| (Value::Object(of_object.into_iter().collect()), Vec::new()));
-            seen.push(object);
+            frames.push(object);
         }
         self.frames.push(Value::Object(moment));
     }
@@ -237,8 +237,8 @@ impl Tracks {
         self.conventions["tracks"] = json!(
             "an object has an entry in \"frames\" for each frame in which it covers pixels, or would without occlusion"
         );
-        let track = |(mut object, seen): (Value, Vec<Value>)| {
-            object["frames"] = Value::Array(seen);
+        let track = |(mut object, frames): (Value, Vec<Value>)| {
+            object["frames"] = Value::Array(frames);
             object
         };
         json!({
@@ -255,14 +255,14 @@ impl Tracks {
 /// Writes the video, with one image in memory at a time.
 fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
     let format = camera.body.picture_format();
-    let file = |frame| folder.readable(&format!("{}/{}", camera.name, Files::picture(frame, format)));
+    let file = |frame| folder.readable_path(&format!("{}/{}", camera.name, ResultFiles::picture(frame, format)));
     let files: Vec<PathBuf> = frames.clone().map(file).collect::<Result<_, _>>().map_err(Error::run)?;
     let period_s = camera.timing.period_s.expect("a compiled plan's video has a rate");
     let pitch = camera.body.raster.pitch_mm();
-    let name = format!("{}/{}", camera.name, Files::VIDEO);
+    let name = format!("{}/{}", camera.name, ResultFiles::VIDEO);
     let written = folder.write_with(&name, |out| {
         for (i, file) in files.iter().enumerate() {
-            let ImageAsset { width, height, pixels, .. } = read_picture(file).map_err(io::Error::other)?;
+            let ImageAsset { width, height, pixels, .. } = read_image(file).map_err(io::Error::other)?;
             let ImagePixels::Rgb8(pixels) = pixels else {
                 return Err(io::Error::other(format!("{}: expected an 8-bit colour image", file.display())));
             };
@@ -281,7 +281,7 @@ fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFold
 /// Names, relative to the output folder, of the files of all cameras of a plan.
 fn camera_file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
-        let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
+        let names = ResultFiles::for_camera(camera, frames).into_keys().chain([ResultFiles::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
     plan.cameras.iter().flat_map(of_camera).collect()

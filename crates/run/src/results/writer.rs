@@ -20,7 +20,7 @@ pub(crate) struct ResultWriter<'a> {
 
 impl ResultWriter<'_> {
     /// Fails early if a result already exists.
-    pub(crate) fn claim(&self, name: &str) -> Result<(), Error> {
+    pub(crate) fn check_absent(&self, name: &str) -> Result<(), Error> {
         self.folder.claim([format!("{}/{name}", self.prefix).as_str()]).map_err(Error::input)
     }
 
@@ -37,7 +37,7 @@ impl ResultWriter<'_> {
     }
 
     /// Writes files in order, encoded in parallel on the caller's thread pool.
-    pub(crate) fn write_together(&mut self, files: Vec<(String, Encoder<'_>)>) -> Result<(), Error> {
+    pub(crate) fn write_all(&mut self, files: Vec<(String, Encoder<'_>)>) -> Result<(), Error> {
         let encoded: Vec<_> = files.into_par_iter().map(|(name, encode)| (name, encode())).collect();
         encoded.into_iter().try_for_each(|(name, bytes)| self.write(&name, bytes))
     }
@@ -58,13 +58,13 @@ impl ResultWriter<'_> {
     ) -> Result<(), Error> {
         let Some(cube) = &light.irradiance else { return Ok(()) };
         let variance = light.irradiance_variance.as_ref().filter(|_| variance);
-        self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, variance), facts))
+        self.exr(name, spectral_image::<Irradiance>(SpectralBands::from_stored(cube, variance), facts))
     }
 
     /// Writes the ghosts as part of the irradiance.
     pub(crate) fn ghosts(&mut self, name: &str, light: &Light, facts: &Provenance) -> Result<(), Error> {
         let Some(cube) = &light.ghosts else { return Ok(()) };
-        self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, None), facts))
+        self.exr(name, spectral_image::<Irradiance>(SpectralBands::from_stored(cube, None), facts))
     }
 }
 
@@ -73,9 +73,9 @@ pub(crate) fn write_exr(folder: &mut OutputFolder, name: &str, image: ExrImage<'
     let mut failure = None;
     let written = folder.write_with(name, |file| {
         image.write_to(file).map_err(|cause| {
-            let told = std::io::Error::other(cause.to_string());
+            let io_error = std::io::Error::other(cause.to_string());
             failure = Some(cause);
-            told
+            io_error
         })
     });
     match failure {

@@ -7,7 +7,7 @@ use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::Shot;
+use etendue_pipeline::render::FrameCapture;
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_sensor::SensorState;
 use std::ops::Range;
@@ -27,7 +27,7 @@ pub(super) enum FilmStage {
 #[derive(Debug)]
 pub(super) struct RunFilm {
     /// Frame and capture.
-    pub(super) shot: Shot,
+    pub(super) frame_capture: FrameCapture,
     pub(super) stage: FilmStage,
     /// Number of passes in the film, including that of an unfinished round.
     pub(super) passes: usize,
@@ -38,8 +38,8 @@ pub(super) struct RunFilm {
 }
 
 impl RunFilm {
-    fn new(shot: Shot) -> Self {
-        Self { shot, stage: FilmStage::New, passes: 0, light: None, with_round: None }
+    fn new(frame_capture: FrameCapture) -> Self {
+        Self { frame_capture: shot: frame_capture, stage: FilmStage::New, passes: 0, light: None, with_round: None }
     }
 
     /// Continues from stored light.
@@ -93,13 +93,13 @@ pub(super) struct RunFilms {
 impl RunFilms {
     /// Returns the films of all cameras over frames, by groups of cameras of equal light. Groups of constant light are last: their files are published at the
     /// end of the run, not with the frames of others.
-    pub(super) fn of_frames(plan: &Plan, frames: &Range<u32>) -> Self {
+    pub(super) fn for_frames(plan: &Plan, frames: &Range<u32>) -> Self {
         let mut moving = Vec::new();
         let mut steady = Vec::new();
         for (group, cameras) in plan.by_light().into_iter().enumerate() {
             let camera = cameras[0];
             if camera.time == TimeDependence::None {
-                steady.push(FrameFilms::new(group, frames.clone(), vec![Shot::default()]));
+                steady.push(FrameFilms::new(group, frames.clone(), vec![FrameCapture::default()]));
                 continue;
             }
             moving.extend(frames.clone().map(|k| FrameFilms::new(group, k..k + 1, shots(camera, k))));
@@ -109,11 +109,11 @@ impl RunFilms {
     }
 
     /// Returns those films of cameras over frames that are `wanted`, each in its own entry, in the order of [`shots_of`].
-    pub(super) fn one_by_one(plan: &Plan, frames: &Range<u32>, wanted: impl Fn(&CameraPlan, Shot) -> bool) -> Self {
+    pub(super) fn one_film_each(plan: &Plan, frames: &Range<u32>, is_wanted: impl Fn(&CameraPlan, FrameCapture) -> bool) -> Self {
         let mut entries = Vec::new();
         for (group, cameras) in plan.by_light().into_iter().enumerate() {
-            let shots = shots_of(cameras[0], frames).into_iter().filter(|shot| wanted(cameras[0], *shot));
-            entries.extend(shots.map(|shot| FrameFilms::new(group, shot.frame..shot.frame + 1, vec![shot])));
+            let shots = shots_of(cameras[0], frames).into_iter().filter(|frame_capture| is_wanted(cameras[0], *frame_capture));
+            entries.extend(shots.map(|frame_capture| FrameFilms::new(group, frame_capture.frame..frame_capture.frame + 1, vec![frame_capture])));
         }
         Self { entries }
     }
@@ -140,24 +140,24 @@ impl RunFilms {
 }
 
 impl FrameFilms {
-    fn new(group: usize, frames: Range<u32>, shots: Vec<Shot>) -> Self {
+    fn new(group: usize, frames: Range<u32>, shots: Vec<FrameCapture>) -> Self {
         Self { group, frames, films: shots.into_iter().map(RunFilm::new).collect(), done: None }
     }
 }
 
 /// Captures of a frame that have their own film.
-fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
+fn shots(camera: &CameraPlan, frame: u32) -> Vec<FrameCapture> {
     match camera.time {
-        TimeDependence::None => vec![Shot::default()],
+        TimeDependence::None => vec![FrameCapture::default()],
         TimeDependence::Lights | TimeDependence::Motion => {
             let captures = camera.body.exposure.distinct_captures();
-            captures.into_iter().map(|capture| Shot { frame, capture: capture as u32 }).collect()
+            captures.into_iter().map(|capture| FrameCapture { frame, capture: capture as u32 }).collect()
         }
     }
 }
 
 /// All captures of some frames.
-pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<Shot> {
+pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<FrameCapture> {
     match camera.time {
         TimeDependence::None => shots(camera, 0),
         TimeDependence::Lights | TimeDependence::Motion => frames.clone().flat_map(|k| shots(camera, k)).collect(),

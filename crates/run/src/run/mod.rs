@@ -30,8 +30,8 @@ use etendue_core::observer::{FramePlace, Observer};
 use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
-use etendue_pipeline::render::{FilmKeeping, Request, Shot};
+use etendue_pipeline::plan::{CameraPlan, NumberedPass, TimeDependence};
+use etendue_pipeline::render::{FilmStorage, LightRequest, FrameCapture};
 use etendue_pipeline::tile::Shard;
 use etendue_sensor::SensorState;
 use films::{FilmPlace, FilmStage, RunFilms, check_finite, check_frames, check_textures, tile_count};
@@ -41,7 +41,7 @@ use store::{RunStore, StoredLight};
 use timed::TimedPasses;
 
 /// An action of a run.
-enum Step {
+enum RunStep {
     /// Restores the stored light of a film.
     Open(FilmPlace),
     /// Measures the sample rate, in a run of a given time.
@@ -49,7 +49,7 @@ enum Step {
     /// Ends a round, one pass of all films, and starts the next, if any.
     Round,
     /// Renders a pass of a film.
-    Pass(FilmPlace, PassAt),
+    Pass(FilmPlace, NumberedPass),
     /// Completes a film.
     Complete(FilmPlace),
     /// Finds the frames whose results an earlier run has written.
@@ -103,27 +103,27 @@ impl<'a> Run<'a> {
     ) -> Result<Self, Error> {
         check_frames(plan, &options.frames)?;
         let timed = time_s.map(|time_s| TimedPasses::new(plan, time_s, observer)).transpose()?;
-        let films = RunFilms::of_frames(plan, &options.frames);
-        Ok(Self { timed, ..Self::of_films(plan, options, films, observer) })
+        let films = RunFilms::for_frames(plan, &options.frames);
+        Ok(Self { timed, ..Self::for_films(plan, options, films, observer) })
     }
 
     /// Starts a run of a shard: its films that are `wanted`.
     ///
     /// # Errors
     /// Frames have no times.
-    pub(crate) fn of_shard(
+    pub(crate) fn for_shard(
         plan: &Arc<Plan>,
         options: &RenderOptions,
         shard: Shard,
-        wanted: impl Fn(&CameraPlan, Shot) -> bool,
+        is_wanted: impl Fn(&CameraPlan, FrameCapture) -> bool,
         observer: &'a dyn Observer,
     ) -> Result<Self, Error> {
         check_frames(plan, &options.frames)?;
-        let films = RunFilms::one_by_one(plan, &options.frames, wanted);
-        Ok(Self { shard, ..Self::of_films(plan, options, films, observer) })
+        let films = RunFilms::one_film_each(plan, &options.frames, is_wanted);
+        Ok(Self { shard, ..Self::for_films(plan, options, films, observer) })
     }
 
-    fn of_films(plan: &Arc<Plan>, options: &RenderOptions, films: RunFilms, observer: &'a dyn Observer) -> Self {
+    fn for_films(plan: &Arc<Plan>, options: &RenderOptions, films: RunFilms, observer: &'a dyn Observer) -> Self {
         let place = |camera: &CameraPlan| plan.cameras.iter().position(|c| c.name == camera.name);
         let places = |group: Vec<&CameraPlan>| group.into_iter().filter_map(place).collect::<Vec<_>>();
         let groups: Vec<_> = plan.by_light().into_iter().map(places).collect();
@@ -152,8 +152,8 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// The observer cancels, light is not finite, or the store fails.
-    pub(crate) fn next_results(&mut self, store: &mut dyn RunStore) -> Result<Option<CameraResults>, Error> {
-        match self.go_on(store)? {
+    pub(crate) fn next_camera_results(&mut self, store: &mut dyn RunStore) -> Result<Option<CameraResults>, Error> {
+        match self.execute_until_delivery(store)? {
             true => self.results().map(Some),
             false => Ok(None),
         }
@@ -164,7 +164,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// The observer cancels, or light is not finite.
     pub(crate) fn next_film(&mut self, store: &mut dyn RunStore) -> Result<Option<(FilmOrigin<'_>, Film)>, Error> {
-        if !self.go_on(store)? {
+        if !self.execute_until_delivery(store)? {
             return Ok(None);
         }
         let place = FilmPlace { entry: self.entry, film: 0 };
@@ -174,60 +174,60 @@ impl<'a> Run<'a> {
     }
 
     /// Executes steps until something can be delivered; returns false at the end.
-    fn go_on(&mut self, store: &mut dyn RunStore) -> Result<bool, Error> {
+    fn execute_until_delivery(&mut self, store: &mut dyn RunStore) -> Result<bool, Error> {
         loop {
             match self.next() {
-                Step::Open(place) => self.open(place, store)?,
-                Step::Pilot => self.pilot()?,
-                Step::Round => self.round(store)?,
-                Step::Pass(place, at) => self.pass(place, at, store)?,
-                Step::Complete(place) => self.complete(place),
-                Step::FindDone => self.find_done(store)?,
-                Step::Skip => self.skip(),
-                Step::Deliver => return Ok(true),
-                Step::End => return Ok(false),
+                RunStep::Open(place) => self.open(place, store)?,
+                RunStep::Pilot => self.pilot()?,
+                RunStep::Round => self.round(store)?,
+                RunStep::Pass(place, at) => self.pass(place, at, store)?,
+                RunStep::Complete(place) => self.complete(place),
+                RunStep::FindDone => self.find_complete(store)?,
+                RunStep::Skip => self.skip(),
+                RunStep::Deliver => return Ok(true),
+                RunStep::End => return Ok(false),
             }
         }
     }
 
     /// Returns the next step.
-    fn next(&self) -> Step {
+    fn next(&self) -> RunStep {
         if let Some(timed) = self.timed.as_ref().filter(|timed| !timed.is_over) {
             return self.next_timed(timed);
         }
         if !self.knows_done {
-            return Step::FindDone;
+            return RunStep::FindDone;
         }
-        let Some(entry) = self.films.entries.get(self.entry) else { return Step::End };
+        let Some(entry) = self.films.entries.get(self.entry) else { return RunStep::End };
         if entry.done.is_some() {
-            return Step::Skip;
+            return RunStep::Skip;
         }
-        let Some(film) = entry.first_incomplete() else { return Step::Deliver };
+        let Some(film) = entry.first_incomplete() else { return RunStep::Deliver };
         let place = FilmPlace { entry: self.entry, film };
         let film = self.films.at(place);
         match film.stage {
-            FilmStage::New => Step::Open(place),
+            FilmStage::New => RunStep::Open(place),
             FilmStage::Open if film.passes < self.first_camera(place).pass_count() => {
-                Step::Pass(place, self.first_camera(place).pass(film.passes))
+                RunStep::Pass(place, self.first_camera(place).pass(film.passes))
             }
-            FilmStage::Open | FilmStage::Complete => Step::Complete(place),
+            FilmStage::Open | FilmStage::Complete => RunStep::Complete(place),
         }
     }
 
     /// Returns the next step before the time is up.
-    fn next_timed(&self, timed: &TimedPasses<'_>) -> Step {
+    fn next_timed(&self, timed: &TimedPasses<'_>) -> RunStep {
         let places = self.films.by_light();
         if let Some(new) = places.iter().find(|place| self.films.at(**place).stage == FilmStage::New) {
-            return Step::Open(*new);
+            return RunStep::Open(*new);
         }
         if !timed.has_rate() {
-            return Step::Pilot;
+            return RunStep::Pilot;
         }
         // Films that were behind when their run ended receive their missing passes.
-        let wanted = timed.wanted();
-        match places.into_iter().find(|place| self.films.at(*place).passes < wanted.list().len()) {
-            Some(behind) => Step::Pass(behind, wanted.at(self.films.at(behind).passes)),
-            None => Step::Round,
+        let pass_targets = timed.requested_passes();
+        match places.into_iter().find(|place| self.films.at(*place).passes < pass_targets.list().len()) {
+            Some(behind) => RunStep::Pass(behind, pass_targets.at(self.films.at(behind).passes)),
+            None => RunStep::Round,
         }
     }
 
@@ -252,9 +252,9 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn pass(&mut self, place: FilmPlace, at: PassAt, store: &mut dyn RunStore) -> Result<(), Error> {
-        let joined = self.watched(place).render(at, self.films.at(place).light.as_ref())?;
-        let Some(joined) = joined else {
+    fn pass(&mut self, place: FilmPlace, at: NumberedPass, store: &mut dyn RunStore) -> Result<(), Error> {
+        let merged_film = self.watched_pass(place).render(at, self.films.at(place).light.as_ref())?;
+        let Some(merged_film) = merged_film else {
             self.give_up_round();
             return Ok(());
         };
@@ -262,9 +262,9 @@ impl<'a> Run<'a> {
         let film = self.films.at_mut(place);
         film.passes += 1;
         if is_in_round {
-            film.with_round = Some(joined);
+            film.with_round = Some(merged_film);
         } else {
-            film.light = Some(joined);
+            film.light = Some(merged_film);
         }
         if self.timed.is_some() {
             return Ok(());
@@ -276,13 +276,13 @@ impl<'a> Run<'a> {
     fn complete(&mut self, place: FilmPlace) {
         let film = self.films.at_mut(place);
         film.stage = FilmStage::Complete;
-        let shot = film.shot;
+        let frame_capture = film.frame_capture;
         if let Some(light) = &self.films.at(place).light {
-            report_noise(self.first_camera(place), shot, light, self.observer);
+            report_noise(self.first_camera(place), frame_capture, light, self.observer);
         }
     }
 
-    fn find_done(&mut self, store: &mut dyn RunStore) -> Result<(), Error> {
+    fn find_complete(&mut self, store: &mut dyn RunStore) -> Result<(), Error> {
         let done = store.done_frames(&self.plan)?;
         self.knows_done = true;
         for entry in &mut self.films.entries {
@@ -318,7 +318,7 @@ impl<'a> Run<'a> {
         let before = SensorHistory { state, since: self.options.frames.start };
         let options = RenderOptions { frames: entry.frames.clone(), ..self.options.clone() };
         let camera = &self.plan.cameras[group[self.camera]];
-        let results = CameraResults::of_films(&self.plan, camera, light, before, &options)?;
+        let results = CameraResults::from_films(&self.plan, camera, light, before, &options)?;
         check_textures(&self.plan)?;
         let after = results.state_after().map(|after| after.state.clone());
         self.states_after.push(after.unwrap_or_default());
@@ -345,14 +345,14 @@ impl<'a> Run<'a> {
     }
 
     fn origin(&self, place: FilmPlace) -> FilmOrigin<'_> {
-        let shot = self.films.at(place).shot;
-        FilmOrigin { plan: &self.plan, camera: self.first_camera(place), shot, shard: self.shard }
+        let frame_capture = self.films.at(place).frame_capture;
+        FilmOrigin { plan: &self.plan, camera: self.first_camera(place), frame_capture: shot: frame_capture, shard: self.shard }
     }
 
     /// A pass of a film, with its tile count within the run or the round.
-    fn watched(&self, place: FilmPlace) -> WatchedPass<'_> {
-        let (camera, shot) = (self.first_camera(place), self.films.at(place).shot);
-        let request = Request { shot, simd: self.options.simd, shard: self.shard, keeping: FilmKeeping::Planned };
+    fn watched_pass(&self, place: FilmPlace) -> WatchedPass<'_> {
+        let (camera, frame_capture) = (self.first_camera(place), self.films.at(place).frame_capture);
+        let request = LightRequest { frame_capture: shot: frame_capture, simd: self.options.simd, shard: self.shard, keeping: FilmStorage::Planned };
         let (plan, observer) = (&*self.plan, self.observer);
         if let Some(timed) = &self.timed {
             let places = self.films.by_light();
@@ -367,8 +367,8 @@ impl<'a> Run<'a> {
         };
         let frames = &self.options.frames;
         let frame = (camera.time != TimeDependence::None).then(|| FramePlace {
-            number: shot.frame,
-            place: shot.frame - frames.start + 1,
+            number: frame_capture.frame,
+            place: frame_capture.frame - frames.start + 1,
             count: frames.len() as u32,
         });
         let count = TileCount::OfRun { before: self.done_tiles, total: self.total_tiles };

@@ -18,9 +18,9 @@ impl Run<'_> {
     /// Renders a subset of the pixels of all films; the light is discarded.
     pub(super) fn pilot(&mut self) -> Result<(), Error> {
         let Some(timed) = &self.timed else { return Ok(()) };
-        let (pilot, begin) = (timed.pilot(&self.plan), timed.watch.moment());
+        let (pilot, begin) = (timed.pilot(&self.plan), timed.watch.time_point());
         for place in self.films.by_light() {
-            WatchedPass { is_shown: false, ..self.watched(place) }.render(pilot, None)?;
+            WatchedPass { is_shown: false, ..self.watched_pass(place) }.render(pilot, None)?;
         }
         let Some(timed) = &mut self.timed else { return Ok(()) };
         if let Some(plan) = timed.end_pilot(&self.plan, pilot, begin) {
@@ -38,7 +38,7 @@ impl Run<'_> {
             self.store_round(store)?;
             if let Some(timed) = &mut self.timed {
                 // Includes the time of storage after the next round.
-                timed.add_beside(timed.watch.elapsed_s() - from_s);
+                timed.add_overhead(timed.watch.elapsed_s() - from_s);
             }
         }
         match self.timed.as_mut().is_some_and(|timed| timed.begin_round(&self.plan)) {
@@ -62,7 +62,7 @@ impl Run<'_> {
     pub(super) fn give_up_round(&mut self) {
         let Some(timed) = &mut self.timed else { return };
         timed.give_up_round();
-        let passes = timed.done().list().len();
+        let passes = timed.completed_passes().list().len();
         self.films.all_mut().for_each(|film| (film.with_round, film.passes) = (None, passes));
         self.end_time();
     }
@@ -92,8 +92,8 @@ impl Run<'_> {
             let film = self.films.at(*place);
             let camera = &plan.cameras[self.groups[self.films.entries[place.entry].group][0]];
             let replicates = camera.settings.replicates;
-            let stored = StoredPasses { passes: timed.done().clone(), replicates, elapsed_s };
-            let origin = FilmOrigin { plan: &timed.compiled, camera, shot: film.shot, shard: self.shard };
+            let stored = StoredPasses { passes: timed.completed_passes().clone(), replicates, elapsed_s };
+            let origin = FilmOrigin { plan: &timed.compiled, camera, frame_capture: film.frame_capture, shard: self.shard };
             if let Some(light) = &film.light {
                 store.store(&origin, light, &stored)?;
             }
@@ -119,7 +119,7 @@ impl Run<'_> {
         let light: Vec<Film> = entry.films.iter().filter_map(|film| film.light.clone()).collect();
         let mut results = self.groups[entry.group].iter().zip(states).map(|(camera, state)| {
             let before = SensorHistory { state: state.clone(), since };
-            CameraResults::of_films(plan, &plan.cameras[*camera], light.clone(), before, &options)
+            CameraResults::from_films(plan, &plan.cameras[*camera], light.clone(), before, &options)
         });
         store.refine(&mut results)
     }

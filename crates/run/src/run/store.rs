@@ -7,14 +7,14 @@
 use super::films::check_finite;
 use crate::film_file::{self, FilmOrigin, StoredPasses, holds_state, state_name};
 use crate::job_request::{JobRequest, RenderOptions};
-use crate::results::{CameraResults, DoneFrames, Sequence};
+use crate::results::{CameraResults, DoneFrames, FrameSequence};
 use etendue_core::observer::{Message, Observer, Unobserved};
 use etendue_io::failure::Error;
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{ExistingFiles, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::Shot;
+use etendue_pipeline::render::FrameCapture;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ pub(crate) struct RunFolder<'a> {
     state: Option<RunState>,
     /// Frames written by an earlier run; `None` if they are known only after the light.
     done: Option<DoneFrames>,
-    sequence: Sequence,
+    sequence: FrameSequence,
     written: Vec<PathBuf>,
     observer: &'a dyn Observer,
 }
@@ -93,23 +93,23 @@ impl<'a> RunFolder<'a> {
         plan: &Arc<Plan>,
         options: &RenderOptions,
         root: &Path,
-        existing: Existing,
+        existing: ExistingFiles,
         observer: &'a dyn Observer,
     ) -> Result<Self, Error> {
-        let sequence = Sequence::new(plan, options.frames.clone());
+        let sequence = FrameSequence::new(plan, options.frames.clone());
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        let resumed = (existing == Existing::Resume).then(|| root.to_path_buf());
+        let resumed = (existing == ExistingFiles::Resume).then(|| root.to_path_buf());
         // In a run of a given time, the plan of the frames is known after its passes.
         let done = match (&resumed, request.time_s) {
-            (Some(root), None) => Some(DoneFrames::in_folder(root, plan, sequence.frames(), observer)?),
+            (Some(root), None) => Some(DoneFrames::find_in_folder(root, plan, sequence.frames(), observer)?),
             _ => None,
         };
         film_file::check_state(&folder, existing)?;
-        claim(&folder, plan, &sequence)?;
-        let folder = if request.progressive { folder.refining() } else { folder };
-        let open_again = || folder.again(Existing::Replace).map_err(Error::input);
+        check_absent(&folder, plan, &sequence)?;
+        let folder = if request.progressive { folder.replacing_own() } else { folder };
+        let open_again = || folder.reopened(ExistingFiles::Replace).map_err(Error::input);
         let progressive = request.progressive.then(open_again).transpose()?;
-        if existing == Existing::Replace {
+        if existing == ExistingFiles::Replace {
             film_file::remove_state(&folder).map_err(Error::run)?;
         }
         let state = Some(RunState { progressive, resumed });
@@ -120,20 +120,20 @@ impl<'a> RunFolder<'a> {
     ///
     /// # Errors
     /// Files exist that must not be replaced, or the folder cannot be written.
-    pub(crate) fn of_shards(
+    pub(crate) fn for_shards(
         plan: &Arc<Plan>,
         options: &RenderOptions,
         root: &Path,
-        existing: Existing,
+        existing: ExistingFiles,
         observer: &'a dyn Observer,
     ) -> Result<Self, Error> {
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        let sequence = Sequence::new(plan, options.frames.clone());
-        claim(&folder, plan, &sequence)?;
+        let sequence = FrameSequence::new(plan, options.frames.clone());
+        check_absent(&folder, plan, &sequence)?;
         Ok(Self::new(folder, sequence, observer))
     }
 
-    fn new(folder: OutputFolder, sequence: Sequence, observer: &'a dyn Observer) -> Self {
+    fn new(folder: OutputFolder, sequence: FrameSequence, observer: &'a dyn Observer) -> Self {
         let interruption = InterruptionNote::new(&folder, observer);
         Self { interruption, folder, state: None, done: None, sequence, written: Vec::new(), observer }
     }
@@ -147,7 +147,7 @@ impl<'a> RunFolder<'a> {
         let Some(state) = self.state.as_ref().filter(|_| results.has_own_light()) else { return Ok(()) };
         self.written.extend(self.folder.publish().map_err(Error::run)?);
         self.interruption.frames += 1;
-        state.forget(results.camera(), results.frame_numbers().start)
+        state.remove_frame_state(results.camera(), results.frame_numbers().start)
     }
 
     /// Writes the files over all frames and cameras, publishes all files, and removes the state; returns the paths of all files.
@@ -166,17 +166,17 @@ impl<'a> RunFolder<'a> {
 }
 
 /// Fails early if a result already exists.
-fn claim(folder: &OutputFolder, plan: &Plan, sequence: &Sequence) -> Result<(), Error> {
+fn check_absent(folder: &OutputFolder, plan: &Plan, sequence: &FrameSequence) -> Result<(), Error> {
     folder.claim(sequence.file_names(plan).iter().map(String::as_str)).map_err(Error::input)
 }
 
 impl RunState {
     /// Removes the stored state of a frame whose files are written.
-    fn forget(&self, camera: &CameraPlan, frame: u32) -> Result<(), Error> {
+    fn remove_frame_state(&self, camera: &CameraPlan, frame: u32) -> Result<(), Error> {
         let Some(folder) = &self.progressive else { return Ok(()) };
         let captures = camera.body.exposure.distinct_captures();
         let names: Vec<String> =
-            captures.into_iter().map(|capture| state_name(camera, Shot { frame, capture: capture as u32 })).collect();
+            captures.into_iter().map(|capture| state_name(camera, FrameCapture { frame, capture: capture as u32 })).collect();
         folder.remove(names.iter().map(String::as_str)).map_err(Error::run)
     }
 }
@@ -203,10 +203,10 @@ impl RunStore for RunFolder<'_> {
     fn done_frames(&mut self, plan: &Arc<Plan>) -> Result<DoneFrames, Error> {
         let done = match (self.done.take(), self.resumed()) {
             (Some(done), _) => done,
-            (None, Some(root)) => DoneFrames::in_folder(root, plan, self.sequence.frames(), self.observer)?,
+            (None, Some(root)) => DoneFrames::find_in_folder(root, plan, self.sequence.frames(), self.observer)?,
             (None, None) => DoneFrames::default(),
         };
-        done.note_all(plan, &mut self.sequence);
+        done.register_all(plan, &mut self.sequence);
         Ok(done)
     }
 

@@ -4,18 +4,18 @@
 //! together. A pilot, which renders a subset of the pixels and discards their light, measures the rate first. Time counts from its first sample. A round (one
 //! pass of all films) that exceeds the time by far is discarded.
 
-use super::pace::{Pace, Rate};
+use super::pace::{PassSchedule, SampleRate};
 use crate::film_file::StoredPasses;
 use etendue_core::maths::least_common_multiple;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
+use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, NumberedPass, Passes};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// A round is discarded at this multiple of the time.
-const GIVE_UP_RATIO: f64 = 1.05;
+const DISCARD_RATIO: f64 = 1.05;
 
 /// Minimum fraction of the time for the pilot, and its maximum part of the pixels.
 const PILOT_FRACTION: f64 = 0.01;
@@ -23,7 +23,7 @@ const MAX_PILOT_PARTS: u32 = PARTS / 4;
 
 /// A point in a run: elapsed time, and the part of it spent on samples, s.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
+pub(super) struct TimePoint {
     now_s: f64,
     light_s: f64,
 }
@@ -33,7 +33,7 @@ pub(super) struct Moment {
 struct Round {
     /// The passes, including that of the round.
     passes: Passes,
-    begin: Moment,
+    begin: TimePoint,
 }
 
 /// Passes of a run of a given time.
@@ -42,7 +42,7 @@ pub(super) struct TimedPasses<'a> {
     pub(super) compiled: Arc<Plan>,
     total_s: f64,
     observer: &'a dyn Observer,
-    pub(super) watch: Watch<'a>,
+    pub(super) watch: RenderClock<'a>,
     /// Completed passes.
     passes: Passes,
     round: Option<Round>,
@@ -51,7 +51,7 @@ pub(super) struct TimedPasses<'a> {
     /// Part of the pixels for the next pilot, in 256ths.
     pilot_part: u32,
     /// Rate of samples; `None` until a pilot has taken long enough.
-    rate: Option<Rate>,
+    rate: Option<SampleRate>,
     has_warned: bool,
     /// True once the time is up.
     pub(super) is_over: bool,
@@ -67,7 +67,7 @@ impl<'a> TimedPasses<'a> {
             compiled: Arc::clone(compiled),
             total_s,
             observer,
-            watch: Watch::new(observer)?,
+            watch: RenderClock::new(observer)?,
             passes: Passes::default(),
             round: None,
             replicates: None,
@@ -93,12 +93,12 @@ impl<'a> TimedPasses<'a> {
     }
 
     /// Passes that all films are to receive: the completed ones, and that of the current round.
-    pub(super) fn wanted(&self) -> &Passes {
+    pub(super) fn requested_passes(&self) -> &Passes {
         self.round.as_ref().map_or(&self.passes, |round| &round.passes)
     }
 
     /// The completed passes.
-    pub(super) fn done(&self) -> &Passes {
+    pub(super) fn completed_passes(&self) -> &Passes {
         &self.passes
     }
 
@@ -113,12 +113,12 @@ impl<'a> TimedPasses<'a> {
     }
 
     /// Returns the next pilot.
-    pub(super) fn pilot(&self, plan: &Plan) -> PassAt {
-        PassAt { pass: Pass { samples: least_samples(plan), part: self.pilot_part }, ..PassAt::only(0) }
+    pub(super) fn pilot(&self, plan: &Plan) -> NumberedPass {
+        NumberedPass { pass: Pass { samples: min_samples(plan), part: self.pilot_part }, ..NumberedPass::only(0) }
     }
 
     /// Ends a pilot that began at `begin`. Returns the plan of the run, with its replicates, or `None` if another pilot, four times as large, is needed.
-    pub(super) fn end_pilot(&mut self, plan: &Plan, pilot: PassAt, begin: Moment) -> Option<Plan> {
+    pub(super) fn end_pilot(&mut self, plan: &Plan, pilot: NumberedPass, begin: TimePoint) -> Option<Plan> {
         let rate = self.watch.rate(pilot.pass, begin);
         let is_long = rate.sample_s * pilot.pass.number() >= PILOT_FRACTION * self.total_s;
         if !is_long && pilot.pass.part < MAX_PILOT_PARTS {
@@ -129,19 +129,19 @@ impl<'a> TimedPasses<'a> {
         self.replicates = match (plan.open_replicates(), self.replicates) {
             (None, _) => None,
             (Some(_), Some(stored)) => Some(stored),
-            (Some(most), None) => Some(self.affordable_replicates(plan, most, rate.sample_s)),
+            (Some(max_replicates), None) => Some(self.affordable_replicates(plan, max_replicates, rate.sample_s)),
         };
         Some(self.plan_of_done(plan))
     }
 
     /// Returns `most` replicates, or fewer if the time does not allow so many.
-    fn affordable_replicates(&self, plan: &Plan, most: u32, sample_s: f64) -> u32 {
-        let fewest = if plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
-        let choice: Vec<u32> = (fewest..=most).rev().filter(|replicates| most.is_multiple_of(*replicates)).collect();
+    fn affordable_replicates(&self, plan: &Plan, max_replicates: u32, sample_s: f64) -> u32 {
+        let min_replicates = if plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
+        let choice: Vec<u32> = (min_replicates..=max_replicates).rev().filter(|replicates| max_replicates.is_multiple_of(*replicates)).collect();
         let replicates = self.pace(plan).replicates(sample_s, &choice);
-        if replicates < most {
+        if replicates < max_replicates {
             let note =
-                format!("`time_s` {} does not allow passes of {most} replicates; {replicates} are used", self.total_s);
+                format!("`time_s` {} does not allow passes of {max_replicates} replicates; {replicates} are used", self.total_s);
             self.observer.message(Message::Note(&note));
         }
         replicates
@@ -150,20 +150,20 @@ impl<'a> TimedPasses<'a> {
     /// Starts the next round. Returns false if there is none.
     pub(super) fn begin_round(&mut self, plan: &Plan) -> bool {
         let Some(rate) = self.rate else { return false };
-        let pace = self.pace(plan);
+        let schedule = self.pace(plan);
         if !self.has_warned {
             self.has_warned = true;
-            self.warn(pace, rate);
+            self.warn(schedule, rate);
         }
         if self.passes.list().len() >= MAX_PASSES {
             return false;
         }
-        let Some(next) = pace.next(self.watch.elapsed_s(), rate, self.passes.spp()) else { return false };
+        let Some(next) = schedule.next(self.watch.elapsed_s(), rate, self.passes.spp()) else { return false };
         let mut passes = self.passes.clone();
         passes.push(next);
-        let may_be_given_up = !self.passes.list().is_empty();
-        let begin = self.watch.moment();
-        self.watch.limit_s = may_be_given_up.then_some(GIVE_UP_RATIO * self.total_s);
+        let may_be_discarded = !self.passes.list().is_empty();
+        let begin = self.watch.time_point();
+        self.watch.limit_s = may_be_discarded.then_some(DISCARD_RATIO * self.total_s);
         self.round = Some(Round { passes, begin });
         true
     }
@@ -181,21 +181,21 @@ impl<'a> TimedPasses<'a> {
     }
 
     /// Adds time, s, to that of a round outside its samples.
-    pub(super) fn add_beside(&mut self, time_s: f64) {
+    pub(super) fn add_overhead(&mut self, time_s: f64) {
         if let Some(rate) = &mut self.rate {
-            rate.beside_s += time_s;
+            rate.overhead_s += time_s;
         }
     }
 
-    fn pace(&self, plan: &Plan) -> Pace {
-        let least = least_samples(plan);
-        Pace { total_s: self.total_s, least, has_parts: plan.replicates().all(|replicates| replicates == least) }
+    fn pace(&self, plan: &Plan) -> PassSchedule {
+        let min_pass_spp = min_samples(plan);
+        PassSchedule { total_s: self.total_s, min_pass_spp: least: min_pass_spp, has_parts: plan.replicates().all(|replicates| replicates == min_pass_spp) }
     }
 
-    fn warn(&self, pace: Pace, rate: Rate) {
-        let needed_s = rate.sample_s * f64::from(pace.least);
-        if needed_s > GIVE_UP_RATIO * self.total_s {
-            let samples = if pace.least == 1 { "one sample".to_owned() } else { format!("{} samples", pace.least) };
+    fn warn(&self, schedule: PassSchedule, rate: SampleRate) {
+        let needed_s = rate.sample_s * f64::from(schedule.min_pass_spp);
+        if needed_s > DISCARD_RATIO * self.total_s {
+            let samples = if schedule.min_pass_spp == 1 { "one sample".to_owned() } else { format!("{} samples", schedule.min_pass_spp) };
             self.observer.message(Message::Warning(&format!(
                 "rendering {samples} per pixel, the minimum for a result, takes about {needed_s:.0} s, more than \
                  `time_s` {}; give more time, smaller images, or fewer frames, cameras or replicates",
@@ -223,12 +223,12 @@ impl<'a> TimedPasses<'a> {
 }
 
 /// Smallest sample count that all cameras can share.
-fn least_samples(plan: &Plan) -> u32 {
+fn min_samples(plan: &Plan) -> u32 {
     plan.replicates().fold(1, least_common_multiple)
 }
 
 /// Clock of the light's rendering.
-pub(super) struct Watch<'a> {
+pub(super) struct RenderClock<'a> {
     observer: &'a dyn Observer,
     /// Time taken by an interrupted run, s.
     before_s: f64,
@@ -242,7 +242,7 @@ pub(super) struct Watch<'a> {
     is_over: AtomicBool,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> RenderClock<'a> {
     fn new(observer: &'a dyn Observer) -> Result<Self, Error> {
         if observer.now_s().is_none() {
             return Err(Error::coded(
@@ -264,8 +264,8 @@ impl<'a> Watch<'a> {
         self.observer.now_s().unwrap_or_default()
     }
 
-    pub(super) fn moment(&self) -> Moment {
-        Moment { now_s: self.now_s(), light_s: self.light_s() }
+    pub(super) fn time_point(&self) -> TimePoint {
+        TimePoint { now_s: self.now_s(), light_s: self.light_s() }
     }
 
     /// Time since the first sample, s, including that of an interrupted run.
@@ -290,14 +290,14 @@ impl<'a> Watch<'a> {
     }
 
     /// Rate of a pass of all films that began at `begin`.
-    fn rate(&self, pass: Pass, begin: Moment) -> Rate {
+    fn rate(&self, pass: Pass, begin: TimePoint) -> SampleRate {
         let light_s = self.light_s() - begin.light_s;
-        let beside_s = (self.now_s() - begin.now_s - light_s).max(0.0);
-        Rate { sample_s: (light_s / pass.number()).max(f64::MIN_POSITIVE), beside_s }
+        let overhead_s = (self.now_s() - begin.now_s - light_s).max(0.0);
+        SampleRate { sample_s: (light_s / pass.number()).max(f64::MIN_POSITIVE), overhead_s }
     }
 
     /// Returns true if the current pass must be discarded.
-    pub(super) fn is_over(&self) -> bool {
+    pub(super) fn is_pass_discarded(&self) -> bool {
         let is_over = self.limit_s.is_some_and(|limit_s| self.elapsed_s() > limit_s);
         if is_over {
             self.is_over.store(true, Ordering::Relaxed);
@@ -306,7 +306,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Returns true if a pass was discarded.
-    pub(super) fn was_over(&self) -> bool {
+    pub(super) fn was_pass_discarded(&self) -> bool {
         self.is_over.load(Ordering::Relaxed)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::request::{AssetKind, AssetRequest, Covered};
+use super::request::{AssetKind, AssetRequest, ReplacedMaterials};
 use crate::place::Placed;
 
 /// Requests for files, each once.
@@ -25,7 +25,7 @@ pub(crate) fn names_files(record: &impl NamesFiles) -> bool {
 
 impl<T: NamesFiles> NamesFiles for Option<T> {
     fn name_files(&self, files: &mut FileList) {
-        self.iter().for_each(|given| given.name_files(files));
+        self.iter().for_each(|item| item.name_files(files));
     }
 }
 
@@ -38,15 +38,15 @@ impl FileList {
     pub(crate) fn add(&mut self, kind: AssetKind, path: &Placed<PathBuf>) {
         if !self.0.iter().any(|r| r.kind == kind && r.path == path.value) {
             let (path, place) = (path.value.clone(), path.place.clone());
-            self.0.push(AssetRequest { path, kind, place, covered: Covered::NONE });
+            self.0.push(AssetRequest { path, kind, place, covered: ReplacedMaterials::NONE });
         }
     }
 
     /// Requests a mesh; materials count as covered only if all meshes of the file cover them.
-    pub(crate) fn mesh(&mut self, path: &Placed<PathBuf>, covered: Covered) {
+    pub(crate) fn mesh(&mut self, path: &Placed<PathBuf>, covered: ReplacedMaterials) {
         let known = self.0.iter_mut().find(|r| r.kind == AssetKind::Mesh && r.path == path.value);
         if let Some(known) = known {
-            known.covered = std::mem::replace(&mut known.covered, Covered::All).and(covered);
+            known.covered = std::mem::replace(&mut known.covered, ReplacedMaterials::All).and(covered);
             return;
         }
         let (path, place) = (path.value.clone(), path.place.clone());

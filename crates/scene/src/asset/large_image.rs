@@ -51,7 +51,7 @@ impl PixelFormat {
 }
 
 /// Receives rows of an image; its error ends the reading.
-pub type TakeRows<'a> = &'a mut dyn FnMut(&ImagePixels) -> Result<(), String>;
+pub type RowReceiver<'a> = &'a mut dyn FnMut(&ImagePixels) -> Result<(), String>;
 
 /// Reads the pixels of an image, any number of times.
 pub trait PixelRows: Debug + Send + Sync {
@@ -59,7 +59,7 @@ pub trait PixelRows: Debug + Send + Sync {
     ///
     /// # Errors
     /// The error of the file, in the words of reading a small image; or the error of `take`.
-    fn read(&self, take: TakeRows<'_>) -> Result<(), String>;
+    fn read(&self, take: RowReceiver<'_>) -> Result<(), String>;
 }
 
 /// An image whose pixels stay in its file.

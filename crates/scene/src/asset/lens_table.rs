@@ -21,7 +21,7 @@ pub enum LensNumbers {
     /// Angle from the axis, degrees, from 0; radius over that of `beside`, whose focal length is `focal_length_mm` if the file states it.
     Distortion {
         /// The lens without distortion.
-        beside: Undistorted,
+        reference: Undistorted,
         /// Focal length of that lens, mm; `None` if the file does not state it.
         focal_length_mm: Option<f64>,
     },

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use etendue_spectra::{Outside, Spectrum, SpectrumError};
+use etendue_spectra::{Extrapolation, Spectrum, SpectrumError};
 
 use super::mtl::SlotMaterial;
 
@@ -25,7 +25,7 @@ pub struct MeshAsset {
     /// Materials, by their names in the file.
     pub slot_materials: Vec<SlotMaterial>,
     /// Images embedded in the file, by their names among the images of the assets.
-    pub pictures: Vec<(PathBuf, ImageAsset)>,
+    pub embedded_images: Vec<(PathBuf, ImageAsset)>,
     /// Content that was read and not used, in sentences for the user: fields without meaning here, dropped triangles.
     pub report: Vec<String>,
     /// Causes of differences from the appearance that the file intends, in sentences for the user.
@@ -40,13 +40,13 @@ impl MeshAsset {
     /// True for each slot with a triangle; if no triangle states its slot, true for all.
     #[must_use]
     pub fn shown_slots(&self) -> Vec<bool> {
-        let mut shown = vec![self.slots.is_empty(); self.slot_materials.len()];
+        let mut is_visible = vec![self.slots.is_empty(); self.slot_materials.len()];
         for slot in &self.slots {
-            if let Some(shown) = shown.get_mut(usize::from(*slot)) {
-                *shown = true;
+            if let Some(is_visible) = is_visible.get_mut(usize::from(*slot)) {
+                *is_visible = true;
             }
         }
-        shown
+        is_visible
     }
 }
 
@@ -150,7 +150,7 @@ impl SpectrumAsset {
     ///
     /// # Errors
     /// The points are no function of wavelength.
-    pub fn spectrum(&self, outside: Outside) -> Result<Spectrum, SpectrumError> {
+    pub fn spectrum(&self, outside: Extrapolation) -> Result<Spectrum, SpectrumError> {
         Spectrum::from_points(&self.points, outside)
     }
 }

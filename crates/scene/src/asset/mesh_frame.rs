@@ -42,7 +42,7 @@ impl MeshFrameAsset {
     /// First difference of this file from another of the same mesh in words, this file's first; `None` if both have the same faces.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<[String; 2]> {
-        let both = |tell: &dyn Fn(&Self) -> String| Some([tell(self), tell(other)]);
+        let both = |describe: &dyn Fn(&Self) -> String| Some([describe(self), describe(other)]);
         if self.vertices != other.vertices {
             return both(&|frame| format!("{} vertices", frame.vertices));
         }
@@ -59,7 +59,7 @@ impl MeshFrameAsset {
         let face = own.iter().zip(&others).position(|(a, b)| a != b)?;
         let message = |face: &(Vec<u32>, Vec<u32>)| format!("{} corners", face.0.len());
         let [a, b] = [message(&own[face]), message(&others[face])];
-        let at = |tell: String| format!("{tell} at face {} (by material)", face + 1);
+        let at = |text: String| format!("{text} at face {} (by material)", face + 1);
         Some(if a == b { [at(a), "different vertices there".to_owned()] } else { [at(a), format!("{b} there")] })
     }
 }

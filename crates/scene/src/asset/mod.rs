@@ -18,7 +18,7 @@ mod table;
 mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
-pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
+pub use large_image::{LargeImage, PixelFormat, PixelRows, RowReceiver, TexelStore};
 pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, Undistorted};
 pub use mesh::{ColourMatrix, ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
@@ -27,9 +27,9 @@ pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Til
 pub use point_spread::{FieldPoint, PointSpreadAsset};
 pub use prescription::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
-pub use request::{AssetKind, AssetRequest, Covered, Values};
+pub use request::{AssetKind, AssetRequest, ReplacedMaterials, SpectrumValues};
 pub use slot_layers::{
-    SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotOver, SlotPicture, SlotSolid, SlotTransmission, SlotWrap,
+    SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotTopLayer, SlotPicture, SlotSolid, SlotTransmission, SlotWrap,
     is_gltf,
 };
 pub use store::Assets;

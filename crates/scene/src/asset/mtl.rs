@@ -15,7 +15,7 @@ use super::slot_layers::SlotLayers;
 pub const COAT_INDICES: std::ops::RangeInclusive<f64> = 1.1..=4.0;
 
 /// Index of a coat whose file gives no index in this range.
-const USUAL_INDEX: f64 = 1.5;
+const DEFAULT_INDEX: f64 = 1.5;
 
 /// A material, by its name in a mesh's file.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,16 +135,16 @@ impl MtlFields {
     }
 
     fn coat_index(&self, name: &str, report: &mut Vec<String>) -> f64 {
-        let Some(index) = self.index else { return USUAL_INDEX };
+        let Some(index) = self.index else { return DEFAULT_INDEX };
         if COAT_INDICES.contains(&index) {
             return index;
         }
         let (low, high) = (COAT_INDICES.start(), COAT_INDICES.end());
         report.push(format!(
-            "material \"{name}\": Ni {index} is not a refractive index of a coat ({low} … {high}), {USUAL_INDEX} is \
+            "material \"{name}\": Ni {index} is not a refractive index of a coat ({low} … {high}), {DEFAULT_INDEX} is \
              used; define its material in the scene"
         ));
-        USUAL_INDEX
+        DEFAULT_INDEX
     }
 
     fn report_unused(&self, name: &str, report: &mut Vec<String>) {
@@ -167,15 +167,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn matt_and_shiny_materials() {
-        let matt = MtlFields {
+    fn diffuse_and_glossy_materials() {
+        let diffuse = MtlFields {
             diffuse: Some([0.5; 3]),
             exponent: Some(250.0),
             specular: Some([0.0; 3]),
             ..Default::default()
         };
-        assert!(matches!(matt.to_slot("a").0.surface, Some(SlotSurface::Diffuse { .. })), "no highlight without Ks");
-        let shiny = MtlFields { specular: Some([0.5; 3]), exponent: Some(198.0), ..matt };
+        assert!(matches!(diffuse.to_slot("a").0.surface, Some(SlotSurface::Diffuse { .. })), "no highlight without Ks");
+        let shiny = MtlFields { specular: Some([0.5; 3]), exponent: Some(198.0), ..diffuse };
         let Some(SlotSurface::Coated { alpha, index, .. }) = shiny.to_slot("a").0.surface else { panic!("shiny") };
         assert_eq!((alpha, index), (0.1, 1.5), "√(2 / 200)");
     }

@@ -46,7 +46,7 @@ pub struct SurfaceAsset {
     /// Clear semi-aperture, mm; `None` where the file leaves it to be computed from the light.
     pub semi_aperture_mm: Option<f64>,
     /// True if the file states that this aperture clips light (Zemax CLAP and FLAP, CODE V CIR); false for a drawing size (DIAM).
-    pub rim: bool,
+    pub clips_light: bool,
     /// Distance to the next surface (from the last one: to the image), mm.
     pub thickness_mm: f64,
     /// Medium of that space.

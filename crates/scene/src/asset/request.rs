@@ -17,19 +17,19 @@ pub struct AssetRequest {
     /// Place where it is named.
     pub place: Place,
     /// For a mesh: its own materials that are not visible.
-    pub covered: Covered,
+    pub covered: ReplacedMaterials,
 }
 
 /// Materials of a mesh's file that are not visible, because the scene replaces them.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Covered {
+pub enum ReplacedMaterials {
     /// All of them.
     All,
     /// Those with these names.
     Slots(BTreeSet<String>),
 }
 
-impl Covered {
+impl ReplacedMaterials {
     pub(super) const NONE: Self = Self::Slots(BTreeSet::new());
 
     /// True if the material of a slot is covered.
@@ -62,7 +62,7 @@ pub enum AssetKind {
     /// [`super::ImageAsset`] of a texture, or [`super::LargeImage`].
     Texture,
     /// [`super::SpectrumAsset`] of such values.
-    Spectrum(Values),
+    Spectrum(SpectrumValues),
     /// [`super::PhotometryAsset`].
     Photometry,
     /// [`super::ComplexIndexAsset`].
@@ -87,7 +87,7 @@ pub enum AssetKind {
 
 /// Range of the values of a tabulated spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Values {
+pub enum SpectrumValues {
     /// A fraction of light or of photons, 0 … 1.
     Share,
     /// Light, or an absorption coefficient, 0 or more.
@@ -96,7 +96,7 @@ pub enum Values {
     Index,
 }
 
-impl Values {
+impl SpectrumValues {
     /// True if the value is in the range.
     #[must_use]
     pub fn admit(self, value: f64) -> bool {

@@ -12,7 +12,7 @@ pub struct SlotLayers {
     /// Roughness of metal and coat: GGX α, 0 … 1.
     pub alpha: SlotNumber,
     /// Layer over the base of the non-metal.
-    pub over: SlotOver,
+    pub top_layer: SlotTopLayer,
     /// Transmission of the non-metal; `None` if there is none.
     pub transmission: Option<SlotTransmission>,
     /// Emission of the surface; `None` if there is none.
@@ -25,7 +25,7 @@ pub struct SlotLayers {
 
 /// Layer over a non-metal base.
 #[derive(Clone, Debug, PartialEq)]
-pub enum SlotOver {
+pub enum SlotTopLayer {
     /// Nothing: Lambertian reflection.
     Nothing,
     /// A clear coat of a refractive index within [`super::COAT_INDICES`], with the roughness of the material.
@@ -38,7 +38,7 @@ pub enum SlotOver {
         /// The refractive index of both.
         index: f64,
         /// Fraction of the surface under the second, 0 … 1.
-        share: f64,
+        fraction: f64,
         /// GGX α of the second, 0 … 1.
         alpha: f64,
     },
@@ -55,7 +55,7 @@ pub enum SlotOver {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotTransmission {
     /// Fraction of the surface that is clear, 0 … 1.
-    pub share: SlotNumber,
+    pub fraction: SlotNumber,
     /// Refractive index, 1 … 4.
     pub index: f64,
     /// Absorption inside a solid; `None` for a pane without thickness, which the base colour tints.
@@ -127,7 +127,7 @@ impl SlotLayers {
     #[must_use]
     pub fn has_picture(&self) -> bool {
         let numbers = [Some(&self.metal), Some(&self.alpha), self.opacity.as_ref()];
-        let clear = self.transmission.as_ref().map(|t| &t.share);
+        let clear = self.transmission.as_ref().map(|t| &t.fraction);
         matches!(self.base, SlotColour::Picture(_))
             || numbers.into_iter().chain([clear]).flatten().any(|n| matches!(n, SlotNumber::Picture(_)))
             || self.emission.as_ref().is_some_and(|e| e.picture.is_some())
@@ -145,28 +145,28 @@ impl SlotLayers {
     /// The resulting material, in words.
     #[must_use]
     pub fn describe(&self) -> String {
-        let over = match &self.over {
-            SlotOver::Nothing => "diffuse".to_owned(),
-            SlotOver::Coat { index } => format!("coated, index {index:.3}"),
-            SlotOver::TwoCoats { index, share, .. } => {
-                format!("coated, index {index:.3}, a fraction of {share} under a clear coat")
+        let layered = match &self.top_layer {
+            SlotTopLayer::Nothing => "diffuse".to_owned(),
+            SlotTopLayer::Coat { index } => format!("coated, index {index:.3}"),
+            SlotTopLayer::TwoCoats { index, fraction, .. } => {
+                format!("coated, index {index:.3}, a fraction of {fraction} under a clear coat")
             }
-            SlotOver::Sheen { .. } => "cloth".to_owned(),
+            SlotTopLayer::Sheen { .. } => "cloth".to_owned(),
         };
-        let over = match &self.transmission {
-            None => over,
+        let transmissive = match &self.transmission {
+            None => layered,
             Some(clear) => {
                 let what = if clear.solid.is_some() { "dielectric" } else { "thin_sheet" };
-                format!("mix of {over} and {what} of index {} by {}", clear.index, words(&clear.share))
+                format!("mix of {layered} and {what} of index {} by {}", clear.index, words(&clear.fraction))
             }
         };
         let surface = match &self.metal {
-            SlotNumber::Number(0.0) => over,
+            SlotNumber::Number(0.0) => transmissive,
             SlotNumber::Number(1.0) => "conductor of the base colour".to_owned(),
-            share => format!("mix of {over} and conductor by {}", words(share)),
+            fraction => format!("mix of {transmissive} and conductor by {}", words(fraction)),
         };
         let mut parts = vec![surface];
-        if self.over != SlotOver::Nothing || self.metal != SlotNumber::Number(0.0) {
+        if self.top_layer != SlotTopLayer::Nothing || self.metal != SlotNumber::Number(0.0) {
             parts.push(format!("alpha {}", words(&self.alpha)));
         }
         if let SlotColour::Picture(_) = &self.base {

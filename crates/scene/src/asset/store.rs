@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotMaterial;
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ReplacedMaterials, ImageAsset, LargeImage,
     LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PointSpreadAsset,
     PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
 };
@@ -85,15 +85,15 @@ impl Assets {
             point_spreads,
             calibrations,
         } = self;
-        let is_it = |file: &Path| file == path || is_numbered(path, file);
-        let meshes: Vec<&MeshAsset> = meshes.iter().filter(|(file, _)| is_it(file)).map(|(_, mesh)| mesh).collect();
-        let pictures = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
+        let is_match = |file: &Path| file == path || is_numbered(path, file);
+        let meshes: Vec<&MeshAsset> = meshes.iter().filter(|(file, _)| is_match(file)).map(|(_, mesh)| mesh).collect();
+        let image_files = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
         let image = |path: &Path| {
             images.get(path).map(|asset| asset.hash).or_else(|| large_images.get(path).map(|asset| asset.hash))
         };
         let mut hashes: Vec<[u8; 32]> = meshes.iter().map(|asset| asset.hash).collect();
-        hashes.extend(mesh_frames.iter().filter(|(file, _)| is_it(file)).map(|(_, asset)| asset.hash));
-        hashes.extend(pictures.chain([path]).filter_map(image));
+        hashes.extend(mesh_frames.iter().filter(|(file, _)| is_match(file)).map(|(_, asset)| asset.hash));
+        hashes.extend(image_files.chain([path]).filter_map(image));
         hashes.extend(spectra.get(path).map(|asset| asset.hash));
         hashes.extend(photometry.get(path).map(|asset| asset.hash));
         hashes.extend(indices.get(path).map(|asset| asset.hash));
@@ -136,11 +136,11 @@ fn textures_of<'a>(
     named: &'a [AssetRequest],
 ) -> impl Iterator<Item = AssetRequest> + 'a {
     let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
-    let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
-    let shown = mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, shown)| shown.then_some(slot));
-    shown.filter(is_seen).filter_map(picture).map(move |path| {
+    let is_requested = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
+    let visible_slots = mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, is_visible)| is_visible.then_some(slot));
+    visible_slots.filter(is_requested).filter_map(picture).map(move |path| {
         let (path, place) = (path.to_owned(), Place::file_head(file));
-        AssetRequest { path, kind: AssetKind::Texture, place, covered: Covered::All }
+        AssetRequest { path, kind: AssetKind::Texture, place, covered: ReplacedMaterials::All }
     })
 }
 
@@ -152,13 +152,13 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, FieldPoint, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, Values};
+    use super::super::{CalibrationFormat, FieldPoint, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, SpectrumValues};
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
 
     /// Assets with the file "file" of such a hash.
-    fn of(kind: &AssetKind, hash: [u8; 32]) -> Assets {
+    fn test_assets(kind: &AssetKind, hash: [u8; 32]) -> Assets {
         let (file, mut assets) = (PathBuf::from("file"), Assets::default());
         match kind {
             AssetKind::Mesh => drop(assets.meshes.insert(file, MeshAsset { hash, ..Default::default() })),
@@ -266,7 +266,7 @@ mod tests {
             AssetKind::MeshFrame,
             AssetKind::Image,
             AssetKind::Texture,
-            AssetKind::Spectrum(Values::Share),
+            AssetKind::Spectrum(SpectrumValues::Share),
             AssetKind::Photometry,
             AssetKind::ComplexIndex,
             AssetKind::RetroTable,
@@ -280,7 +280,7 @@ mod tests {
         ];
         for kind in kinds {
             for hash in [[1; 32], [2; 32]] {
-                let assets = of(&kind, hash);
+                let assets = test_assets(&kind, hash);
                 assert!(assets.has(&kind, Path::new("file")), "{kind:?}");
                 assert_eq!(assets.hashes(Path::new("file")), hash, "{kind:?}");
             }
@@ -301,11 +301,11 @@ mod tests {
         let surface = Some(SlotSurface::Diffuse { reflectance: SlotReflectance::Image("wood.png".into()) });
         let slot_materials = vec![SlotMaterial { name: "wood".to_owned(), surface }];
         let mesh = MeshAsset { slot_materials, hash: [1; 32], ..Default::default() };
-        for picture in [[2; 32], [3; 32]] {
+        for image_hash in [[2; 32], [3; 32]] {
             let meshes = [("chair.obj".into(), mesh.clone())].into();
-            let images = [("wood.png".into(), image(picture))].into();
+            let images = [("wood.png".into(), image(image_hash))].into();
             let assets = Assets { meshes, images, ..Default::default() };
-            assert_eq!(assets.hashes(Path::new("chair.obj")), [[1; 32], picture].concat());
+            assert_eq!(assets.hashes(Path::new("chair.obj")), [[1; 32], image_hash].concat());
         }
     }
 }

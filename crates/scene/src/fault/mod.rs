@@ -12,7 +12,7 @@ pub use code::{Example, ExampleContext, Explanation};
 
 /// One error: its place, the problem with the expected value, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct DescriptionError {
     /// Its kind.
     pub code: ErrorCode,
     /// Place of the error.
@@ -23,7 +23,7 @@ pub struct Fault {
     pub remedy: String,
 }
 
-impl Fault {
+impl DescriptionError {
     /// Creates an error at `place`.
     #[must_use]
     pub fn new(code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -31,7 +31,7 @@ impl Fault {
     }
 }
 
-impl Named {
+impl NameKind {
     /// Description of its kind.
     pub(crate) fn word(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl Named {
 }
 
 /// Displays on one line: names and texts of a file may hold line breaks and control sequences of terminals, which are escaped.
-impl fmt::Display for Fault {
+impl fmt::Display for DescriptionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let message = format!("{}: {}", self.place, self.problem);
         let remedy = if self.remedy.is_empty() { String::new() } else { format!("; {}", self.remedy) };
@@ -58,11 +58,11 @@ impl fmt::Display for Fault {
 
 /// All errors of a description, by file and line. Displays one per line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub struct Faults {
-    list: Vec<Fault>,
+pub struct DescriptionErrors {
+    list: Vec<DescriptionError>,
     /// Names that were used while reading and must be defined.
-    uses: Vec<(Named, Placed<String>)>,
-    superseded: Vec<Superseded>,
+    uses: Vec<(NameKind, Placed<String>)>,
+    overridden: Vec<OverriddenKey>,
 }
 
 /// The problem of a table without a key.
@@ -72,7 +72,7 @@ fn missing(key: &str) -> String {
 
 /// A key of a file that the command line makes meaningless.
 #[derive(Clone, Debug, PartialEq)]
-struct Superseded {
+struct OverriddenKey {
     by: Place,
     key: String,
     place: Place,
@@ -80,7 +80,7 @@ struct Superseded {
 
 /// Kinds of names that are used elsewhere in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Named {
+pub(crate) enum NameKind {
     Mesh,
     Texture,
     Material,
@@ -88,16 +88,16 @@ pub(crate) enum Named {
     Frame,
 }
 
-impl Faults {
+impl DescriptionErrors {
     /// Creates an empty list.
     #[must_use]
     pub fn none() -> Self {
-        Self { list: Vec::new(), uses: Vec::new(), superseded: Vec::new() }
+        Self { list: Vec::new(), uses: Vec::new(), overridden: Vec::new() }
     }
 
     /// The errors, by file and line.
     #[must_use]
-    pub fn list(&self) -> &[Fault] {
+    pub fn as_slice(&self) -> &[DescriptionError] {
         &self.list
     }
 
@@ -107,19 +107,19 @@ impl Faults {
     }
 
     /// Removes the error of a missing key of the table at `place`, because another key is taken as its misspelling.
-    pub(crate) fn take_back_missing(&mut self, place: &Place, key: &str) {
+    pub(crate) fn remove_missing(&mut self, place: &Place, key: &str) {
         let problem = missing(key);
-        self.list.retain(|fault| fault.place != *place || fault.problem != problem);
+        self.list.retain(|error| error.place != *place || error.problem != problem);
     }
 
     /// Reports an error.
     pub fn add(&mut self, code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
-        self.list.push(Fault::new(code, place, problem, remedy));
+        self.list.push(DescriptionError::new(code, place, problem, remedy));
     }
 
     /// Reports that `key`, at `place`, has no effect because of `cause`. It is no error if the command line states the cause and a file the key: the
     /// command line overrides the file.
-    pub(crate) fn add_idle(
+    pub(crate) fn add_without_effect(
         &mut self,
         code: ErrorCode,
         key: &str,
@@ -130,9 +130,9 @@ impl Faults {
     ) {
         match cause {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
-                let superseded = Superseded { by: by.clone(), key: key.to_owned(), place: place.clone() };
-                if !self.superseded.contains(&superseded) {
-                    self.superseded.push(superseded);
+                let superseded = OverriddenKey { by: by.clone(), key: key.to_owned(), place: place.clone() };
+                if !self.overridden.contains(&superseded) {
+                    self.overridden.push(superseded);
                 }
             }
             _ => self.add(code, place, problem, remedy),
@@ -142,26 +142,26 @@ impl Faults {
     /// Keys overridden by the command line, one sentence for each of its words.
     pub(crate) fn notices(&self) -> Vec<String> {
         let mut causes: Vec<&Place> = Vec::new();
-        for Superseded { by, .. } in &self.superseded {
+        for OverriddenKey { by, .. } in &self.overridden {
             if !causes.contains(&by) {
                 causes.push(by);
             }
         }
-        causes.into_iter().map(|by| self.notice(by)).collect()
+        causes.into_iter().map(|by| self.overridden_keys(by)).collect()
     }
 
-    fn notice(&self, by: &Place) -> String {
-        let stated = self.superseded.iter().filter(|s| s.by == *by).map(|s| stated(&s.key, &s.place));
-        format!("{by} overrides {}", stated.collect::<Vec<_>>().join(", "))
+    fn overridden_keys(&self, by: &Place) -> String {
+        let keys = self.overridden.iter().filter(|s| s.by == *by).map(|s| key_with_place(&s.key, &s.place));
+        format!("{by} overrides {}", keys.collect::<Vec<_>>().join(", "))
     }
 
     /// Records the use of a name.
-    pub(crate) fn note_use(&mut self, named: Named, name: Placed<String>) {
+    pub(crate) fn record_use(&mut self, named: NameKind, name: Placed<String>) {
         self.uses.push((named, name));
     }
 
     /// Returns and removes the names that were used.
-    pub(crate) fn take_uses(&mut self) -> Vec<(Named, Placed<String>)> {
+    pub(crate) fn take_uses(&mut self) -> Vec<(NameKind, Placed<String>)> {
         std::mem::take(&mut self.uses)
     }
 
@@ -175,7 +175,7 @@ impl Faults {
     ///
     /// # Errors
     /// There is an error, or no value.
-    pub fn or<T>(mut self, value: Option<T>) -> Result<T, Self> {
+    pub fn into_result<T>(mut self, value: Option<T>) -> Result<T, Self> {
         match value {
             Some(value) if self.list.is_empty() => Ok(value),
             _ => {
@@ -189,23 +189,23 @@ impl Faults {
 
 /// A key and its place, for a notice.
 #[must_use]
-pub fn stated(key: &str, place: &Place) -> String {
+pub fn key_with_place(key: &str, place: &Place) -> String {
     match place.line_column() {
         Some((line, _)) => format!("\"{key}\" ({}:{line})", place.file().display()),
         None => format!("\"{key}\" ({place})"),
     }
 }
 
-impl From<Vec<Fault>> for Faults {
-    fn from(list: Vec<Fault>) -> Self {
+impl From<Vec<DescriptionError>> for DescriptionErrors {
+    fn from(list: Vec<DescriptionError>) -> Self {
         Self { list, ..Self::none() }
     }
 }
 
-impl fmt::Display for Faults {
+impl fmt::Display for DescriptionErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, fault) in self.list.iter().enumerate() {
-            write!(f, "{}{fault}", if i == 0 { "" } else { "\n" })?;
+        for (i, error) in self.list.iter().enumerate() {
+            write!(f, "{}{error}", if i == 0 { "" } else { "\n" })?;
         }
         Ok(())
     }

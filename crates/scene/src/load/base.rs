@@ -15,24 +15,24 @@ use std::path::{Path, PathBuf};
 use super::files::{FileKind, open};
 use super::read_text::ReadText;
 use crate::document::{Node, Table, Value};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::limits::BASES;
 use crate::place::Place;
 use crate::reader::{Rule as _, path};
 
 /// Returns a file's own tree merged over that of its base, if it names one. `chain` are the files that led here, this one last.
-pub(super) fn lay_over(
+pub(super) fn merge_over_base(
     mut tree: Node,
     kind: FileKind,
     read: &ReadText<'_>,
     chain: &[PathBuf],
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) -> Option<Node> {
     let table = tree.as_table_mut()?;
     let (base, removed) = (table.remove("base"), table.remove("remove"));
     let Some(base) = base else {
         if let Some(removed) = removed {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &removed.place,
                 "\"remove\" has no effect without \"base\"",
@@ -41,13 +41,13 @@ pub(super) fn lay_over(
         }
         return Some(tree);
     };
-    let file = path(&["toml"]).read(&base.node, faults)?;
-    let mut under = based_on(&file.value, kind, read, &base.node.place, chain, faults)?;
+    let file = path(&["toml"]).read(&base.node, errors)?;
+    let mut base_node = based_on(&file.value, kind, read, &base.node.place, chain, errors)?;
     if let Some(removed) = removed {
-        take_out(&mut under, &removed.node, faults);
+        remove_entries(&mut base_node, &removed.node, errors);
     }
-    merge(&mut under, tree);
-    Some(under)
+    merge(&mut base_node, tree);
+    Some(base_node)
 }
 
 fn based_on(
@@ -56,10 +56,10 @@ fn based_on(
     read: &ReadText<'_>,
     named: &Place,
     chain: &[PathBuf],
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) -> Option<Node> {
     if chain.iter().any(|above| above == file) {
-        faults.add(
+        errors.add(
             ErrorCode::CircularReference,
             named,
             format!("\"{}\" is its own base", file.display()),
@@ -68,25 +68,25 @@ fn based_on(
         return None;
     }
     // More are taken for a cycle that different spellings of paths hide.
-    let most = BASES.most();
-    if chain.len() as u64 > most {
-        let problem = format!("the chain of \"base\" references has more than {most} files and may be circular");
-        faults.add(
+    let max_depth = BASES.current();
+    if chain.len() as u64 > max_depth {
+        let problem = format!("the chain of \"base\" references has more than {max_depth} files and may be circular");
+        errors.add(
             ErrorCode::TooLarge,
             named,
             problem,
-            format!("shorten the chain, {}", BASES.remedy(BASES.next(most))),
+            format!("shorten the chain, {}", BASES.remedy(BASES.suggested(max_depth))),
         );
         return None;
     }
-    open(file, kind, read, named, chain, faults)
+    open(file, kind, read, named, chain, errors)
 }
 
 /// Removes the entries that `list` names from the base.
-fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
+fn remove_entries(base: &mut Node, list: &Node, errors: &mut DescriptionErrors) {
     if !matches!(list.value, Value::List(_)) {
         let problem = format!("found {}", list.describe());
-        faults.add(
+        errors.add(
             ErrorCode::WrongType,
             &list.place,
             problem,
@@ -94,10 +94,10 @@ fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
         );
     }
     for name in list.as_list() {
-        let taken = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
-        if !taken {
+        let removed = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
+        if !removed {
             let problem = format!("the base has no entry {}", name.describe());
-            faults.add(
+            errors.add(
                 ErrorCode::UnknownName,
                 &name.place,
                 problem,
@@ -124,12 +124,12 @@ fn remove(node: &mut Node, key: &[&str]) -> bool {
 }
 
 /// Merges `over` into `under`.
-fn merge(under: &mut Node, over: Node) {
-    match (&mut under.value, over.value) {
-        (Value::Table(base), Value::Table(table)) if !says_its_kind(&table) => {
-            under.place = over.place;
+fn merge(base_node: &mut Node, overlay: Node) {
+    match (&mut base_node.value, overlay.value) {
+        (Value::Table(base), Value::Table(table)) if !has_type(&table) => {
+            base_node.place = overlay.place;
             table.entries.into_iter().for_each(|entry| match base.get_mut(&entry.key) {
-                Some(node) if entry.key == LAID_OVER => merge_entries(node, entry.node, merge),
+                Some(node) if entry.key == MERGED_LIST => merge_entries(node, entry.node, merge),
                 Some(node) => merge(node, entry.node),
                 None => base.entries.push(entry),
             });
@@ -137,30 +137,30 @@ fn merge(under: &mut Node, over: Node) {
         (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list, replace),
         (value, other) => {
             *value = other;
-            under.place = over.place;
+            base_node.place = overlay.place;
         }
     }
 }
 
 /// The list whose entries are merged with those of the base: the cameras of a job.
-const LAID_OVER: &str = "cameras";
+const MERGED_LIST: &str = "cameras";
 
-fn merge_entries(under: &mut Node, over: Node, lay: impl Fn(&mut Node, Node)) {
-    match (&mut under.value, over.value) {
-        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list, lay),
+fn merge_entries(base_node: &mut Node, overlay: Node, merge: impl Fn(&mut Node, Node)) {
+    match (&mut base_node.value, overlay.value) {
+        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list, merge),
         (value, other) => {
             *value = other;
-            under.place = over.place;
+            base_node.place = overlay.place;
         }
     }
 }
 
-fn replace(under: &mut Node, over: Node) {
-    *under = over;
+fn replace(base_node: &mut Node, overlay: Node) {
+    *base_node = overlay;
 }
 
 /// Merges entries with those of the same name, and appends the others.
-fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, Node)) {
+fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, merge: impl Fn(&mut Node, Node)) {
     let name_of = |node: &Node| node.name().unwrap_or_default().to_owned();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for (i, entry) in base.iter().enumerate() {
@@ -168,7 +168,7 @@ fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, No
     }
     for entry in list {
         match places.get(&name_of(&entry)) {
-            Some(&at) => lay(&mut base[at], entry),
+            Some(&at) => merge(&mut base[at], entry),
             None => {
                 places.insert(name_of(&entry), base.len());
                 base.push(entry);
@@ -178,7 +178,7 @@ fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, No
 }
 
 /// True if a table selects one form of its kind, so that the base's keys may not fit.
-fn says_its_kind(table: &Table) -> bool {
+fn has_type(table: &Table) -> bool {
     table.get("type").is_some()
 }
 

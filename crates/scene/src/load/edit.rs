@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::files::own_tree_of;
 use crate::document::{Entry, Node, Value};
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::overrides::Overrides;
 use crate::place::Place;
 use crate::reader::unread_item;
@@ -15,24 +15,24 @@ use crate::written::{File, Item, Table, Value as WrittenValue};
 ///
 /// # Errors
 /// The text is not of the format, or a change does not apply to it.
-pub fn edit(file: &Path, text: &str, changes: &[String]) -> Result<String, Faults> {
-    let mut faults = Faults::none();
-    let table = own_tree_of(file, text, &mut faults).and_then(|mut tree| {
-        changes.iter().for_each(|change| apply(&mut tree, change, &mut faults));
+pub fn edit(file: &Path, text: &str, changes: &[String]) -> Result<String, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
+    let table = own_tree_of(file, text, &mut errors).and_then(|mut tree| {
+        changes.iter().for_each(|change| apply(&mut tree, change, &mut errors));
         section(&tree)
     });
-    faults.or(table).map(|table| File::new(table).to_string())
+    errors.into_result(table).map(|table| File::new(table).to_string())
 }
 
-fn apply(tree: &mut Node, change: &str, faults: &mut Faults) {
+fn apply(tree: &mut Node, change: &str, errors: &mut DescriptionErrors) {
     let key = removed_key(change);
     let has_base = tree.as_table().is_some_and(|table| table.get("base").is_some());
     match key {
         Some(key) if has_base && !states(tree, key) => remove_from_base(tree, key),
         _ => {
             let overrides = Overrides::new([change]);
-            overrides.apply(tree, true, faults);
-            overrides.apply(tree, false, faults);
+            overrides.apply(tree, true, errors);
+            overrides.apply(tree, false, errors);
         }
     }
 }

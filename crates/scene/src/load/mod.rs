@@ -16,9 +16,9 @@ use crate::document::Node;
 pub use edit::edit;
 use named_files::requests;
 pub use read_text::ReadText;
-pub use usage::Unused;
+pub use usage::UnusedNames;
 
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::overrides::Overrides;
 use crate::preset;
 use crate::reader::{Record as _, Rule as _, record};
@@ -41,9 +41,9 @@ pub struct Description {
     /// Cameras, one or more, with unique names.
     pub cameras: Vec<CameraSetup>,
     /// Parts of the scene that are not used.
-    pub unused: Unused,
+    pub unused: UnusedNames,
     /// Keys that the command line makes meaningless, in sentences.
-    pub notices: Vec<String>,
+    pub overridden_keys: Vec<String>,
 }
 
 /// A camera of a job.
@@ -77,34 +77,34 @@ impl Description {
     ///
     /// # Errors
     /// All errors of all files.
-    pub fn load(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Self, Faults> {
-        let mut faults = Faults::none();
-        let mut job = files::job(file, read, overrides, &mut faults);
-        job.iter_mut().for_each(|document| preset::spell_out(document, &mut faults));
-        let description = job.and_then(|document| Self::read(file, &document, &mut faults));
-        faults.or(description)
+    pub fn load(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Self, DescriptionErrors> {
+        let mut errors = DescriptionErrors::none();
+        let mut job = files::job(file, read, overrides, &mut errors);
+        job.iter_mut().for_each(|document| preset::expand(document, &mut errors));
+        let description = job.and_then(|document| Self::read(file, &document, &mut errors));
+        errors.into_result(description)
     }
 
-    fn read(file: &Path, document: &Node, faults: &mut Faults) -> Option<Self> {
-        let job = record::<Job>().read(document, faults);
-        names::check(document, faults);
-        let uses = check::references(document, faults);
+    fn read(file: &Path, document: &Node, errors: &mut DescriptionErrors) -> Option<Self> {
+        let job = record::<Job>().read(document, errors);
+        names::check(document, errors);
+        let uses = check::references(document, errors);
         let Job { scene, cameras, sequence, render, output, .. } = job?;
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
-        cameras.iter().for_each(|c| check_merged(&c.render, faults));
+        cameras.iter().for_each(|c| check_merged(&c.render, errors));
         // A camera with errors of its own is missing here, and it may be the one that traces paths.
-        let stated = document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
-        if cameras.len() == stated {
-            check_path_keys(cameras.iter().map(|c| &c.render), faults);
+        let camera_count = document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
+        if cameras.len() == camera_count {
+            check_path_keys(cameras.iter().map(|c| &c.render), errors);
         }
         Some(Self {
             file: file.to_owned(),
-            unused: Unused::of(&scene, &uses),
+            unused: UnusedNames::new(&scene, &uses),
             scene,
             sequence,
             cameras,
-            notices: faults.notices(),
+            overridden_keys: errors.notices(),
         })
     }
 
@@ -170,67 +170,67 @@ impl Trigger {
 ///
 /// # Errors
 /// All errors of the file.
-pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Camera, Faults> {
-    let mut faults = Faults::none();
+pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Camera, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
     let mut document =
-        files::document(file, files::FileKind::Camera, read, &crate::Place::file_head(file), &mut faults);
+        files::document(file, files::FileKind::Camera, read, &crate::Place::file_head(file), &mut errors);
     if let Some(document) = &mut document {
-        overrides.apply(document, true, &mut faults);
-        overrides.apply(document, false, &mut faults);
+        overrides.apply(document, true, &mut errors);
+        overrides.apply(document, false, &mut errors);
     }
-    let camera = document.and_then(|d| record::<Camera>().read(&d, &mut faults));
-    faults.or(camera)
+    let camera = document.and_then(|d| record::<Camera>().read(&d, &mut errors));
+    errors.into_result(camera)
 }
 
 /// Reads a weather file.
 ///
 /// # Errors
 /// All errors of the file.
-pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, Faults> {
-    let mut faults = Faults::none();
-    let document = files::single(file, read, &mut faults);
-    let weather = document.and_then(|d| record::<Weather>().read(&d, &mut faults));
-    faults.or(weather)
+pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
+    let document = files::single(file, read, &mut errors);
+    let weather = document.and_then(|d| record::<Weather>().read(&d, &mut errors));
+    errors.into_result(weather)
 }
 
 /// Reads a variations file.
 ///
 /// # Errors
 /// All errors of the file.
-pub fn load_variations(file: &Path, read: &ReadText<'_>) -> Result<Variations, Faults> {
-    let mut faults = Faults::none();
-    let document = files::single(file, read, &mut faults);
-    let variations = document.and_then(|d| record::<Variations>().read(&d, &mut faults));
-    faults.or(variations)
+pub fn load_variations(file: &Path, read: &ReadText<'_>) -> Result<Variations, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
+    let document = files::single(file, read, &mut errors);
+    let variations = document.and_then(|d| record::<Variations>().read(&d, &mut errors));
+    errors.into_result(variations)
 }
 
 /// Reads an EMVA 1288 data sheet.
 ///
 /// # Errors
 /// All errors of the file.
-pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Faults> {
-    let mut faults = Faults::none();
-    let document = files::single(file, read, &mut faults);
-    let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut faults));
-    faults.or(sheet)
+pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
+    let document = files::single(file, read, &mut errors);
+    let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut errors));
+    errors.into_result(sheet)
 }
 
 /// Reads a laboratory file.
 ///
 /// # Errors
 /// All errors of the file.
-pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, Faults> {
-    let mut faults = Faults::none();
-    let document = files::single(file, read, &mut faults);
-    let laboratory = document.and_then(|d| record::<Laboratory>().read(&d, &mut faults));
-    faults.or(laboratory)
+pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, DescriptionErrors> {
+    let mut errors = DescriptionErrors::none();
+    let document = files::single(file, read, &mut errors);
+    let laboratory = document.and_then(|d| record::<Laboratory>().read(&d, &mut errors));
+    errors.into_result(laboratory)
 }
 
 /// Returns the keys of `[render]` that the job in `file` states, for all cameras or for `camera`, as dotted keys of the job: `render.spp`,
 /// `cameras.front.render.spp`. An unreadable file gives none; [`Description::load`] reports the cause.
 #[must_use]
 pub fn stated_render_keys(file: &Path, camera: &str, read: &ReadText<'_>) -> Vec<String> {
-    let Some(job) = files::job(file, read, &Overrides::default(), &mut Faults::none()) else { return Vec::new() };
+    let Some(job) = files::job(file, read, &Overrides::default(), &mut DescriptionErrors::none()) else { return Vec::new() };
     let keys = |node: &Node, prefix: &str| -> Vec<String> {
         let render = node.as_table().and_then(|table| table.get("render")).and_then(Node::as_table);
         let keys = render.map(|render| render.entries.iter().map(|entry| format!("{prefix}render.{}", entry.key)));

@@ -2,27 +2,27 @@
 
 use std::collections::BTreeMap;
 
-use super::usage::Unused;
+use super::usage::UnusedNames;
 use crate::asset::file_list::{FileList, NamesFiles as _};
-use crate::asset::{AssetKind, AssetRequest, Covered, LensQuantity, Values};
+use crate::asset::{AssetKind, AssetRequest, ReplacedMaterials, LensQuantity, SpectrumValues};
 use crate::record::effects::ModulationSource;
 use crate::record::front::mirror::{Finish, MirrorShape};
-use crate::record::lens::calibrated::{IlluminationSource, View};
-use crate::record::lens::prescription::{IrCutCurve, Source};
+use crate::record::lens::calibrated::{IlluminationSource, PixelDirections};
+use crate::record::lens::prescription::{IrCutCurve, SurfaceListSource};
 use crate::record::sensor::QuantumEfficiency;
 use crate::record::weather::Weather;
-use crate::record::{Body, Camera, Course, Environment, Front, Lens, Light, Object, Pose, Processing, Scene};
+use crate::record::{Body, Camera, MotionKeys, Environment, ExternalOptics, Lens, Light, Object, Pose, Processing, Scene};
 
 /// Returns every named file, each once.
 pub(crate) fn requests<'d>(
     scene: &Scene,
-    unused: &Unused,
+    unused: &UnusedNames,
     cameras: impl Iterator<Item = (&'d Camera, &'d Pose)>,
 ) -> Vec<AssetRequest> {
     let mut files = FileList::default();
-    let covered = covered(scene);
+    let covered = replaced_materials(scene);
     for mesh in scene.meshes.iter().filter(|m| !unused.meshes.contains(&m.name.value)) {
-        let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(Covered::All);
+        let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(ReplacedMaterials::All);
         files.mesh(&mesh.file(), covered);
         let frames = mesh.animation().into_iter().flat_map(|animation| animation.frame_files());
         frames.for_each(|file| files.add(AssetKind::MeshFrame, &file));
@@ -32,41 +32,41 @@ pub(crate) fn requests<'d>(
     let materials = scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value));
     materials.for_each(|m| m.name_files(&mut files));
     let frames = scene.frames.iter().filter(|f| !unused.frames.contains(&f.name.value));
-    frames.for_each(|f| course(f.course.as_ref(), &mut files));
-    scene.objects.iter().for_each(|o| course(o.course.as_ref(), &mut files));
+    frames.for_each(|f| motion_files(f.course.as_ref(), &mut files));
+    scene.objects.iter().for_each(|o| motion_files(o.course.as_ref(), &mut files));
     scene.lights.iter().for_each(|l| light(l, &mut files));
     scene.media.iter().for_each(|m| m.name_files(&mut files));
     scene.environment.iter().for_each(|e| environment(e, &mut files));
     for (record, pose) in cameras {
         camera(record, &mut files);
-        course(pose.course.as_ref(), &mut files);
+        motion_files(pose.course.as_ref(), &mut files);
     }
     files.into_requests()
 }
 
 /// Materials of each mesh's file that all objects of the mesh override, by the mesh's name.
-fn covered(scene: &Scene) -> BTreeMap<&str, Covered> {
-    let mut covered: BTreeMap<&str, Covered> = BTreeMap::new();
+fn replaced_materials(scene: &Scene) -> BTreeMap<&str, ReplacedMaterials> {
+    let mut covered: BTreeMap<&str, ReplacedMaterials> = BTreeMap::new();
     for object in &scene.objects {
         if let Body::Mesh(name) = &object.body {
-            let before = covered.remove(name.as_str()).unwrap_or(Covered::All);
-            covered.insert(name, before.and(covered_by(object)));
+            let before = covered.remove(name.as_str()).unwrap_or(ReplacedMaterials::All);
+            covered.insert(name, before.and(replaced_by(object)));
         }
     }
     covered
 }
 
 /// Materials of the mesh's file that one object overrides.
-fn covered_by(object: &Object) -> Covered {
+fn replaced_by(object: &Object) -> ReplacedMaterials {
     match &object.material {
-        Some(_) => Covered::All,
-        None => Covered::Slots(object.materials.iter().map(|(slot, _)| slot.value.clone()).collect()),
+        Some(_) => ReplacedMaterials::All,
+        None => ReplacedMaterials::Slots(object.materials.iter().map(|(slot, _)| slot.value.clone()).collect()),
     }
 }
 
 /// Returns every file that a camera names, each once.
 #[must_use]
-pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
+pub fn camera_files(camera: &Camera) -> Vec<AssetRequest> {
     let mut files = FileList::default();
     self::camera(camera, &mut files);
     files.into_requests()
@@ -74,19 +74,19 @@ pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
 
 /// Returns every file that a weather file names, each once.
 #[must_use]
-pub fn of_weather(weather: &Weather) -> Vec<AssetRequest> {
+pub fn weather_files(weather: &Weather) -> Vec<AssetRequest> {
     let mut files = FileList::default();
     weather.name_files(&mut files);
     files.into_requests()
 }
 
-fn course(course: Option<&Course>, files: &mut FileList) {
-    let trajectory = course.and_then(|course| course.trajectory.as_ref());
+fn motion_files(motion_keys: Option<&MotionKeys>, files: &mut FileList) {
+    let trajectory = motion_keys.and_then(|motion_keys| motion_keys.trajectory.as_ref());
     trajectory.into_iter().for_each(|trajectory| files.add(AssetKind::Trajectory, &trajectory.file));
 }
 
 fn light(light: &Light, files: &mut FileList) {
-    course(light.placement().and_then(|placement| placement.course.as_ref()), files);
+    motion_files(light.placement().and_then(|placement| placement.course.as_ref()), files);
     let mask = match light {
         Light::Sun(_) => None,
         Light::Point(lamp) => lamp.mask.as_ref(),
@@ -114,16 +114,16 @@ fn lens(lens: &Lens, files: &mut FileList) {
     match lens {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {}
         Lens::Prescription(lens) => {
-            if let Source::File(file) = &lens.source {
+            if let SurfaceListSource::File(file) = &lens.source {
                 files.add(AssetKind::Prescription, file);
             }
             if let Some(IrCutCurve::Spectrum(file)) = lens.ir_cut.as_ref().map(|filter| &filter.normal) {
-                files.add(AssetKind::Spectrum(Values::Share), file);
+                files.add(AssetKind::Spectrum(SpectrumValues::Share), file);
             }
         }
         Lens::RayTransfer(lens) => files.add(AssetKind::RayTransfer, &lens.file),
         Lens::Calibrated(lens) => {
-            if let View::Calibration(calibration) = &lens.view {
+            if let PixelDirections::Calibration(calibration) = &lens.view {
                 files.add(AssetKind::Calibration(calibration.camera_in_file()), &calibration.file);
             }
             if let Some(file) = lens.view.projection_file() {
@@ -137,15 +137,15 @@ fn lens(lens: &Lens, files: &mut FileList) {
     }
 }
 
-fn front(front: &Front, files: &mut FileList) {
+fn front(front: &ExternalOptics, files: &mut FileList) {
     if let Some(glass) = &front.windscreen {
-        glass.layers.iter().flatten().for_each(|layer| layer.index.name_file(Values::Index, files));
+        glass.layers.iter().flatten().for_each(|layer| layer.index.name_file(SpectrumValues::Index, files));
         glass.internal_transmittance.name_files(files);
     }
     front.dirt.iter().for_each(|dirt| files.add(AssetKind::Image, &dirt.mask));
     if let Some(mirror) = &front.mirror {
         if let MirrorShape::Mesh(mesh) = &mirror.shape {
-            files.mesh(&mesh.file, Covered::All);
+            files.mesh(&mesh.file, ReplacedMaterials::All);
         }
         match &mirror.finish {
             Finish::Share(colour) => colour.name_files(files),
@@ -166,9 +166,9 @@ fn camera(camera: &Camera, files: &mut FileList) {
     psf.into_iter().flat_map(|psf| &psf.files).for_each(|file| files.add(AssetKind::PointSpread, file));
     camera.isp.iter().flat_map(Processing::files).for_each(|file| files.add(AssetKind::Numbers, file));
     match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
-        Some(QuantumEfficiency::Same(curve)) => curve.name_file(Values::Share, files),
-        Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| c.name_file(Values::Share, files)),
-        Some(QuantumEfficiency::Named(list)) => list.iter().for_each(|(_, c)| c.name_file(Values::Share, files)),
+        Some(QuantumEfficiency::Same(curve)) => curve.name_file(SpectrumValues::Share, files),
+        Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| c.name_file(SpectrumValues::Share, files)),
+        Some(QuantumEfficiency::Named(list)) => list.iter().for_each(|(_, c)| c.name_file(SpectrumValues::Share, files)),
         Some(QuantumEfficiency::Measured { .. }) | None => {}
     }
 }

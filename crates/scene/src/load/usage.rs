@@ -4,13 +4,13 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::asset::file_list::names_files;
-use crate::fault::Named;
+use crate::fault::NameKind;
 use crate::place::{Place, Placed};
 use crate::record::{Material, Scene};
 
 /// Names of a scene that no visible object depends on. Their files are not read and need not exist.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Unused {
+pub struct UnusedNames {
     /// Meshes of no object.
     pub meshes: BTreeSet<String>,
     /// Textures that nothing visible uses.
@@ -24,19 +24,19 @@ pub struct Unused {
 }
 
 /// A use of a name: its kind, and its place.
-pub(super) type Use = (Named, Placed<String>);
+pub(super) type NameUse = (NameKind, Placed<String>);
 
-impl Unused {
+impl UnusedNames {
     /// Follows the `uses` of names from every record that is no material or frame.
-    pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
-        let materials = scene.materials.iter().map(|m| (m.place.key(), (Named::Material, m.name.value.as_str())));
-        let frames = scene.frames.iter().map(|f| (f.place.key(), (Named::Frame, f.name.value.as_str())));
-        let owners: BTreeMap<Cow<'_, str>, Owner<'_>> = materials.chain(frames).collect();
-        let mut by_owner: BTreeMap<Option<Owner<'_>>, Vec<&Use>> = BTreeMap::new();
+    pub(super) fn new(scene: &Scene, uses: &[NameUse]) -> Self {
+        let materials = scene.materials.iter().map(|m| (m.place.key(), (NameKind::Material, m.name.value.as_str())));
+        let frames = scene.frames.iter().map(|f| (f.place.key(), (NameKind::Frame, f.name.value.as_str())));
+        let owners: BTreeMap<Cow<'_, str>, NameOwner<'_>> = materials.chain(frames).collect();
+        let mut by_owner: BTreeMap<Option<NameOwner<'_>>, Vec<&NameUse>> = BTreeMap::new();
         for named in uses {
             by_owner.entry(owner(&owners, &named.1.place)).or_default().push(named);
         }
-        let mut used: BTreeSet<(Named, &str)> = BTreeSet::new();
+        let mut used: BTreeSet<(NameKind, &str)> = BTreeSet::new();
         let mut open = by_owner.get(&None).cloned().unwrap_or_default();
         while let Some((named, name)) = open.pop() {
             if used.insert((*named, name.as_str())) {
@@ -46,33 +46,33 @@ impl Unused {
         let rest = |named, names: &mut dyn Iterator<Item = &Placed<String>>| {
             names.filter(|name| !used.contains(&(named, name.as_str()))).map(|name| name.value.clone()).collect()
         };
-        let materials: BTreeSet<String> = rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name));
+        let materials: BTreeSet<String> = rest(NameKind::Material, &mut scene.materials.iter().map(|m| &m.name));
         let has_texture = |name: &str| {
-            by_owner.get(&Some((Named::Material, name))).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture))
+            by_owner.get(&Some((NameKind::Material, name))).is_some_and(|uses| uses.iter().any(|u| u.0 == NameKind::Texture))
         };
         let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(*m));
         Self {
             unread: scene.materials.iter().filter(is_unread).map(|m| m.name.value.clone()).collect(),
-            meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
-            textures: rest(Named::Texture, &mut scene.textures.iter().map(|t| &t.name)),
-            frames: rest(Named::Frame, &mut scene.frames.iter().map(|f| &f.name)),
+            meshes: rest(NameKind::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
+            textures: rest(NameKind::Texture, &mut scene.textures.iter().map(|t| &t.name)),
+            frames: rest(NameKind::Frame, &mut scene.frames.iter().map(|f| &f.name)),
             materials,
         }
     }
 
     /// One sentence for each kind with unused names.
     #[must_use]
-    pub fn remarks(&self) -> Vec<String> {
-        let told = |names: &BTreeSet<String>, one: &str, many: &str| match names.len() {
+    pub fn notes(&self) -> Vec<String> {
+        let note = |names: &BTreeSet<String>, one: &str, many: &str| match names.len() {
             0 => None,
             1 => Some(format!("not read: {one}: {}", listed(names))),
             count => Some(format!("not read: {count} {many}: {}", listed(names))),
         };
         let kinds = [
-            told(&self.meshes, "the mesh that no object uses", "meshes that no object uses"),
-            told(&self.materials, "the material that no object uses", "materials that no object uses"),
-            told(&self.textures, "the texture that no used material has", "textures that no used material has"),
-            told(&self.frames, "the frame that nothing is attached to", "frames that nothing is attached to"),
+            note(&self.meshes, "the mesh that no object uses", "meshes that no object uses"),
+            note(&self.materials, "the material that no object uses", "materials that no object uses"),
+            note(&self.textures, "the texture that no used material has", "textures that no used material has"),
+            note(&self.frames, "the frame that nothing is attached to", "frames that nothing is attached to"),
         ];
         kinds.into_iter().flatten().collect()
     }
@@ -80,17 +80,17 @@ impl Unused {
 
 /// The first names.
 fn listed(names: &BTreeSet<String>) -> String {
-    const SHOWN: usize = 6;
-    let first: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
-    let more = if names.len() > SHOWN { ", …" } else { "" };
+    const MAX_LISTED_NAMES: usize = 6;
+    let first: Vec<&str> = names.iter().take(MAX_LISTED_NAMES).map(String::as_str).collect();
+    let more = if names.len() > MAX_LISTED_NAMES { ", …" } else { "" };
     format!("{}{more}", first.join(", "))
 }
 
 /// Owner of names that count only if it is used itself: a material or a frame, by its name.
-type Owner<'a> = (Named, &'a str);
+type NameOwner<'a> = (NameKind, &'a str);
 
 /// Returns the material or frame whose keys include `place`.
-fn owner<'m>(materials: &BTreeMap<Cow<'_, str>, Owner<'m>>, place: &Place) -> Option<Owner<'m>> {
+fn owner<'m>(materials: &BTreeMap<Cow<'_, str>, NameOwner<'m>>, place: &Place) -> Option<NameOwner<'m>> {
     let key = place.key();
     // Names may contain dots ("wood", "wood.001"): the longest match.
     key.rmatch_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use crate::document::{Entry, Node, Table, Value, parse};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Place;
 use crate::reader::word;
 
@@ -28,7 +28,7 @@ pub struct Preset {
     /// Name.
     pub name: String,
     /// Description, one sentence.
-    pub about: String,
+    pub description: String,
     /// Source of its values.
     pub source: String,
     /// Its keys and values, in the words of the format.
@@ -36,10 +36,10 @@ pub struct Preset {
 }
 
 static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
-    let mut faults = Faults::none();
-    let tree = parse(&Arc::from(Path::new("materials.toml")), MATERIALS, &mut faults);
+    let mut errors = DescriptionErrors::none();
+    let tree = parse(&Arc::from(Path::new("materials.toml")), MATERIALS, &mut errors);
     let entries = tree.as_table().map_or(&[][..], |t| &t.entries);
-    entries.iter().map(|entry| Preset::of(&entry.key, &entry.node)).collect()
+    entries.iter().map(|entry| Preset::new(&entry.key, &entry.node)).collect()
 });
 
 /// All built-in materials.
@@ -55,36 +55,36 @@ pub fn names() -> Vec<&'static str> {
 }
 
 impl Preset {
-    fn of(name: &str, node: &Node) -> Self {
+    fn new(name: &str, node: &Node) -> Self {
         let mut keys = node.as_table().cloned().unwrap_or_default();
         let mut words = |key: &str| {
             let entry = keys.remove(key);
             entry.and_then(|e| e.node.as_text().map(str::to_owned)).unwrap_or_default()
         };
-        let (about, source) = (words("about"), words("source"));
-        Self { name: name.to_owned(), about, source, keys }
+        let (description, source) = (words("about"), words("source"));
+        Self { name: name.to_owned(), description: about: description, source, keys }
     }
 
     /// Its keys and values, in the words of the format: `type = "conductor"`, …
-    pub fn said(&self) -> impl Iterator<Item = String> {
+    pub fn keys_and_values(&self) -> impl Iterator<Item = String> {
         self.keys.entries.iter().map(|e| format!("{} = {}", e.key, e.node.written()))
     }
 }
 
 /// Expands the preset of every material of the scene.
-pub(crate) fn spell_out(document: &mut Node, faults: &mut Faults) {
+pub(crate) fn expand(document: &mut Node, errors: &mut DescriptionErrors) {
     let scene = document.as_table_mut().and_then(|job| job.get_mut("scene"));
     let materials = scene.and_then(Node::as_table_mut).and_then(|scene| scene.get_mut("materials"));
     if let Some(Node { value: Value::List(materials), .. }) = materials {
-        materials.iter_mut().filter_map(Node::as_table_mut).for_each(|material| spell_out_material(material, faults));
+        materials.iter_mut().filter_map(Node::as_table_mut).for_each(|material| spell_out_material(material, errors));
     }
 }
 
-fn spell_out_material(material: &mut Table, faults: &mut Faults) {
+fn spell_out_material(material: &mut Table, errors: &mut DescriptionErrors) {
     let Some(named) = material.remove("preset") else { return };
     if let Some(kind) = material.entries.iter().find(|e| e.key == "type") {
         let problem = format!("\"preset\" contradicts \"type\" ({})", kind.place);
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             &named.place,
             problem,
@@ -92,12 +92,12 @@ fn spell_out_material(material: &mut Table, faults: &mut Faults) {
         );
         return;
     }
-    let found = word(&named.node, &names(), faults).and_then(|name| all().iter().find(|p| p.name == name));
+    let found = word(&named.node, &names(), errors).and_then(|name| all().iter().find(|p| p.name == name));
     match found {
         Some(preset) => {
-            let said = preset.keys.entries.iter().filter(|e| !is_given(material, &e.key));
-            let said: Vec<_> = said.map(|e| e.moved_to(&named.node.place)).collect();
-            material.entries.extend(said);
+            let preset_entries = preset.keys.entries.iter().filter(|e| !is_given(material, &e.key));
+            let entries: Vec<_> = preset_entries.map(|e| e.with_place(&named.node.place)).collect();
+            material.entries.extend(entries);
         }
         // A material of unknown kind cannot be checked further.
         None => material.entries.push(Entry {
@@ -116,17 +116,17 @@ fn is_given(material: &Table, key: &str) -> bool {
 
 impl Entry {
     /// Returns a copy with the place `place` throughout.
-    fn moved_to(&self, place: &Place) -> Self {
-        Self { key: self.key.clone(), place: place.clone(), node: self.node.moved_to(place) }
+    fn with_place(&self, place: &Place) -> Self {
+        Self { key: self.key.clone(), place: place.clone(), node: self.node.with_place(place) }
     }
 }
 
 impl Node {
-    fn moved_to(&self, place: &Place) -> Self {
+    fn with_place(&self, place: &Place) -> Self {
         let value = match &self.value {
-            Value::List(list) => Value::List(list.iter().map(|n| n.moved_to(place)).collect()),
+            Value::List(list) => Value::List(list.iter().map(|n| n.with_place(place)).collect()),
             Value::Table(table) => {
-                Value::Table(Table { entries: table.entries.iter().map(|e| e.moved_to(place)).collect() })
+                Value::Table(Table { entries: table.entries.iter().map(|e| e.with_place(place)).collect() })
             }
             other => other.clone(),
         };
@@ -139,8 +139,8 @@ impl Node {
             Value::Text(text) => format!("\"{text}\""),
             Value::List(list) => format!("[{}]", list.iter().map(Self::written).collect::<Vec<_>>().join(", ")),
             Value::Table(table) => {
-                let said = table.entries.iter().map(|e| format!("{} = {}", e.key, e.node.written()));
-                format!("{{ {} }}", said.collect::<Vec<_>>().join(", "))
+                let entries = table.entries.iter().map(|e| format!("{} = {}", e.key, e.node.written()));
+                format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
             }
             _ => self.describe(),
         }
@@ -154,39 +154,39 @@ mod tests {
     #[test]
     fn every_preset_says_what_it_is_where_from_and_of_what_type() {
         assert!(all().len() > 10, "the file was read");
-        for Preset { name, about, source, keys } in all() {
-            assert!(about.ends_with('.') && !source.is_empty(), "{name}");
+        for Preset { name, description, source, keys } in all() {
+            assert!(description.ends_with('.') && !source.is_empty(), "{name}");
             assert!(keys.get("type").is_some(), "{name}");
         }
     }
 
-    fn spelt_out(material: &str) -> (Table, Vec<String>) {
-        let mut faults = Faults::none();
+    fn expanded(material: &str) -> (Table, Vec<String>) {
+        let mut errors = DescriptionErrors::none();
         let text = format!("[[scene.materials]]\nname = \"m\"\n{material}");
-        let mut tree = parse(&Arc::from(Path::new("job.toml")), &text, &mut faults);
-        spell_out(&mut tree, &mut faults);
+        let mut tree = parse(&Arc::from(Path::new("job.toml")), &text, &mut errors);
+        expand(&mut tree, &mut errors);
         let scene = tree.as_table().and_then(|t| t.get("scene")).and_then(Node::as_table).expect("the scene");
         let table = scene.get("materials").expect("materials").as_list()[0].as_table().expect("a table").clone();
-        (table, faults.list().iter().map(ToString::to_string).collect())
+        (table, errors.as_slice().iter().map(ToString::to_string).collect())
     }
 
     #[test]
     fn keys_beside_a_preset_take_the_place_of_its_own() {
-        let (table, faults) = spelt_out("preset = \"chrome\"\nalpha = 0.3");
-        assert!(faults.is_empty(), "{faults:?}");
+        let (table, errors) = expanded("preset = \"chrome\"\nalpha = 0.3");
+        assert!(errors.is_empty(), "{errors:?}");
         assert_eq!(table.get("alpha").map(Node::describe), Some("0.3".to_owned()));
         let metal = table.get("metal").expect("of the preset");
         assert_eq!((metal.describe(), metal.place.line_column()), ("the text \"Cr\"".to_owned(), Some((3, 10))));
-        let (table, _) = spelt_out("preset = \"chrome\"\nindex_file = \"nickel.csv\"");
+        let (table, _) = expanded("preset = \"chrome\"\nindex_file = \"nickel.csv\"");
         assert!(table.get("metal").is_none(), "a file of n and k says which metal");
     }
 
     #[test]
     fn presets_that_are_none_and_types_beside_them() {
-        let (_, faults) = spelt_out("preset = \"crome\"");
-        assert!(faults.len() == 1 && faults[0].contains("did you mean \"chrome\"?"), "{faults:?}");
-        let (_, faults) = spelt_out("type = \"diffuse\"\npreset = \"chrome\"");
+        let (_, errors) = expanded("preset = \"crome\"");
+        assert!(errors.len() == 1 && errors[0].contains("did you mean \"chrome\"?"), "{errors:?}");
+        let (_, errors) = expanded("type = \"diffuse\"\npreset = \"chrome\"");
         let both = "job.toml:4:1: scene.materials.m.preset: \"preset\" contradicts \"type\" (job.toml:3:1: scene.materials.m.type)";
-        assert!(faults.len() == 1 && faults[0].starts_with(both), "{faults:?}");
+        assert!(errors.len() == 1 && errors[0].starts_with(both), "{errors:?}");
     }
 }

@@ -2,28 +2,28 @@
 
 use serde_json::{Value as Json, json};
 
-use super::rule::{Kind, Rule};
+use super::rule::{ValueKind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::written::{Item, Table, Value as Said};
 
 /// The rule of a value of another file's key, which checks its kind and range.
-pub(crate) const fn any_value() -> AnyValue {
-    AnyValue
+pub(crate) const fn any_value() -> AnyValueRule {
+    AnyValueRule
 }
 
 /// Returns a value unchanged, whatever its key; `None` if it is not a value of the format.
 pub(crate) fn unread_item(node: &Node) -> Option<Item> {
-    AnyValue.read(node, &mut Faults::none())
+    AnyValueRule.read(node, &mut DescriptionErrors::none())
 }
 
 /// See [`any_value`].
-pub(crate) struct AnyValue;
+pub(crate) struct AnyValueRule;
 
-impl Rule for AnyValue {
+impl Rule for AnyValueRule {
     type Out = Item;
-    fn takes(&self, kind: Kind) -> bool {
-        kind != Kind::Foreign
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind != ValueKind::Foreign
     }
     fn expected(&self) -> String {
         "a value that the key accepts".to_owned()
@@ -31,22 +31,22 @@ impl Rule for AnyValue {
     fn schema(&self) -> Json {
         json!({})
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Item> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Item> {
         let value = match &node.value {
             Value::Flag(flag) => Said::Flag(*flag),
             Value::Whole(number) => u64::try_from(*number).map_or(Said::Number(*number as f64), Said::Whole),
             Value::Number(number) if number.is_finite() => Said::Number(*number),
             Value::Text(text) => Said::Text(text.clone()),
             Value::Moment(text) => Said::Moment(text.clone()),
-            Value::List(list) => Said::List(list.iter().map(|entry| self.read(entry, faults)).collect::<Option<_>>()?),
+            Value::List(list) => Said::List(list.iter().map(|entry| self.read(entry, errors)).collect::<Option<_>>()?),
             Value::Table(table) => {
-                let mut said = Table::new().in_line();
+                let mut written = Table::new().in_line();
                 for entry in &table.entries {
-                    said.put(&entry.key, self.read(&entry.node, faults)?);
+                    written.put(&entry.key, self.read(&entry.node, errors)?);
                 }
-                Said::Table(said)
+                Said::Table(written)
             }
-            Value::Number(_) | Value::Foreign(_) | Value::Unreadable => return self.refuse(node, faults),
+            Value::Number(_) | Value::Foreign(_) | Value::Unreadable => return self.refuse(node, errors),
         };
         Some(Item::at(&node.place, value))
     }

@@ -326,24 +326,24 @@ pub(crate) use {as_table, constructor, field, keyed, record, variant, variants};
 use super::rule::Rule;
 use super::table::{Form, Key, Reader};
 use super::word::{one_of, quoted, word};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::written::Table;
 
 /// Adds a key to each form.
 pub(crate) fn with_key<T, R: Rule<Out = T>>(
     forms: Vec<Form>,
     name: &'static str,
-    must: bool,
-    about: &str,
+    is_required: bool,
+    description: &str,
     rule: &R,
 ) -> Vec<Form> {
-    let key = key_of(name, must, about, rule);
+    let key = key_of(name, is_required, description, rule);
     forms.into_iter().map(|f| f.with(key.clone())).collect()
 }
 
 /// A key of a rule's values.
-pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, must: bool, about: &str, rule: &R) -> Key {
-    Key::new(name, must, about, rule.schema())
+pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, is_required: bool, description: &str, rule: &R) -> Key {
+    Key::new(name, is_required, description, rule.schema())
 }
 
 /// Writes a key by its rule. The rule reads every value of its record: one that cannot be written is a bug of the program.
@@ -357,36 +357,36 @@ pub(crate) fn variant_word<'t>(
     reader: &mut Reader<'t>,
     by: &str,
     words: &[&str],
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) -> Option<&'t str> {
-    let found = match reader.take(by) {
-        Some(node) => word(node, words, faults),
+    let variant = match reader.take(by) {
+        Some(node) => word(node, words, errors),
         None => {
             let remedy = format!("add it: {}", one_of(words));
-            faults.add_missing(reader.place(), by, remedy);
+            errors.add_missing(reader.place(), by, remedy);
             None
         }
     };
-    if found.is_none() {
-        reader.give_up();
+    if variant.is_none() {
+        reader.mark_all_read();
     }
-    found
+    variant
 }
 
 /// Returns the one of `keys` that is given.
-pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], faults: &mut Faults) -> Option<&'k str> {
-    let given: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
-    if let [only] = given.as_slice() {
+pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], errors: &mut DescriptionErrors) -> Option<&'k str> {
+    let present: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
+    if let [only] = present.as_slice() {
         return Some(only);
     }
-    for key in &given {
+    for key in &present {
         reader.take(key);
     }
-    let place = given.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
-    let (code, problem) = match given.as_slice() {
+    let place = present.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
+    let (code, problem) = match present.as_slice() {
         [] => (ErrorCode::MissingKey, "a key is missing".to_owned()),
-        _ => (ErrorCode::Contradiction, format!("{} contradict each other", quoted(&given))),
+        _ => (ErrorCode::Contradiction, format!("{} contradict each other", quoted(&present))),
     };
-    faults.add(code, place, problem, format!("give exactly one of {}", quoted(keys)));
+    errors.add(code, place, problem, format!("give exactly one of {}", quoted(keys)));
     None
 }

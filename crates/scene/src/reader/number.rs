@@ -2,44 +2,44 @@
 
 use serde_json::{Value as Json, json};
 
-use super::rule::{Kind, Rule};
+use super::rule::{ValueKind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::written::{Item, Value as WrittenValue};
 use etendue_core::ExactTime;
 
 /// A finite number; `unit` appears in errors of a missing or wrong value ("" for a pure number).
-pub(crate) const fn number(unit: &'static str) -> Number {
-    Number { unit, low: None, high: None }
+pub(crate) const fn number(unit: &'static str) -> NumberRule {
+    NumberRule { unit, low: None, high: None }
 }
 
 /// See [`number`].
 #[derive(Clone, Copy)]
-pub(crate) struct Number {
+pub(crate) struct NumberRule {
     unit: &'static str,
-    low: Option<Bound>,
-    high: Option<Bound>,
+    low: Option<NumberBound>,
+    high: Option<NumberBound>,
 }
 
 #[derive(Clone, Copy)]
-struct Bound {
+struct NumberBound {
     value: f64,
     included: bool,
 }
 
-impl Number {
+impl NumberRule {
     /// Sets a lower bound, excluding `value`.
     pub(crate) const fn above(self, value: f64) -> Self {
-        Self { low: Some(Bound { value, included: false }), ..self }
+        Self { low: Some(NumberBound { value, included: false }), ..self }
     }
     /// Sets a lower bound, including `value`.
     pub(crate) const fn at_least(self, value: f64) -> Self {
-        Self { low: Some(Bound { value, included: true }), ..self }
+        Self { low: Some(NumberBound { value, included: true }), ..self }
     }
     /// Sets an upper bound, including `value`.
     pub(crate) const fn at_most(self, value: f64) -> Self {
-        Self { high: Some(Bound { value, included: true }), ..self }
+        Self { high: Some(NumberBound { value, included: true }), ..self }
     }
 
     fn admits(&self, v: f64) -> bool {
@@ -59,10 +59,10 @@ impl Number {
     }
 }
 
-impl Rule for Number {
+impl Rule for NumberRule {
     type Out = Placed<f64>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Number
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Number
     }
     fn expected(&self) -> String {
         format!("a {}", self.words())
@@ -80,10 +80,10 @@ impl Rule for Number {
         }
         schema
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<f64>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<f64>> {
         match as_f64(node).filter(|v| self.admits(*v)) {
             Some(v) => Some(Placed::new(v, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<f64>) -> Option<Item> {
@@ -92,18 +92,18 @@ impl Rule for Number {
 }
 
 /// A percentile, above 1 and at most 100. A smaller number is refused, because it reads as a fraction and would silently mean something else.
-pub(crate) const fn percentile() -> Percentile {
-    Percentile(Number { unit: "", low: Some(Bound { value: 1.0, included: false }), high: None }.at_most(100.0))
+pub(crate) const fn percentile() -> PercentileRule {
+    PercentileRule(NumberRule { unit: "", low: Some(NumberBound { value: 1.0, included: false }), high: None }.at_most(100.0))
 }
 
 /// See [`percentile`].
 #[derive(Clone, Copy)]
-pub(crate) struct Percentile(Number);
+pub(crate) struct PercentileRule(NumberRule);
 
-impl Rule for Percentile {
+impl Rule for PercentileRule {
     type Out = Placed<f64>;
-    fn takes(&self, kind: Kind) -> bool {
-        self.0.takes(kind)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        self.0.accepts(kind)
     }
     fn expected(&self) -> String {
         "a percentile above 1 and at most 100".to_owned()
@@ -111,12 +111,12 @@ impl Rule for Percentile {
     fn schema(&self) -> Json {
         self.0.schema()
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<f64>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<f64>> {
         match as_f64(node).filter(|v| *v > 0.0 && *v <= 1.0) {
-            Some(share) => {
-                let percent = (share * 1e8).round() / 1e6;
-                let problem = format!("found {share}, which looks like a fraction; percentiles are from 0 to 100");
-                faults.add(
+            Some(fraction) => {
+                let percent = (fraction * 1e8).round() / 1e6;
+                let problem = format!("found {fraction}, which looks like a fraction; percentiles are from 0 to 100");
+                errors.add(
                     ErrorCode::OutOfRange,
                     &node.place,
                     problem,
@@ -124,7 +124,7 @@ impl Rule for Percentile {
                 );
                 None
             }
-            None => self.0.read(node, faults),
+            None => self.0.read(node, errors),
         }
     }
     fn write(&self, value: &Placed<f64>) -> Option<Item> {
@@ -146,18 +146,18 @@ fn as_f64(node: &Node) -> Option<f64> {
 }
 
 /// A time in seconds, as a number or as text, which is exact far from zero.
-pub(crate) const fn time() -> Time {
-    Time
+pub(crate) const fn time() -> ExactTimeRule {
+    ExactTimeRule
 }
 
 /// See [`time`].
 #[derive(Clone, Copy)]
-pub(crate) struct Time;
+pub(crate) struct ExactTimeRule;
 
-impl Rule for Time {
+impl Rule for ExactTimeRule {
     type Out = Placed<ExactTime>;
-    fn takes(&self, kind: Kind) -> bool {
-        matches!(kind, Kind::Number | Kind::Text)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        matches!(kind, ValueKind::Number | ValueKind::Text)
     }
     fn expected(&self) -> String {
         "a time (s) from -1e15 to 1e15, as a number or as text, \"1700000000.0000001\"".to_owned()
@@ -166,14 +166,14 @@ impl Rule for Time {
         let digits = json!({ "type": "string", "examples": ["1700000000.0000001"] });
         json!({ "anyOf": [number("s").schema(), digits] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out> {
         let read = match &node.value {
             Value::Text(text) => text.parse().ok(),
             _ => as_f64(node).and_then(ExactTime::from_seconds),
         };
         match read {
             Some(time) => Some(Placed::new(time, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {
@@ -186,21 +186,21 @@ impl Rule for Time {
 }
 
 /// A whole number from `low` to `high`.
-pub(crate) const fn whole(low: u64, high: u64) -> Whole {
-    Whole { low, high }
+pub(crate) const fn whole(low: u64, high: u64) -> IntegerRule {
+    IntegerRule { low, high }
 }
 
 /// See [`whole`].
 #[derive(Clone, Copy)]
-pub(crate) struct Whole {
+pub(crate) struct IntegerRule {
     low: u64,
     high: u64,
 }
 
-impl Rule for Whole {
+impl Rule for IntegerRule {
     type Out = Placed<u64>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Number
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Number
     }
     fn expected(&self) -> String {
         format!("a whole number from {} to {}", self.low, self.high)
@@ -208,10 +208,10 @@ impl Rule for Whole {
     fn schema(&self) -> Json {
         json!({ "type": "integer", "minimum": self.low, "maximum": self.high })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<u64>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<u64>> {
         match as_u64(node).filter(|v| (self.low..=self.high).contains(v)) {
             Some(v) => Some(Placed::new(v, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<u64>) -> Option<Item> {
@@ -220,20 +220,20 @@ impl Rule for Whole {
 }
 
 /// One of a few whole numbers.
-pub(crate) const fn among(values: &'static [u64]) -> Among {
-    Among { values }
+pub(crate) const fn among(values: &'static [u64]) -> OneOfRule {
+    OneOfRule { values }
 }
 
 /// See [`among`].
 #[derive(Clone, Copy)]
-pub(crate) struct Among {
+pub(crate) struct OneOfRule {
     values: &'static [u64],
 }
 
-impl Rule for Among {
+impl Rule for OneOfRule {
     type Out = Placed<u64>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Number
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Number
     }
     fn expected(&self) -> String {
         let values: Vec<_> = self.values.iter().map(u64::to_string).collect();
@@ -242,10 +242,10 @@ impl Rule for Among {
     fn schema(&self) -> Json {
         json!({ "enum": self.values })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<u64>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<u64>> {
         match as_u64(node).filter(|v| self.values.contains(v)) {
             Some(v) => Some(Placed::new(v, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<u64>) -> Option<Item> {
@@ -261,20 +261,20 @@ fn as_u64(node: &Node) -> Option<u64> {
 }
 
 /// A list of exactly `N` numbers.
-pub(crate) const fn vector<const N: usize>(of: Number) -> Vector<N> {
-    Vector { of }
+pub(crate) const fn vector<const N: usize>(of: NumberRule) -> VectorRule<N> {
+    VectorRule { of }
 }
 
 /// See [`vector`].
 #[derive(Clone, Copy)]
-pub(crate) struct Vector<const N: usize> {
-    of: Number,
+pub(crate) struct VectorRule<const N: usize> {
+    of: NumberRule,
 }
 
-impl<const N: usize> Rule for Vector<N> {
+impl<const N: usize> Rule for VectorRule<N> {
     type Out = Placed<[f64; N]>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::List
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::List
     }
     fn expected(&self) -> String {
         format!("a list of {N} numbers, each a {}", self.of.words())
@@ -282,11 +282,11 @@ impl<const N: usize> Rule for Vector<N> {
     fn schema(&self) -> Json {
         json!({ "type": "array", "items": self.of.schema(), "minItems": N, "maxItems": N })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
-        if Kind::of(node) != Kind::List || node.as_list().len() != N {
-            return self.refuse(node, faults);
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out> {
+        if ValueKind::from_node(node) != ValueKind::List || node.as_list().len() != N {
+            return self.refuse(node, errors);
         }
-        let read: Vec<f64> = node.as_list().iter().filter_map(|n| self.of.read(n, faults)).map(|v| v.value).collect();
+        let read: Vec<f64> = node.as_list().iter().filter_map(|n| self.of.read(n, errors)).map(|v| v.value).collect();
         Some(Placed::new(read.try_into().ok()?, node.place.clone()))
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {

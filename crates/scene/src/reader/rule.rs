@@ -6,13 +6,13 @@ use serde_json::{Value as Json, json};
 
 use super::table::{Reader, Record, record_schema};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::written::{Item, Table, Value as Said};
 
 /// Kind of a TOML value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum ValueKind {
     Flag,
     Number,
     Text,
@@ -22,8 +22,8 @@ pub(crate) enum Kind {
     Foreign,
 }
 
-impl Kind {
-    pub(crate) fn of(node: &Node) -> Self {
+impl ValueKind {
+    pub(crate) fn from_node(node: &Node) -> Self {
         match node.value {
             Value::Flag(_) => Self::Flag,
             Value::Whole(_) | Value::Number(_) => Self::Number,
@@ -41,31 +41,31 @@ pub(crate) trait Rule {
     /// Type of the result.
     type Out;
     /// True if the rule can read values of this kind.
-    fn takes(&self, kind: Kind) -> bool;
+    fn accepts(&self, kind: ValueKind) -> bool;
     /// The expected value, in words: "a number above 0".
     fn expected(&self) -> String;
     /// The JSON Schema of the value.
     fn schema(&self) -> Json;
     /// Reads the value; returns `None` after reporting at least one error.
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out>;
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out>;
     /// Converts the value to the form that [`Rule::read`] reads back; `None` if another rule reads such values.
     fn write(&self, value: &Self::Out) -> Option<Item>;
 
     /// Error code of a node that is not as the rule expects.
     fn code(&self, node: &Node) -> ErrorCode {
-        match Kind::of(node) {
-            Kind::Number if self.takes(Kind::Number) => ErrorCode::OutOfRange,
+        match ValueKind::from_node(node) {
+            ValueKind::Number if self.accepts(ValueKind::Number) => ErrorCode::OutOfRange,
             _ => ErrorCode::WrongType,
         }
     }
 
     /// Reports that the node is not as the rule expects.
-    fn refuse<T>(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+    fn refuse<T>(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<T> {
         if matches!(node.value, Value::Unreadable) {
             return None;
         }
         let expected = self.expected();
-        faults.add(self.code(node), &node.place, format!("found {}", node.describe()), format!("give {expected}"));
+        errors.add(self.code(node), &node.place, format!("found {}", node.describe()), format!("give {expected}"));
         None
     }
 }
@@ -73,24 +73,24 @@ pub(crate) trait Rule {
 /// Adaptors of rules.
 pub(crate) trait RuleExt: Rule + Sized {
     /// The rule with another result; `back` returns the original value, `None` for a result of another origin.
-    fn map<T>(self, f: fn(Self::Out) -> T, back: fn(&T) -> Option<Self::Out>) -> Mapped<Self, T> {
-        Mapped { rule: self, f, back }
+    fn map<T>(self, f: fn(Self::Out) -> T, back: fn(&T) -> Option<Self::Out>) -> MappedRule<Self, T> {
+        MappedRule { rule: self, f, back }
     }
 }
 
 impl<R: Rule> RuleExt for R {}
 
 /// See [`RuleExt::map`].
-pub(crate) struct Mapped<R: Rule, T> {
+pub(crate) struct MappedRule<R: Rule, T> {
     rule: R,
     f: fn(R::Out) -> T,
     back: fn(&T) -> Option<R::Out>,
 }
 
-impl<R: Rule, T> Rule for Mapped<R, T> {
+impl<R: Rule, T> Rule for MappedRule<R, T> {
     type Out = T;
-    fn takes(&self, kind: Kind) -> bool {
-        self.rule.takes(kind)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        self.rule.accepts(kind)
     }
     fn expected(&self) -> String {
         self.rule.expected()
@@ -98,8 +98,8 @@ impl<R: Rule, T> Rule for Mapped<R, T> {
     fn schema(&self) -> Json {
         self.rule.schema()
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
-        self.rule.read(node, faults).map(self.f)
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<T> {
+        self.rule.read(node, errors).map(self.f)
     }
     fn write(&self, value: &T) -> Option<Item> {
         self.rule.write(&(self.back)(value)?)
@@ -107,20 +107,20 @@ impl<R: Rule, T> Rule for Mapped<R, T> {
 }
 
 /// One of two rules, by the kind of the value.
-pub(crate) fn either<A: Rule, B: Rule<Out = A::Out>>(a: A, b: B) -> Either<A, B> {
-    Either { a, b }
+pub(crate) fn either<A: Rule, B: Rule<Out = A::Out>>(a: A, b: B) -> EitherRule<A, B> {
+    EitherRule { a, b }
 }
 
 /// See [`either`].
-pub(crate) struct Either<A, B> {
+pub(crate) struct EitherRule<A, B> {
     a: A,
     b: B,
 }
 
-impl<A: Rule, B: Rule<Out = A::Out>> Rule for Either<A, B> {
+impl<A: Rule, B: Rule<Out = A::Out>> Rule for EitherRule<A, B> {
     type Out = A::Out;
-    fn takes(&self, kind: Kind) -> bool {
-        self.a.takes(kind) || self.b.takes(kind)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        self.a.accepts(kind) || self.b.accepts(kind)
     }
     fn expected(&self) -> String {
         format!("{}, or {}", self.a.expected(), self.b.expected())
@@ -128,46 +128,46 @@ impl<A: Rule, B: Rule<Out = A::Out>> Rule for Either<A, B> {
     fn schema(&self) -> Json {
         json!({ "anyOf": [self.a.schema(), self.b.schema()] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<A::Out> {
-        let kind = Kind::of(node);
-        match (self.a.takes(kind), self.b.takes(kind)) {
-            (true, _) => self.a.read(node, faults),
-            (_, true) => self.b.read(node, faults),
-            _ => self.refuse(node, faults),
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<A::Out> {
+        let kind = ValueKind::from_node(node);
+        match (self.a.accepts(kind), self.b.accepts(kind)) {
+            (true, _) => self.a.read(node, errors),
+            (_, true) => self.b.read(node, errors),
+            _ => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &A::Out) -> Option<Item> {
         // A table instead of a value.
-        self.a.write(value).or_else(|| self.b.write(value)).map(Item::in_line)
+        self.a.write(value).or_else(|| self.b.write(value)).map(Item::inline)
     }
 }
 
 /// A list of at least `least` values. Wrong entries are reported and omitted.
-pub(crate) fn list<R: Rule>(rule: R, least: usize) -> List<R> {
-    List { rule, least }
+pub(crate) fn list<R: Rule>(rule: R, min_length: usize) -> ListRule<R> {
+    ListRule { rule, min_length: least: min_length }
 }
 
 /// See [`list`].
-pub(crate) struct List<R> {
+pub(crate) struct ListRule<R> {
     rule: R,
-    least: usize,
+    min_length: usize,
 }
 
-impl<R: Rule> Rule for List<R> {
+impl<R: Rule> Rule for ListRule<R> {
     type Out = Vec<R::Out>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::List
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::List
     }
     fn expected(&self) -> String {
-        let least = if self.least == 0 { String::new() } else { format!(" of {} or more", self.least) };
-        format!("a list{least}, each {}", self.rule.expected())
+        let min_length = if self.min_length == 0 { String::new() } else { format!(" of {} or more", self.min_length) };
+        format!("a list{min_length}, each {}", self.rule.expected())
     }
     fn schema(&self) -> Json {
-        json!({ "type": "array", "items": self.rule.schema(), "minItems": self.least })
+        json!({ "type": "array", "items": self.rule.schema(), "minItems": self.min_length })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
-        if Kind::of(node) == Kind::Table && self.rule.takes(Kind::Table) {
-            faults.add(
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out> {
+        if ValueKind::from_node(node) == ValueKind::Table && self.rule.accepts(ValueKind::Table) {
+            errors.add(
                 ErrorCode::WrongType,
                 &node.place,
                 "found one table",
@@ -175,10 +175,10 @@ impl<R: Rule> Rule for List<R> {
             );
             return None;
         }
-        if !self.takes(Kind::of(node)) || node.as_list().len() < self.least {
-            return self.refuse(node, faults);
+        if !self.accepts(ValueKind::from_node(node)) || node.as_list().len() < self.min_length {
+            return self.refuse(node, errors);
         }
-        Some(node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect())
+        Some(node.as_list().iter().filter_map(|n| self.rule.read(n, errors)).collect())
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {
         Some(value.iter().map(|v| self.rule.write(v)).collect::<Option<Vec<_>>>()?.into())
@@ -186,19 +186,19 @@ impl<R: Rule> Rule for List<R> {
 }
 
 /// A list of exactly `N` values.
-pub(crate) fn exactly<R: Rule, const N: usize>(rule: R) -> Exactly<R, N> {
-    Exactly { rule }
+pub(crate) fn exactly<R: Rule, const N: usize>(rule: R) -> ArrayRule<R, N> {
+    ArrayRule { rule }
 }
 
 /// See [`exactly`].
-pub(crate) struct Exactly<R, const N: usize> {
+pub(crate) struct ArrayRule<R, const N: usize> {
     rule: R,
 }
 
-impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
+impl<R: Rule, const N: usize> Rule for ArrayRule<R, N> {
     type Out = Placed<[R::Out; N]>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::List
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::List
     }
     fn expected(&self) -> String {
         format!("a list of {N}, each {}", self.rule.expected())
@@ -206,11 +206,11 @@ impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
     fn schema(&self) -> Json {
         json!({ "type": "array", "items": self.rule.schema(), "minItems": N, "maxItems": N })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
-        if !self.takes(Kind::of(node)) || node.as_list().len() != N {
-            return self.refuse(node, faults);
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out> {
+        if !self.accepts(ValueKind::from_node(node)) || node.as_list().len() != N {
+            return self.refuse(node, errors);
         }
-        let read: Vec<_> = node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect();
+        let read: Vec<_> = node.as_list().iter().filter_map(|n| self.rule.read(n, errors)).collect();
         Some(Placed::new(read.try_into().ok()?, node.place.clone()))
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {
@@ -220,19 +220,19 @@ impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
 }
 
 /// A table of entries under user-chosen names.
-pub(crate) fn keyed_by_name<R: Rule>(rule: R) -> ByName<R> {
-    ByName { rule }
+pub(crate) fn keyed_by_name<R: Rule>(rule: R) -> NamedTableRule<R> {
+    NamedTableRule { rule }
 }
 
 /// See [`keyed_by_name`].
-pub(crate) struct ByName<R> {
+pub(crate) struct NamedTableRule<R> {
     rule: R,
 }
 
-impl<R: Rule> Rule for ByName<R> {
+impl<R: Rule> Rule for NamedTableRule<R> {
     type Out = Vec<(Placed<String>, R::Out)>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Table
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Table
     }
     fn expected(&self) -> String {
         format!("a table of names, each with {}", self.rule.expected())
@@ -240,10 +240,10 @@ impl<R: Rule> Rule for ByName<R> {
     fn schema(&self) -> Json {
         json!({ "type": "object", "additionalProperties": self.rule.schema() })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
-        let Some(table) = node.as_table() else { return self.refuse(node, faults) };
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Self::Out> {
+        let Some(table) = node.as_table() else { return self.refuse(node, errors) };
         let read = table.entries.iter().filter_map(|entry| {
-            let value = self.rule.read(&entry.node, faults)?;
+            let value = self.rule.read(&entry.node, errors)?;
             Some((Placed::new(entry.key.clone(), entry.place.clone()), value))
         });
         Some(read.collect())
@@ -251,7 +251,7 @@ impl<R: Rule> Rule for ByName<R> {
     fn write(&self, value: &Self::Out) -> Option<Item> {
         let mut table = Table::new().in_line();
         for (name, v) in value {
-            table.stand(&name.place);
+            table.set_place(&name.place);
             table.put(name, self.rule.write(v)?);
         }
         Some(table.into())
@@ -268,8 +268,8 @@ pub(crate) struct RecordRule<T>(PhantomData<T>);
 
 impl<T: Record> Rule for RecordRule<T> {
     type Out = T;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Table
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Table
     }
     fn expected(&self) -> String {
         format!("a table with the keys {}", super::word::quoted(&T::keys()))
@@ -277,9 +277,9 @@ impl<T: Record> Rule for RecordRule<T> {
     fn schema(&self) -> Json {
         record_schema(&T::forms())
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<T> {
         if node.as_list().iter().any(|entry| entry.as_table().is_some()) {
-            faults.add(
+            errors.add(
                 ErrorCode::WrongType,
                 &node.place,
                 "found a list of tables",
@@ -287,10 +287,10 @@ impl<T: Record> Rule for RecordRule<T> {
             );
             return None;
         }
-        let Some(table) = node.as_table() else { return self.refuse(node, faults) };
+        let Some(table) = node.as_table() else { return self.refuse(node, errors) };
         let mut reader = Reader::new(table, &node.place);
-        let read = T::read_keys(&mut reader, faults);
-        reader.finish::<T>(faults);
+        let read = T::read_keys(&mut reader, errors);
+        reader.finish::<T>(errors);
         read
     }
     fn write(&self, value: &T) -> Option<Item> {

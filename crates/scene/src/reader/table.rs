@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use super::rule::Rule;
 use super::word::quoted;
 use crate::document::{Node, Table};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Place;
 use crate::suggest::nearest;
 use crate::written::Table as Written;
@@ -13,7 +13,7 @@ use crate::written::Table as Written;
 /// A struct or an enum of structs whose fields are keys of a table.
 pub(crate) trait Record: Clone {
     /// Reads the record's keys; returns `None` after reporting at least one error.
-    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self>;
+    fn read_keys(reader: &mut Reader<'_>, errors: &mut DescriptionErrors) -> Option<Self>;
     /// Shapes of the table: one for a plain record, one per variant for an enum.
     fn forms() -> Vec<Form>;
     /// Adds the record's keys to a table.
@@ -49,8 +49,8 @@ fn keys_of<'f>(forms: impl IntoIterator<Item = &'f Form>) -> Vec<&'static str> {
 }
 
 impl<T: Record> Record for Box<T> {
-    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
-        T::read_keys(reader, faults).map(Self::new)
+    fn read_keys(reader: &mut Reader<'_>, errors: &mut DescriptionErrors) -> Option<Self> {
+        T::read_keys(reader, errors).map(Self::new)
     }
     fn forms() -> Vec<Form> {
         T::forms()
@@ -68,24 +68,24 @@ impl<T: Record> Record for Box<T> {
 pub(crate) struct Form {
     pub(crate) keys: Vec<Key>,
     /// Keys of which exactly one is given, or at most one.
-    choices: Vec<Choice>,
+    exclusive_keys: Vec<ExclusiveKeys>,
     /// Keys that are given together or not at all.
-    groups: Vec<Group>,
+    groups: Vec<KeyGroup>,
     /// Key that every table of this form has, if no value distinguishes the form.
     only_with: Option<&'static str>,
 }
 
 /// Keys that exclude each other.
 #[derive(Clone, Debug)]
-struct Choice {
+struct ExclusiveKeys {
     keys: Vec<&'static str>,
     /// True if one of them must be given.
-    must: bool,
+    is_required: bool,
 }
 
 /// Keys that need other keys: none is given without all of these.
 #[derive(Clone, Debug)]
-struct Group {
+struct KeyGroup {
     keys: Vec<&'static str>,
     needed: Vec<&'static str>,
 }
@@ -95,27 +95,27 @@ struct Group {
 pub(crate) struct Key {
     pub(crate) name: &'static str,
     pub(crate) required: bool,
-    pub(crate) about: String,
+    pub(crate) description: String,
     pub(crate) schema: Json,
 }
 
 impl Key {
-    pub(crate) fn new(name: &'static str, required: bool, about: &str, schema: Json) -> Self {
-        Self { name, required, about: about.split_whitespace().collect::<Vec<_>>().join(" "), schema }
+    pub(crate) fn new(name: &'static str, required: bool, description: &str, schema: Json) -> Self {
+        Self { name, required, description: description.split_whitespace().collect::<Vec<_>>().join(" "), schema }
     }
 }
 
 impl Form {
     /// A form of tables with the key `name`.
-    pub(crate) fn only_with(name: &'static str, about: &str, schema: Json) -> Self {
-        Self { keys: vec![Key::new(name, true, about, schema)], only_with: Some(name), ..Self::default() }
+    pub(crate) fn only_with(name: &'static str, description: &str, schema: Json) -> Self {
+        Self { keys: vec![Key::new(name, true, description, schema)], only_with: Some(name), ..Self::default() }
     }
 
     /// A form with exactly one of some keys.
     pub(crate) fn one_of(keys: Vec<Key>) -> Self {
         let names = keys.iter().map(|k| k.name).collect();
         let keys = keys.into_iter().map(|k| Key { required: false, ..k }).collect();
-        Self { keys, choices: vec![Choice { keys: names, must: true }], ..Self::default() }
+        Self { keys, exclusive_keys: vec![ExclusiveKeys { keys: names, is_required: true }], ..Self::default() }
     }
 
     /// The forms of a table in which all keys of these forms may be absent.
@@ -129,13 +129,13 @@ impl Form {
     /// The form, optional as a whole; `None` where choices and other keys are required together.
     fn optional(mut self) -> Option<Self> {
         let needed: Vec<_> = self.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
-        match self.choices.as_mut_slice() {
+        match self.exclusive_keys.as_mut_slice() {
             [] => {
                 let keys = self.keys.iter().map(|k| k.name).collect();
                 self.keys.iter_mut().for_each(|k| k.required = false);
-                self.groups.push(Group { keys, needed });
+                self.groups.push(KeyGroup { keys, needed });
             }
-            [only] if only.keys.len() == self.keys.len() => only.must = false,
+            [only] if only.keys.len() == self.keys.len() => only.is_required = false,
             _ => return None,
         }
         Some(self)
@@ -166,13 +166,13 @@ impl Form {
 
     /// Every form joined to every one of `others`.
     pub(crate) fn product(forms: &[Self], others: &[Self]) -> Vec<Self> {
-        let joined = |a: &Self, b: &Self| Self {
+        let combined = |a: &Self, b: &Self| Self {
             keys: a.keys.iter().chain(&b.keys).cloned().collect(),
-            choices: a.choices.iter().chain(&b.choices).cloned().collect(),
+            exclusive_keys: a.exclusive_keys.iter().chain(&b.exclusive_keys).cloned().collect(),
             groups: a.groups.iter().chain(&b.groups).cloned().collect(),
             only_with: a.only_with.or(b.only_with),
         };
-        forms.iter().flat_map(|a| others.iter().map(move |b| joined(a, b))).collect()
+        forms.iter().flat_map(|a| others.iter().map(move |b| combined(a, b))).collect()
     }
 
     fn has(&self, key: &str) -> bool {
@@ -206,8 +206,8 @@ fn form_schema(form: &Form) -> Json {
     let required: Vec<_> = form.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
     let mut schema =
         json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false });
-    if !form.choices.is_empty() {
-        schema["allOf"] = form.choices.iter().map(choice_schema).collect();
+    if !form.exclusive_keys.is_empty() {
+        schema["allOf"] = form.exclusive_keys.iter().map(choice_schema).collect();
     }
     for group in &form.groups {
         for key in &group.keys {
@@ -217,16 +217,16 @@ fn form_schema(form: &Form) -> Json {
     schema
 }
 
-fn choice_schema(choice: &Choice) -> Json {
-    let given: Vec<_> = choice.keys.iter().map(|key| json!({ "required": [key] })).collect();
-    let none = (!choice.must).then(|| json!({ "not": { "anyOf": given } }));
-    json!({ "oneOf": given.iter().cloned().chain(none).collect::<Vec<_>>() })
+fn choice_schema(choice: &ExclusiveKeys) -> Json {
+    let exclusive: Vec<_> = choice.keys.iter().map(|key| json!({ "required": [key] })).collect();
+    let none = (!choice.is_required).then(|| json!({ "not": { "anyOf": exclusive } }));
+    json!({ "oneOf": exclusive.iter().cloned().chain(none).collect::<Vec<_>>() })
 }
 
 fn described(key: &Key) -> Json {
     let mut schema = key.schema.clone();
-    if !key.about.is_empty() {
-        schema["description"] = json!(key.about);
+    if !key.description.is_empty() {
+        schema["description"] = json!(key.description);
     }
     schema
 }
@@ -235,14 +235,14 @@ fn described(key: &Key) -> Json {
 pub(crate) struct Reader<'t> {
     table: &'t Table,
     place: &'t Place,
-    taken: Vec<bool>,
+    is_read: Vec<bool>,
     /// The table's kind is unknown, so its other keys cannot be checked.
-    lost: bool,
+    unknown_kind: bool,
 }
 
 impl<'t> Reader<'t> {
     pub(crate) fn new(table: &'t Table, place: &'t Place) -> Self {
-        Self { table, place, taken: vec![false; table.entries.len()], lost: false }
+        Self { table, place, is_read: vec![false; table.entries.len()], unknown_kind: false }
     }
 
     /// Place of the table.
@@ -258,53 +258,53 @@ impl<'t> Reader<'t> {
     /// Returns the value of `key` and marks it as read.
     pub(crate) fn take(&mut self, key: &str) -> Option<&'t Node> {
         let index = self.table.entries.iter().position(|e| e.key == key)?;
-        self.taken[index] = true;
+        self.is_read[index] = true;
         Some(&self.table.entries[index].node)
     }
 
     /// Marks every key as read, for a table of unknown kind.
-    pub(crate) fn give_up(&mut self) {
-        self.lost = true;
+    pub(crate) fn mark_all_read(&mut self) {
+        self.unknown_kind = true;
     }
 
     /// Reads the value of `key` by `rule`; reports an error if it is missing.
-    pub(crate) fn required<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<R::Out> {
+    pub(crate) fn required<R: Rule>(&mut self, key: &str, rule: &R, errors: &mut DescriptionErrors) -> Option<R::Out> {
         match self.take(key) {
-            Some(node) => rule.read(node, faults),
+            Some(node) => rule.read(node, errors),
             None => {
                 let remedy = format!("add it: {}", rule.expected());
-                faults.add_missing(self.place, key, remedy);
+                errors.add_missing(self.place, key, remedy);
                 None
             }
         }
     }
 
     /// Reads the value of `key` by `rule`, if given; the outer `None` follows an error.
-    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<Option<R::Out>> {
-        self.take(key).map_or(Some(None), |node| rule.read(node, faults).map(Some))
+    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, errors: &mut DescriptionErrors) -> Option<Option<R::Out>> {
+        self.take(key).map_or(Some(None), |node| rule.read(node, errors).map(Some))
     }
 
     /// Reports every key that was not read.
-    pub(crate) fn finish<T: Record>(self, faults: &mut Faults) {
-        if self.lost || self.taken.iter().all(|t| *t) {
+    pub(crate) fn finish<T: Record>(self, errors: &mut DescriptionErrors) {
+        if self.unknown_kind || self.is_read.iter().all(|t| *t) {
             return;
         }
         let forms = T::forms();
-        for (entry, _) in self.table.entries.iter().zip(&self.taken).filter(|(_, taken)| !**taken) {
+        for (entry, _) in self.table.entries.iter().zip(&self.is_read).filter(|(_, is_read)| !**is_read) {
             let owners: Vec<_> = forms.iter().filter(|f| f.has(&entry.key)).filter_map(Form::mark).collect();
             if owners.is_empty() {
-                let (problem, remedy, meant) = stray(&entry.key, &forms, self.table);
-                faults.add(ErrorCode::UnknownKey, &entry.place, problem, remedy);
-                meant.iter().for_each(|key| faults.take_back_missing(self.place, key));
+                let (problem, remedy, suggestion) = stray(&entry.key, &forms, self.table);
+                errors.add(ErrorCode::UnknownKey, &entry.place, problem, remedy);
+                suggestion.iter().for_each(|key| errors.remove_missing(self.place, key));
                 continue;
             }
             let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
-            let told = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
-            faults.add_idle(
+            let choice_value = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
+            errors.add_without_effect(
                 ErrorCode::NoEffect,
                 &entry.key,
                 &entry.place,
-                told.map(|node| &node.place),
+                choice_value.map(|node| &node.place),
                 problem,
                 "remove it",
             );
@@ -322,10 +322,10 @@ fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String, Option<St
     if let Some((_, name)) = renamed {
         return (format!("\"{key}\" is now \"{name}\""), format!("write \"{name}\""), Some(name.to_owned()));
     }
-    let meant = nearest(key, &keys);
-    let remedy = match meant {
+    let suggestion = nearest(key, &keys);
+    let remedy = match suggestion {
         Some(word) => format!("did you mean \"{word}\"?"),
         None => format!("remove it; the keys are {}", quoted(&keys)),
     };
-    (format!("unknown key \"{key}\""), remedy, meant.map(str::to_owned))
+    (format!("unknown key \"{key}\""), remedy, suggestion.map(str::to_owned))
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use etendue_core::Word;
 use serde_json::{Value as Json, json};
 
-use super::rule::{Kind, Rule};
+use super::rule::{ValueKind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::Placed;
 use crate::suggest::nearest;
 use crate::written::{Item, Value as Said};
@@ -19,17 +19,17 @@ pub(crate) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
 }
 
 /// `true` or `false`.
-pub(crate) const fn flag() -> Flag {
-    Flag
+pub(crate) const fn flag() -> FlagRule {
+    FlagRule
 }
 
 /// See [`flag`].
-pub(crate) struct Flag;
+pub(crate) struct FlagRule;
 
-impl Rule for Flag {
+impl Rule for FlagRule {
     type Out = Placed<bool>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Flag
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Flag
     }
     fn expected(&self) -> String {
         "true or false".to_owned()
@@ -37,10 +37,10 @@ impl Rule for Flag {
     fn schema(&self) -> Json {
         json!({ "type": "boolean" })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<bool>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<bool>> {
         match node.value {
             Value::Flag(v) => Some(Placed::new(v, node.place.clone())),
-            _ => self.refuse(node, faults),
+            _ => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<bool>) -> Option<Item> {
@@ -49,20 +49,20 @@ impl Rule for Flag {
 }
 
 /// A non-empty text; `what` describes it: "the name of a material".
-pub(crate) const fn text(what: &'static str) -> Text {
-    Text { what }
+pub(crate) const fn text(what: &'static str) -> TextRule {
+    TextRule { what }
 }
 
 /// See [`text`].
 #[derive(Clone, Copy)]
-pub(crate) struct Text {
+pub(crate) struct TextRule {
     what: &'static str,
 }
 
-impl Rule for Text {
+impl Rule for TextRule {
     type Out = Placed<String>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
         format!("{} (a text)", self.what)
@@ -70,10 +70,10 @@ impl Rule for Text {
     fn schema(&self) -> Json {
         json!({ "type": "string", "minLength": 1 })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<String>> {
         match node.as_text().filter(|t| !t.is_empty()) {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<String>) -> Option<Item> {
@@ -82,31 +82,31 @@ impl Rule for Text {
 }
 
 /// A name that the scene defines elsewhere.
-pub(crate) const fn name_of(named: Named) -> NameOf {
-    NameOf { named }
+pub(crate) const fn name_of(named: NameKind) -> NameRule {
+    NameRule { kind: named }
 }
 
 /// See [`name_of`].
 #[derive(Clone, Copy)]
-pub(crate) struct NameOf {
-    named: Named,
+pub(crate) struct NameRule {
+    kind: NameKind,
 }
 
-impl Rule for NameOf {
+impl Rule for NameRule {
     type Out = Placed<String>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
-        format!("the name of a {} (a text)", self.named.word())
+        format!("the name of a {} (a text)", self.kind.word())
     }
     fn schema(&self) -> Json {
         json!({ "type": "string", "minLength": 1 })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
-        let Some(text) = node.as_text().filter(|t| !t.is_empty()) else { return self.refuse(node, faults) };
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<String>> {
+        let Some(text) = node.as_text().filter(|t| !t.is_empty()) else { return self.refuse(node, errors) };
         let name = Placed::new(text.to_owned(), node.place.clone());
-        faults.note_use(self.named, name.clone());
+        errors.record_use(self.kind, name.clone());
         Some(name)
     }
     fn write(&self, value: &Placed<String>) -> Option<Item> {
@@ -116,8 +116,8 @@ impl Rule for NameOf {
 
 /// A text that can be part of a file name on every system: 1 to [`MAX_FILE_NAME`] letters, digits, `-` and `_`, and no word that a system reserves
 /// for a device.
-pub(crate) const fn file_name(what: &'static str) -> FileName {
-    FileName { what }
+pub(crate) const fn file_name(what: &'static str) -> FileNameRule {
+    FileNameRule { what }
 }
 
 /// Maximum number of characters: file names, of at most 255 bytes, hold more than this one.
@@ -132,14 +132,14 @@ fn is_device(name: &str) -> bool {
 
 /// See [`file_name`].
 #[derive(Clone, Copy)]
-pub(crate) struct FileName {
+pub(crate) struct FileNameRule {
     what: &'static str,
 }
 
-impl Rule for FileName {
+impl Rule for FileNameRule {
     type Out = Placed<String>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
         format!("{} ({MAX_FILE_NAME} letters, digits, - and _ at most, no device such as CON)", self.what)
@@ -147,12 +147,12 @@ impl Rule for FileName {
     fn schema(&self) -> Json {
         json!({ "type": "string", "maxLength": MAX_FILE_NAME, "pattern": "^[A-Za-z0-9_-]+$" })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<String>> {
         let is_plain = |t: &str| t.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
         let is_legal = |t: &&str| (1..=MAX_FILE_NAME).contains(&t.len()) && is_plain(t) && !is_device(t);
         match node.as_text().filter(is_legal) {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<String>) -> Option<Item> {
@@ -161,27 +161,27 @@ impl Rule for FileName {
 }
 
 /// The path of a file with one of these extensions, resolved relative to the file that names it.
-pub(crate) const fn path(extensions: &'static [&'static str]) -> FilePath {
-    FilePath { extensions }
+pub(crate) const fn path(extensions: &'static [&'static str]) -> FilePathRule {
+    FilePathRule { extensions }
 }
 
 /// See [`path`].
 #[derive(Clone, Copy)]
-pub(crate) struct FilePath {
+pub(crate) struct FilePathRule {
     extensions: &'static [&'static str],
 }
 
-impl FilePath {
+impl FilePathRule {
     fn admits(&self, text: &str) -> bool {
         let extension = Path::new(text).extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
         self.extensions.contains(&extension.as_str())
     }
 }
 
-impl Rule for FilePath {
+impl Rule for FilePathRule {
     type Out = Placed<PathBuf>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
         format!("the path of a file (.{})", self.extensions.join(", ."))
@@ -189,10 +189,10 @@ impl Rule for FilePath {
     fn schema(&self) -> Json {
         json!({ "type": "string", "pattern": format!("\\.({})$", self.extensions.join("|")) })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<PathBuf>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<PathBuf>> {
         match node.as_text().filter(|t| self.admits(t)) {
             Some(t) => Some(Placed::new(node.place.resolve(Path::new(t)), node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn code(&self, node: &Node) -> ErrorCode {
@@ -204,20 +204,20 @@ impl Rule for FilePath {
 }
 
 /// One of the names of a data library; `what` describes it: "an illuminant".
-pub(crate) fn known(what: &'static str, names: &[&'static str]) -> Known {
-    Known { what, names: names.to_vec() }
+pub(crate) fn known(what: &'static str, names: &[&'static str]) -> KnownNameRule {
+    KnownNameRule { what, names: names.to_vec() }
 }
 
 /// See [`known`].
-pub(crate) struct Known {
+pub(crate) struct KnownNameRule {
     what: &'static str,
     names: Vec<&'static str>,
 }
 
-impl Rule for Known {
+impl Rule for KnownNameRule {
     type Out = Placed<String>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
         format!("{}, {}", self.what, one_of(&self.names))
@@ -225,8 +225,8 @@ impl Rule for Known {
     fn schema(&self) -> Json {
         json!({ "enum": self.names })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
-        let name = word(node, &self.names, faults)?;
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<String>> {
+        let name = word(node, &self.names, errors)?;
         Some(Placed::new(name.to_owned(), node.place.clone()))
     }
     fn write(&self, value: &Placed<String>) -> Option<Item> {
@@ -244,8 +244,8 @@ pub(crate) struct ChoiceRule<C>(PhantomData<C>);
 
 impl<C: Word> Rule for ChoiceRule<C> {
     type Out = Placed<C>;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Text
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Text
     }
     fn expected(&self) -> String {
         one_of(&C::words())
@@ -253,8 +253,8 @@ impl<C: Word> Rule for ChoiceRule<C> {
     fn schema(&self) -> Json {
         json!({ "enum": C::words() })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<C>> {
-        let word = word(node, &C::words(), faults)?;
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<C>> {
+        let word = word(node, &C::words(), errors)?;
         C::from_word(word).map(|value| Placed::new(value, node.place.clone()))
     }
     fn write(&self, value: &Placed<C>) -> Option<Item> {
@@ -268,7 +268,7 @@ pub(crate) fn one_of(words: &[&str]) -> String {
 }
 
 /// Returns the text of the node, which must be one of `words`.
-pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> Option<&'n str> {
+pub(crate) fn word<'n>(node: &'n Node, words: &[&str], errors: &mut DescriptionErrors) -> Option<&'n str> {
     let found = node.as_text();
     if let Some(text) = found.filter(|t| words.contains(t)) {
         return Some(text);
@@ -277,13 +277,13 @@ pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> O
         return None;
     }
     let code = if found.is_some() { ErrorCode::UnknownWord } else { ErrorCode::WrongType };
-    faults.add(code, &node.place, format!("found {}", node.describe()), remedy(found, words));
+    errors.add(code, &node.place, format!("found {}", node.describe()), remedy(found, words));
     None
 }
 
 /// Remedy: the nearest word comes first, as lists may be long.
-fn remedy(found: Option<&str>, words: &[&str]) -> String {
-    match found.and_then(|t| nearest(t, words)) {
+fn remedy(text: Option<&str>, words: &[&str]) -> String {
+    match text.and_then(|t| nearest(t, words)) {
         Some(likely) => format!("did you mean \"{likely}\"? Give {}", one_of(words)),
         None => format!("give {}", one_of(words)),
     }

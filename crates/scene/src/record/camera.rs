@@ -1,11 +1,11 @@
 //! The camera: lens, effects, sensor, processing.
 
 use super::effects::Effects;
-use super::front::Front;
+use super::front::ExternalOptics;
 use super::lens::Lens;
 use super::processing::Processing;
 use super::sensor::Sensor;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::reader::record;
 
 record! {
@@ -14,7 +14,7 @@ record! {
         /// The lens.
         required lens: Lens = record();
         /// Elements in front of the lens.
-        optional external_optics: Front = record();
+        optional external_optics: ExternalOptics = record();
         /// Effects on the irradiance.
         optional effects: Effects = record();
         /// The sensor.
@@ -24,9 +24,9 @@ record! {
     }
 }
 
-fn check(camera: &Camera, faults: &mut Faults) {
+fn check(camera: &Camera, errors: &mut DescriptionErrors) {
     if let (Some(processing), None) = (&camera.isp, &camera.sensor.electronics) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &processing.place,
             "a sensor without electronics gives no raw to process",

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use crate::asset::file_list::FileList;
-use crate::asset::request::{AssetKind, Values};
+use crate::asset::request::{AssetKind, SpectrumValues};
 use crate::place::Placed;
-use crate::reader::{Number, Rule, either, keyed, path, record, variant};
+use crate::reader::{NumberRule, Rule, either, keyed, path, record, variant};
 
 /// A quantity as a function of wavelength.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub enum Curve {
 
 impl Curve {
     /// Requests its file, if any, whose values are `values`.
-    pub(crate) fn name_file(&self, values: Values, files: &mut FileList) {
+    pub(crate) fn name_file(&self, values: SpectrumValues, files: &mut FileList) {
         if let Self::File(file) = self {
             files.add(AssetKind::Spectrum(values), file);
         }
@@ -39,6 +39,6 @@ pub(crate) fn spectrum_file() -> impl Rule<Out = Placed<PathBuf>> {
 }
 
 /// A constant within the bounds of `constant`, or a file.
-pub(crate) fn curve(constant: Number) -> impl Rule<Out = Curve> {
+pub(crate) fn curve(constant: NumberRule) -> impl Rule<Out = Curve> {
     either(variant!(constant, Curve::Constant), variant!(record::<CurveFile>(), CurveFile::Spectrum => Curve::File))
 }

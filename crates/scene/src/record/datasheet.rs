@@ -1,12 +1,12 @@
 //! A camera's EMVA 1288 data sheet, as printed: the input from which `etendue datasheet` makes a camera file.
 
 use super::sensor::cfa::Cfa;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, text, variant, vector, whole};
 
 /// Points of a curve: wavelength, nm, and quantum efficiency, %.
-pub type Points = Vec<Placed<[f64; 2]>>;
+pub type CurvePoints = Vec<Placed<[f64; 2]>>;
 
 record! {
     /// A data sheet after EMVA 1288. Values that follow from others are checked and may be omitted.
@@ -22,7 +22,7 @@ record! {
         /// Colour filter array. Default: "mono".
         optional cfa: Placed<Cfa> = choice();
         /// Total quantum efficiency, fill factor included: pairs of wavelength (nm) and efficiency (%), by channel for colour.
-        required quantum_efficiency_percent: SheetEfficiency = efficiency();
+        required quantum_efficiency_percent: PrintedEfficiency = efficiency();
         /// Wavelength to which the keys in photons refer. Default: the only one of "quantum_efficiency_percent".
         optional measured_at_nm: Placed<f64> = number("nm").above(0.0);
         /// Bits of the ADC.
@@ -74,17 +74,17 @@ record! {
 
 /// Quantum efficiencies as printed.
 #[derive(Clone, Debug)]
-pub enum SheetEfficiency {
+pub enum PrintedEfficiency {
     /// The only channel.
-    Mono(Points),
+    Mono(CurvePoints),
     /// By channel.
-    Channels(Vec<(Placed<String>, Points)>),
+    Channels(Vec<(Placed<String>, CurvePoints)>),
 }
 
-impl SheetEfficiency {
+impl PrintedEfficiency {
     /// The curves with the names of their channels.
     #[must_use]
-    pub fn curves(&self) -> Vec<(&str, &Points)> {
+    pub fn curves(&self) -> Vec<(&str, &CurvePoints)> {
         match self {
             Self::Mono(points) => vec![("mono", points)],
             Self::Channels(list) => list.iter().map(|(name, points)| (name.value.as_str(), points)).collect(),
@@ -92,13 +92,13 @@ impl SheetEfficiency {
     }
 }
 
-fn points() -> impl Rule<Out = Points> {
+fn points() -> impl Rule<Out = CurvePoints> {
     list(vector::<2>(number("").at_least(0.0)), 1)
 }
 
-fn efficiency() -> impl Rule<Out = SheetEfficiency> {
-    let channels = variant!(keyed_by_name(points()), SheetEfficiency::Channels);
-    either(variant!(points(), SheetEfficiency::Mono), channels)
+fn efficiency() -> impl Rule<Out = PrintedEfficiency> {
+    let channels = variant!(keyed_by_name(points()), PrintedEfficiency::Channels);
+    either(variant!(points(), PrintedEfficiency::Mono), channels)
 }
 
 impl DataSheet {
@@ -109,23 +109,23 @@ impl DataSheet {
     }
 }
 
-fn check(sheet: &DataSheet, faults: &mut Faults) {
-    let either_of = |given: bool, names: &str, faults: &mut Faults| {
-        if !given {
-            faults.add(ErrorCode::MissingKey, &sheet.place, format!("{names} are both missing"), "give one of them");
+fn check(sheet: &DataSheet, errors: &mut DescriptionErrors) {
+    let either_of = |is_given: bool, names: &str, errors: &mut DescriptionErrors| {
+        if !is_given {
+            errors.add(ErrorCode::MissingKey, &sheet.place, format!("{names} are both missing"), "give one of them");
         }
     };
     let gain = sheet.gain_dn_per_e.is_some() || sheet.inverse_gain_e_per_dn.is_some();
-    either_of(gain, "\"gain_dn_per_e\" and \"inverse_gain_e_per_dn\"", faults);
+    either_of(gain, "\"gain_dn_per_e\" and \"inverse_gain_e_per_dn\"", errors);
     let noise = sheet.temporal_dark_noise_e.is_some() || sheet.temporal_dark_noise_dn.is_some();
-    either_of(noise, "\"temporal_dark_noise_e\" and \"temporal_dark_noise_dn\"", faults);
+    either_of(noise, "\"temporal_dark_noise_e\" and \"temporal_dark_noise_dn\"", errors);
     let pairs = [
         (&sheet.dark_current_at_c, sheet.dark_current_e_s.is_some(), "dark_current_e_s"),
         (&sheet.doubling_k, sheet.dark_current_at_c.is_some(), "dark_current_at_c"),
     ];
-    for (key, given, needed) in pairs {
-        if let (Some(key), false) = (key, given) {
-            faults.add(
+    for (key, is_given, needed) in pairs {
+        if let (Some(key), false) = (key, is_given) {
+            errors.add(
                 ErrorCode::NoEffect,
                 &key.place,
                 format!("this key has no effect without \"{needed}\""),
@@ -133,13 +133,13 @@ fn check(sheet: &DataSheet, faults: &mut Faults) {
             );
         }
     }
-    check_curves(sheet, faults);
+    check_curves(sheet, errors);
 }
 
-fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
+fn check_curves(sheet: &DataSheet, errors: &mut DescriptionErrors) {
     for (_, points) in sheet.quantum_efficiency_percent.curves() {
         for point in points.iter().filter(|p| p.value[1] > 100.0) {
-            faults.add(
+            errors.add(
                 ErrorCode::OutOfRange,
                 &point.place,
                 format!("found an efficiency of {} %", point.value[1]),
@@ -148,18 +148,18 @@ fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
         }
         for pair in points.windows(2).filter(|pair| pair[0].value[0] >= pair[1].value[0]) {
             let problem = format!("{} nm comes after {} nm", pair[1].value[0], pair[0].value[0]);
-            faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths in rising order");
+            errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths in rising order");
         }
     }
-    let mut wanted = sheet.filters().tile().to_vec();
-    wanted.sort_unstable();
-    wanted.dedup();
-    let mut given: Vec<&str> = sheet.quantum_efficiency_percent.curves().iter().map(|(name, _)| *name).collect();
-    given.sort_unstable();
-    if wanted != given {
+    let mut channels = sheet.filters().tile().to_vec();
+    channels.sort_unstable();
+    channels.dedup();
+    let mut curves: Vec<&str> = sheet.quantum_efficiency_percent.curves().iter().map(|(name, _)| *name).collect();
+    curves.sort_unstable();
+    if channels != curves {
         let problem =
-            format!("found quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
-        faults.add(
+            format!("found quantum efficiencies of {} for the channels {}", curves.join(", "), channels.join(", "));
+        errors.add(
             ErrorCode::WrongCount,
             &sheet.place,
             problem,

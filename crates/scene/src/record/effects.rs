@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{
     Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole, words,
@@ -79,12 +79,12 @@ keyed! {
     }
 }
 
-fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
+fn check_modulation(table: &ModulationTable, errors: &mut DescriptionErrors) {
     match (&table.source, &table.modulation) {
         (ModulationSource::File(_), None) => {}
         (ModulationSource::File(_), Some(list)) => {
             let place = list.first().map_or(&table.place, |first| &first.place);
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 place,
                 "\"modulation\" has no effect here, it belongs to \"cycles_per_mm\"",
@@ -92,7 +92,7 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
             );
         }
         (ModulationSource::Frequencies(_), None) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &table.place,
                 "the key \"modulation\" is missing",
@@ -101,12 +101,12 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
         }
         (ModulationSource::Frequencies(frequencies), Some(list)) if frequencies.len() != list.len() => {
             let problem = format!("found {} frequencies and {} modulations", frequencies.len(), list.len());
-            faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
         }
         (ModulationSource::Frequencies(frequencies), Some(_)) => {
             if let Some(pair) = frequencies.windows(2).find(|pair| pair[1].value <= pair[0].value) {
                 let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
-                faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising frequencies");
+                errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising frequencies");
             }
         }
     }
@@ -161,25 +161,25 @@ fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
     either(number(unit).map(|v| vec![v], one), list(number(unit), 2))
 }
 
-fn check_psf(psf: &Psf, faults: &mut Faults) {
-    check_blades(psf, faults);
+fn check_psf(psf: &Psf, errors: &mut DescriptionErrors) {
+    check_blades(psf, errors);
     match (&psf.image, &psf.mtf, psf.files.first()) {
-        (None, None, None) => check_without_image(psf, faults),
-        (Some(image), None, None) => check_image(psf, &image.place, faults),
+        (None, None, None) => check_without_image(psf, errors),
+        (Some(image), None, None) => check_image(psf, &image.place, errors),
         (None, Some(_), None) => {
-            check_without_image(psf, faults);
-            check_alone(psf, "mtf", faults);
+            check_without_image(psf, errors);
+            check_alone(psf, "mtf", errors);
         }
         (None, None, Some(_)) => {
-            check_without_image(psf, faults);
-            check_alone(psf, "files", faults);
+            check_without_image(psf, errors);
+            check_alone(psf, "files", errors);
         }
         (Some(image), Some(_), _) => {
-            faults.add(ErrorCode::Contradiction, &image.place, "\"image\" contradicts \"mtf\"", "remove one of them");
+            errors.add(ErrorCode::Contradiction, &image.place, "\"image\" contradicts \"mtf\"", "remove one of them");
         }
         (image, _, Some(file)) => {
             let other = if image.is_some() { "image" } else { "mtf" };
-            faults.add(
+            errors.add(
                 ErrorCode::Contradiction,
                 &file.place,
                 format!("\"files\" contradicts \"{other}\""),
@@ -189,10 +189,10 @@ fn check_psf(psf: &Psf, faults: &mut Faults) {
     }
 }
 
-fn check_without_image(psf: &Psf, faults: &mut Faults) {
+fn check_without_image(psf: &Psf, errors: &mut DescriptionErrors) {
     let of_image = [(&psf.image_pitch_um, "image_pitch_um"), (&psf.image_wavelength_nm, "image_wavelength_nm")];
     for (key, name) in of_image.into_iter().filter_map(|(key, name)| Some((key.as_ref()?, name))) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &key.place,
             format!("\"{name}\" has no effect without \"image\""),
@@ -201,25 +201,25 @@ fn check_without_image(psf: &Psf, faults: &mut Faults) {
     }
 }
 
-fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
+fn check_image(psf: &Psf, image: &Place, errors: &mut DescriptionErrors) {
     if psf.image_pitch_um.is_none() {
         let problem = "\"image\" does not state the distance of its pixels on the sensor";
-        faults.add(ErrorCode::MissingKey, image, problem, "add \"image_pitch_um\"");
+        errors.add(ErrorCode::MissingKey, image, problem, "add \"image_pitch_um\"");
     }
-    check_alone(psf, "image", faults);
+    check_alone(psf, "image", errors);
 }
 
 /// Refuses keys of the aperture together with a complete function.
-fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
-    let shared = |name: &str| name == "patches" && whole == "files";
-    for (place, name) in of_aperture(psf).filter(|(_, name)| !shared(name)) {
-        let problem = format!("\"{name}\" contradicts \"{whole}\", which is the whole point-spread function");
-        faults.add(ErrorCode::Contradiction, place, problem, "remove one of them");
+fn check_alone(psf: &Psf, key_name: &str, errors: &mut DescriptionErrors) {
+    let shared = |name: &str| name == "patches" && key_name == "files";
+    for (place, name) in aperture_keys(psf).filter(|(_, name)| !shared(name)) {
+        let problem = format!("\"{name}\" contradicts \"{key_name}\", which is the whole point-spread function");
+        errors.add(ErrorCode::Contradiction, place, problem, "remove one of them");
     }
 }
 
 /// Keys that describe an aperture's function.
-fn of_aperture(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
+fn aperture_keys(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
     fn place<T>(key: &Option<Placed<T>>) -> Option<&Place> {
         key.as_ref().map(|key| &key.place)
     }
@@ -235,11 +235,11 @@ fn of_aperture(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
     keys.into_iter().filter_map(|(place, name)| Some((place?, name)))
 }
 
-fn check_blades(psf: &Psf, faults: &mut Faults) {
+fn check_blades(psf: &Psf, errors: &mut DescriptionErrors) {
     let of_blades = [(&psf.blade_curvature, "blade_curvature"), (&psf.rotation_deg, "rotation_deg")];
     for (key, name) in of_blades {
         if let (Some(key), None, None, true) = (key, &psf.blades, &psf.image, psf.files.is_empty()) {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &key.place,
                 format!("\"{name}\" has no effect on a circle"),
@@ -249,10 +249,10 @@ fn check_blades(psf: &Psf, faults: &mut Faults) {
     }
 }
 
-fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
+fn check_term(term: &ZernikeTerm, errors: &mut DescriptionErrors) {
     match (&term.size, &term.wavelength_nm) {
         (TermSize::Waves(_), None) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &term.place,
                 "\"rms_waves\" does not state its wavelength",
@@ -260,7 +260,7 @@ fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
             );
         }
         (TermSize::Micrometres(_), Some(nm)) => {
-            faults.add(ErrorCode::NoEffect, &nm.place, "\"wavelength_nm\" has no effect with \"rms_um\"", "remove it");
+            errors.add(ErrorCode::NoEffect, &nm.place, "\"wavelength_nm\" has no effect with \"rms_um\"", "remove it");
         }
         _ => {}
     }
@@ -281,14 +281,14 @@ record! {
     }
 }
 
-fn check(effects: &Effects, faults: &mut Faults) {
+fn check(effects: &Effects, errors: &mut DescriptionErrors) {
     if effects.psf.is_none() && effects.glare.is_none() && effects.ghosts.is_none() {
         let remedy = "add [effects.psf], [effects.glare] or ghosts = true, or remove the section";
-        faults.add(ErrorCode::Empty, &effects.place, "[effects] contains no effect", remedy);
+        errors.add(ErrorCode::Empty, &effects.place, "[effects] contains no effect", remedy);
     }
     if let (Some(reflectance), false) = (&effects.sensor_reflectance, effects.ghosts.as_ref().is_some_and(|g| g.value))
     {
         let problem = "\"sensor_reflectance\" has no effect without ghosts = true";
-        faults.add(ErrorCode::NoEffect, &reflectance.place, problem, "add it, or remove \"sensor_reflectance\"");
+        errors.add(ErrorCode::NoEffect, &reflectance.place, problem, "add it, or remove \"sensor_reflectance\"");
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::light::Emission;
 use super::moment::{Date, TimeOfDay, date, time_of_day};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, flag, number, path, record, variants, words};
 
@@ -97,14 +97,14 @@ impl Sky {
     }
 }
 
-fn check_sky(sky: &Sky, faults: &mut Faults) {
+fn check_sky(sky: &Sky, errors: &mut DescriptionErrors) {
     match (&sky.angles, &sky.moment) {
-        (Some(angles), Some(moment)) => faults.add(ErrorCode::Contradiction,
+        (Some(angles), Some(moment)) => errors.add(ErrorCode::Contradiction,
             &moment.date.place,
             format!("\"date\" and \"sun_elevation_deg\" ({}) both state the position of the sun", angles.sun_elevation_deg.place),
             "keep the angles, or the date with its time and place",
         ),
-        (None, None) => faults.add(ErrorCode::MissingKey,
+        (None, None) => errors.add(ErrorCode::MissingKey,
             &sky.place,
             "the position of the sun is missing, which determines the sky",
             "add \"sun_elevation_deg\" and \"sun_azimuth_deg\", or \"date\", \"time_utc\", \"latitude_deg\" and \"longitude_deg\"",

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
+use super::motion::{MotionKeys, Wheel, check_motion, check_placements, trajectory_placement};
 use super::transform::{yaw_pitch_roll, yaw_pitch_roll_quaternion};
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{list, name_of, number, record, text, time, vector};
 
@@ -18,15 +18,15 @@ record! {
         /// Name of the frame.
         required name: Placed<String> = text("the name of the frame");
         /// Parent frame. Default: the world.
-        optional parent: Placed<String> = name_of(Named::Frame);
+        optional parent: Placed<String> = name_of(NameKind::Frame);
         /// Placement of a frame that is fixed in its parent.
         inside placement: FramePlacement;
         /// Placement over time.
         many keys: FrameKey = list(record(), 1);
         /// Motion.
-        group course: Course;
+        group course: MotionKeys;
         /// Wheel that rolls along its path.
-        optional rolls: Rolls = record();
+        optional rolls: Wheel = record();
     }
 }
 
@@ -75,18 +75,18 @@ impl FramePlacement {
     }
 }
 
-fn check(frame: &Frame, faults: &mut Faults) {
+fn check(frame: &Frame, errors: &mut DescriptionErrors) {
     let own = frame.placement.place().map(|place| ("\"position_m\", \"rotation_deg\"", place.clone()));
     let keys = frame.keys.first().map(|key| ("\"keys\"", key.place.clone()));
-    check_ways([own, keys, trajectory_way(frame.course.as_ref())], "the frame", faults);
-    check_course(frame.course.as_ref(), frame.keys.iter().map(|key| &key.time_s), faults);
+    check_placements([own, keys, trajectory_placement(frame.course.as_ref())], "the frame", errors);
+    check_motion(frame.course.as_ref(), frame.keys.iter().map(|key| &key.time_s), errors);
 }
 
 /// Largest number of names of a circle in a message.
 const MAX_NAMES: usize = 8;
 
 /// Reports every frame that is carried by itself, in time linear in their number.
-pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
+pub(super) fn check_circles(frames: &[Frame], errors: &mut DescriptionErrors) {
     let mut places = BTreeMap::new();
     for (place, frame) in frames.iter().enumerate() {
         places.entry(frame.name.value.as_str()).or_insert(place);
@@ -104,12 +104,12 @@ pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
         let Some(first) = next.filter(|place| reached_from[*place] == start) else { continue };
         let circle: Vec<usize> =
             std::iter::successors(Some(first), |place| parent(*place).filter(|place| *place != first)).collect();
-        note_circle(&circle, frames, faults);
+        note_cycle(&circle, frames, errors);
     }
 }
 
 /// Reports each frame of a circle, in which each is carried by the next and the last by the first.
-fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
+fn note_cycle(circle: &[usize], frames: &[Frame], errors: &mut DescriptionErrors) {
     let name = |place: usize| frames[circle[place % circle.len()]].name.value.as_str();
     for (place, frame) in circle.iter().enumerate() {
         let Some(own) = &frames[*frame].parent else { continue };
@@ -118,6 +118,6 @@ fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
             chain.extend(["…", name(place)]);
         }
         let problem = format!("the frame is its own parent: {}", chain.join(" in "));
-        faults.add(ErrorCode::CircularReference, &own.place, problem, "give another parent, or none");
+        errors.add(ErrorCode::CircularReference, &own.place, problem, "give another parent, or none");
     }
 }

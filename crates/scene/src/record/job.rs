@@ -9,9 +9,9 @@ use super::render::Render;
 use super::scene::Scene;
 use super::sequence::Sequence;
 use crate::document::Node;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
-use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, number, path, record};
+use crate::reader::{Form, Key, ValueKind, Reader, Record, Rule, file_name, list, number, path, record};
 use crate::written::{Item, Table};
 
 record! {
@@ -55,14 +55,14 @@ record! {
 pub struct CameraSource(pub Camera);
 
 impl Record for CameraSource {
-    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
+    fn read_keys(reader: &mut Reader<'_>, errors: &mut DescriptionErrors) -> Option<Self> {
         if reader.given("file").is_none() {
-            return Camera::read_keys(reader, faults).map(Self);
+            return Camera::read_keys(reader, errors).map(Self);
         }
         for key in Camera::keys() {
             if let Some(place) = reader.given(key) {
                 reader.take(key);
-                faults.add(
+                errors.add(
                     ErrorCode::Contradiction,
                     place,
                     format!("\"{key}\" contradicts \"file\""),
@@ -70,12 +70,12 @@ impl Record for CameraSource {
                 );
             }
         }
-        reader.required("file", &file_or_table::<Camera>(), faults).map(Self)
+        reader.required("file", &file_or_table::<Camera>(), errors).map(Self)
     }
 
     fn forms() -> Vec<Form> {
-        let about = "The path of a camera file.";
-        let by_file = Form::default().with(Key::new("file", true, about, path(&["toml"]).schema()));
+        let description = "The path of a camera file.";
+        let by_file = Form::default().with(Key::new("file", true, description, path(&["toml"]).schema()));
         [vec![by_file], Camera::forms()].concat()
     }
 
@@ -93,8 +93,8 @@ struct FileOrTable<T>(std::marker::PhantomData<T>);
 
 impl<T: Record> Rule for FileOrTable<T> {
     type Out = T;
-    fn takes(&self, kind: Kind) -> bool {
-        kind == Kind::Table
+    fn accepts(&self, kind: ValueKind) -> bool {
+        kind == ValueKind::Table
     }
     fn expected(&self) -> String {
         "the path of a file (.toml), or a table".to_owned()
@@ -102,11 +102,11 @@ impl<T: Record> Rule for FileOrTable<T> {
     fn schema(&self) -> Json {
         json!({ "anyOf": [path(&["toml"]).schema(), record::<T>().schema()] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<T> {
         if node.as_table().is_none() {
-            return self.refuse(node, faults);
+            return self.refuse(node, errors);
         }
-        record::<T>().read(node, faults)
+        record::<T>().read(node, errors)
     }
     fn write(&self, value: &T) -> Option<Item> {
         record().write(value)

@@ -1,6 +1,6 @@
 //! A laboratory file: facts about the images of a laboratory folder that the images do not contain.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
 
@@ -81,18 +81,18 @@ fn is_tile(text: &str) -> bool {
     text.len() == 4 && text.bytes().all(|letter| b"RGB".contains(&letter))
 }
 
-fn check(laboratory: &Laboratory, faults: &mut Faults) {
+fn check(laboratory: &Laboratory, errors: &mut DescriptionErrors) {
     if let Some(cfa) = laboratory.cfa.as_ref().filter(|cfa| !is_tile(&cfa.value)) {
-        faults.add(
+        errors.add(
             ErrorCode::UnknownWord,
             &cfa.place,
             format!("\"{}\" is not a colour filter pattern", cfa.value),
             "give four of R, G and B: \"RGGB\"",
         );
     }
-    let whole = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
-    if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !whole(&g.value)) {
-        faults.add(
+    let are_integers = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
+    if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !are_integers(&g.value)) {
+        errors.add(
             ErrorCode::WrongType,
             &grid.place,
             format!("{:?} are not whole numbers", grid.value),
@@ -100,8 +100,8 @@ fn check(laboratory: &Laboratory, faults: &mut Faults) {
         );
     }
     let regions = laboratory.edges.iter().flat_map(|edges| &edges.regions_px);
-    for region in regions.filter(|region| !whole(&region.value)) {
-        faults.add(
+    for region in regions.filter(|region| !are_integers(&region.value)) {
+        errors.add(
             ErrorCode::WrongType,
             &region.place,
             format!("{:?} contains a fraction of a pixel", region.value),

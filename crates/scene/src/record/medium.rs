@@ -3,8 +3,8 @@
 use super::curve::{Curve, curve};
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::{Covered, Values};
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::asset::request::{ReplacedMaterials, SpectrumValues};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, name_of, number, path, record, text, variants, vector, whole};
 use std::path::PathBuf;
@@ -25,9 +25,9 @@ record! {
         /// Placement of the shape; only of shapes with bounds.
         inside transform: Transform;
         /// Frame of the shape. Default: the world.
-        optional frame: Placed<String> = name_of(Named::Frame);
+        optional frame: Placed<String> = name_of(NameKind::Frame);
         /// Variation of the density. Default: homogeneous.
-        optional unevenness: Unevenness = record();
+        optional unevenness: DensityNoise = record();
     }
 }
 
@@ -160,7 +160,7 @@ record! {
 
 record! {
     /// Gradient noise (Perlin 2002) of mean 0, in the world's frame, about the mean density.
-    pub struct Unevenness {
+    pub struct DensityNoise {
         /// Maximum relative deviation of the density from its mean.
         required amplitude: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Size of the largest clouds.
@@ -176,17 +176,17 @@ record! {
     }
 }
 
-fn check(medium: &Medium, faults: &mut Faults) {
+fn check(medium: &Medium, errors: &mut DescriptionErrors) {
     let placed = medium.transform.stated_at().or(medium.frame.as_ref().map(|frame| &frame.place));
-    check_place(medium.shape.as_ref(), placed, faults);
-    check_gain(medium.unevenness.as_ref(), faults);
+    check_place(medium.shape.as_ref(), placed, errors);
+    check_gain(medium.unevenness.as_ref(), errors);
 }
 
 /// Refuses a placement of a medium that is everywhere.
-pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, faults: &mut Faults) {
+pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, errors: &mut DescriptionErrors) {
     let endless = matches!(shape, None | Some(MediumShape::Everywhere(_)));
     if let (true, Some(place)) = (endless, placed) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             place,
             "the medium is unbounded, so its placement has no effect",
@@ -196,11 +196,11 @@ pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, f
 }
 
 /// Refuses the gain of absent octaves.
-pub(super) fn check_gain(unevenness: Option<&Unevenness>, faults: &mut Faults) {
+pub(super) fn check_gain(unevenness: Option<&DensityNoise>, errors: &mut DescriptionErrors) {
     let idle = unevenness
         .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|octaves| octaves.value == 1)));
     if let Some(gain) = idle {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &gain.place,
             "\"gain\" has no effect with one octave",
@@ -215,9 +215,9 @@ impl NamesFiles for Medium {
             self;
         shape.name_files(files);
         if let Extinction::PerMetre(curve) = extinction {
-            curve.name_file(Values::Light, files);
+            curve.name_file(SpectrumValues::Light, files);
         }
-        albedo.iter().for_each(|albedo| albedo.name_file(Values::Share, files));
+        albedo.iter().for_each(|albedo| albedo.name_file(SpectrumValues::Share, files));
     }
 }
 
@@ -225,7 +225,7 @@ impl NamesFiles for MediumShape {
     fn name_files(&self, files: &mut FileList) {
         match self {
             Self::Everywhere(_) | Self::Layer(_) | Self::Box(_) | Self::Sphere(_) => {}
-            Self::Mesh(mesh) => files.mesh(&mesh.file, Covered::All),
+            Self::Mesh(mesh) => files.mesh(&mesh.file, ReplacedMaterials::All),
         }
     }
 }

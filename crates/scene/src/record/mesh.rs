@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::vertex_animation::VertexAnimation;
 use crate::asset::is_gltf;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, number, path, record, text, words};
 
@@ -129,11 +129,11 @@ impl Mesh {
     }
 }
 
-fn check(mesh: &Mesh, faults: &mut Faults) {
-    check_up(mesh, faults);
+fn check(mesh: &Mesh, errors: &mut DescriptionErrors) {
+    check_up(mesh, errors);
     let Some(forward) = &mesh.forward_axis else { return };
     if forward.vector().dot(mesh.up().vector()).abs() > 0.5 {
-        faults.add(
+        errors.add(
             ErrorCode::Degenerate,
             &forward.place,
             "\"forward_axis\" is parallel to \"up_axis\"",
@@ -143,17 +143,17 @@ fn check(mesh: &Mesh, faults: &mut Faults) {
 }
 
 /// Checks that "up_axis" is given, except for a glTF file, which states its axes.
-fn check_up(mesh: &Mesh, faults: &mut Faults) {
+fn check_up(mesh: &Mesh, errors: &mut DescriptionErrors) {
     let file = mesh.file();
     match (&mesh.up_axis, is_gltf(&file)) {
-        (Some(up), true) if up.value != Axis::Y => faults.add(
+        (Some(up), true) if up.value != Axis::Y => errors.add(
             ErrorCode::Contradiction,
             &up.place,
             "\"up_axis\" contradicts the file: +y points upwards in every glTF file",
             "remove it, and rotate the object that uses the mesh",
         ),
         (None, false) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &mesh.place,
                 "the key \"up_axis\" is missing",

@@ -3,9 +3,9 @@
 use serde_json::{Value as Json, json};
 
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::place::Placed;
-use crate::reader::{Kind, Rule};
+use crate::reader::{ValueKind, Rule};
 use crate::written::{Item, Value as Said};
 
 /// A day of the Gregorian calendar.
@@ -44,8 +44,8 @@ pub(crate) struct TimeRule;
 
 impl Rule for DateRule {
     type Out = Placed<Date>;
-    fn takes(&self, kind: Kind) -> bool {
-        matches!(kind, Kind::Text | Kind::Moment)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        matches!(kind, ValueKind::Text | ValueKind::Moment)
     }
     fn expected(&self) -> String {
         "a date from 1950 to 2099 as year-month-day: 2026-06-21".to_owned()
@@ -53,10 +53,10 @@ impl Rule for DateRule {
     fn schema(&self) -> Json {
         json!({ "type": "string", "format": "date", "examples": ["2026-06-21"] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<Date>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<Date>> {
         match text(node).and_then(parse_date) {
             Some(date) => Some(Placed::new(date, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<Date>) -> Option<Item> {
@@ -67,8 +67,8 @@ impl Rule for DateRule {
 
 impl Rule for TimeRule {
     type Out = Placed<TimeOfDay>;
-    fn takes(&self, kind: Kind) -> bool {
-        matches!(kind, Kind::Text | Kind::Moment)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        matches!(kind, ValueKind::Text | ValueKind::Moment)
     }
     fn expected(&self) -> String {
         "a time of day in UTC, without a zone, in whole seconds as hour:minute:second: 09:30:00".to_owned()
@@ -76,10 +76,10 @@ impl Rule for TimeRule {
     fn schema(&self) -> Json {
         json!({ "type": "string", "format": "time", "examples": ["09:30:00"] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<TimeOfDay>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<TimeOfDay>> {
         match text(node).and_then(parse_time) {
             Some(time) => Some(Placed::new(time, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, value: &Placed<TimeOfDay>) -> Option<Item> {

@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3};
 use std::path::PathBuf;
 
 use crate::asset::TrajectoryRow;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, number, path, record, time, words};
 
@@ -36,7 +36,7 @@ impl TrajectoryAxes {
 
     /// Converts a row to axes x forward, y left, z up, for the world and for the moving object.
     #[must_use]
-    pub fn turned(self, row: &TrajectoryRow) -> TrajectoryRow {
+    pub fn to_standard_axes(self, row: &TrajectoryRow) -> TrajectoryRow {
         let turn = DQuat::from_mat3(&self.to_world());
         let rotation = match self {
             Self::Flu => row.rotation,
@@ -61,7 +61,7 @@ record! {
 
 record! {
     /// Motion between keys.
-    pub struct Course {
+    pub struct MotionKeys {
         /// Interpolation between keys or rows. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
         /// Positions over time.
@@ -71,22 +71,22 @@ record! {
 
 record! {
     /// A wheel: it turns about its y axis as its origin moves in the world along its x axis, without slipping.
-    pub struct Rolls {
+    pub struct Wheel {
         /// Rolling radius.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }
 
 /// Checks that the placement is stated once.
-pub(super) fn check_ways(
-    ways: impl IntoIterator<Item = Option<(&'static str, Place)>>,
+pub(super) fn check_placements(
+    placements: impl IntoIterator<Item = Option<(&'static str, Place)>>,
     what: &str,
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) {
-    let said: Vec<(&str, Place)> = ways.into_iter().flatten().collect();
-    if let [(first, _), (second, place), ..] = said.as_slice() {
+    let stated: Vec<(&str, Place)> = placements.into_iter().flatten().collect();
+    if let [(first, _), (second, place), ..] = stated.as_slice() {
         let problem = format!("{second} contradicts {first}: both state the position of {what}");
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             place,
             problem,
@@ -96,23 +96,23 @@ pub(super) fn check_ways(
 }
 
 /// The trajectory as a statement of the placement.
-pub(super) fn trajectory_way(course: Option<&Course>) -> Option<(&'static str, Place)> {
-    course?.trajectory.as_ref().map(|trajectory| ("\"trajectory\"", trajectory.place.clone()))
+pub(super) fn trajectory_placement(motion_keys: Option<&MotionKeys>) -> Option<(&'static str, Place)> {
+    motion_keys?.trajectory.as_ref().map(|trajectory| ("\"trajectory\"", trajectory.place.clone()))
 }
 
 /// Reports contradictions of keys at these times.
-pub(super) fn check_course<'a>(
-    course: Option<&Course>,
+pub(super) fn check_motion<'a>(
+    motion_keys: Option<&MotionKeys>,
     times: impl Iterator<Item = &'a Placed<ExactTime>>,
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) {
     let times: Vec<&Placed<ExactTime>> = times.collect();
     for pair in times.windows(2) {
-        check_order(pair[0], pair[1], faults);
+        check_order(pair[0], pair[1], errors);
     }
-    let Some(Course { interpolation: Some(interpolation), trajectory: None, .. }) = course else { return };
+    let Some(MotionKeys { interpolation: Some(interpolation), trajectory: None, .. }) = motion_keys else { return };
     if times.len() < 2 {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &interpolation.place,
             "\"interpolation\" has no effect here, there are no keys to interpolate",
@@ -121,10 +121,10 @@ pub(super) fn check_course<'a>(
     }
 }
 
-fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &mut Faults) {
+fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, errors: &mut DescriptionErrors) {
     let (before_s, after_s) = (before.value, after.value);
     if after_s == before_s {
-        faults.add(
+        errors.add(
             ErrorCode::Duplicate,
             &after.place,
             format!("two keys are at {after_s} s"),
@@ -132,7 +132,7 @@ fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &m
         );
     } else if after_s < before_s {
         let problem = format!("the key at {after_s} s follows the key at {before_s} s");
-        faults.add(ErrorCode::WrongOrder, &after.place, problem, "give the keys in order of time");
+        errors.add(ErrorCode::WrongOrder, &after.place, problem, "give the keys in order of time");
     }
 }
 
@@ -150,7 +150,7 @@ mod tests {
             (TrajectoryAxes::Rdf, DVec3::new(2.0, -1.0, 3.0), quarter(DVec3::Y)),
         ];
         for (axes, position_m, rotation) in rows {
-            let row = axes.turned(&TrajectoryRow { time: 4.0.into(), position_m, rotation });
+            let row = axes.to_standard_axes(&TrajectoryRow { time: 4.0.into(), position_m, rotation });
             assert_eq!((row.time.seconds(), row.position_m), (4.0, DVec3::new(3.0, -2.0, 1.0)));
             assert!((row.rotation * DVec3::X - DVec3::NEG_Y).length() < 1e-15, "{axes:?}");
             assert!((row.rotation * DVec3::Z - DVec3::Z).length() < 1e-15, "{axes:?}");

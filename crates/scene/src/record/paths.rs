@@ -1,6 +1,6 @@
 //! The keys of `[render]` that belong to integrator = "path".
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{among, flag, record, whole};
 
@@ -49,7 +49,7 @@ impl PathKeys {
     }
 
     /// Reports branched paths with path reuse, which exclude each other. The key of the command line counts.
-    pub(super) fn check_branches(&self, faults: &mut Faults) {
+    pub(super) fn check_branches(&self, errors: &mut DescriptionErrors) {
         let (Some(branches), Some(reuse)) = (above_one(&self.branches), above_one(&self.path_reuse_px)) else { return };
         let (key, of, other, cause) = match self.reuse_counts() {
             true => ("branches", branches, "path_reuse_px", reuse),
@@ -57,7 +57,7 @@ impl PathKeys {
         };
         let problem =
             format!("\"{key}\" and \"{other}\" = {} exclude each other: branched paths cannot be reused", cause.value);
-        faults.add_idle(
+        errors.add_without_effect(
             ErrorCode::Contradiction,
             key,
             &of.place,

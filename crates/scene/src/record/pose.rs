@@ -3,9 +3,9 @@
 use etendue_core::{CameraPose, ExactTime};
 use glam::{DMat3, DVec3};
 
-use super::motion::{Course, check_course, check_ways, trajectory_way};
+use super::motion::{MotionKeys, check_motion, check_placements, trajectory_placement};
 use super::transform::yaw_pitch_roll;
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, time, vector};
 
@@ -21,9 +21,9 @@ record! {
         /// Poses over time.
         many keys: PoseKey = list(record(), 1);
         /// Motion.
-        group course: Course;
+        group course: MotionKeys;
         /// Frame of its positions, points and directions. Default: the world.
-        optional frame: Placed<String> = name_of(Named::Frame);
+        optional frame: Placed<String> = name_of(NameKind::Frame);
     }
 }
 
@@ -62,7 +62,7 @@ impl Pose {
     /// The pose in its frame, if stated; a checked record has that, keys or a trajectory.
     #[must_use]
     pub fn to_camera_pose(&self) -> Option<CameraPose> {
-        of_aim(self.position_m.as_ref()?, self.aim.as_ref()?, self.up.as_ref())
+        pose_from_aim(self.position_m.as_ref()?, self.aim.as_ref()?, self.up.as_ref())
     }
 
     /// Place of the statement of its pose.
@@ -70,8 +70,8 @@ impl Pose {
     pub fn stated_at(&self) -> &Place {
         let keys = self.keys.first().map(|key| &key.place);
         let own = self.position_m.as_ref().map(|position| &position.place);
-        let course = self.course.as_ref().and_then(|course| course.trajectory.as_ref());
-        own.or(keys).or(course.map(|trajectory| &trajectory.place)).unwrap_or(&self.place)
+        let motion_keys = self.course.as_ref().and_then(|motion_keys| motion_keys.trajectory.as_ref());
+        own.or(keys).or(motion_keys.map(|trajectory| &trajectory.place)).unwrap_or(&self.place)
     }
 }
 
@@ -79,7 +79,7 @@ impl PoseKey {
     /// The pose in the camera's frame; a checked record has one.
     #[must_use]
     pub fn to_camera_pose(&self) -> Option<CameraPose> {
-        of_aim(&self.position_m, &self.aim, self.up.as_ref())
+        pose_from_aim(&self.position_m, &self.aim, self.up.as_ref())
     }
 }
 
@@ -90,7 +90,7 @@ pub fn camera_axes() -> DMat3 {
 }
 
 /// Returns `None` for an undefined direction: the camera looks at itself or along "up".
-fn of_aim(position_m: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>>) -> Option<CameraPose> {
+fn pose_from_aim(position_m: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>>) -> Option<CameraPose> {
     let position_m = DVec3::from_array(position_m.value);
     match aim {
         Aim::LookAt(target) => {
@@ -103,23 +103,23 @@ fn of_aim(position_m: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>
     }
 }
 
-fn check(pose: &Pose, faults: &mut Faults) {
+fn check(pose: &Pose, errors: &mut DescriptionErrors) {
     let own = pose.position_m.as_ref().map(|p| ("\"position_m\"", p.place.clone()));
     let own = own.or(pose.aim.as_ref().map(|aim| ("the camera's own aim", aim.place().clone())));
     let keys = pose.keys.first().map(|key| ("\"keys\"", key.place.clone()));
-    check_ways([own, keys, trajectory_way(pose.course.as_ref())], "the camera", faults);
-    check_course(pose.course.as_ref(), pose.keys.iter().map(|key| &key.time_s), faults);
-    let moves = !pose.keys.is_empty() || trajectory_way(pose.course.as_ref()).is_some();
+    check_placements([own, keys, trajectory_placement(pose.course.as_ref())], "the camera", errors);
+    check_motion(pose.course.as_ref(), pose.keys.iter().map(|key| &key.time_s), errors);
+    let moves = !pose.keys.is_empty() || trajectory_placement(pose.course.as_ref()).is_some();
     match (&pose.position_m, &pose.aim) {
-        (Some(position), Some(aim)) => check_aim(position, aim, pose.up.as_ref(), faults),
+        (Some(position), Some(aim)) => check_aim(position, aim, pose.up.as_ref(), errors),
         _ if moves => {}
-        (None, _) => faults.add(
+        (None, _) => errors.add(
             ErrorCode::MissingKey,
             &pose.place,
             "the key \"position_m\" is missing",
             "add it: a list of 3, each a number in m; or \"keys\" or a \"trajectory\" for a camera that moves",
         ),
-        (_, None) => faults.add(
+        (_, None) => errors.add(
             ErrorCode::MissingKey,
             &pose.place,
             "a key is missing",
@@ -127,18 +127,18 @@ fn check(pose: &Pose, faults: &mut Faults) {
         ),
     }
     if let (Some(up), None) = (&pose.up, &pose.aim) {
-        note_idle(up, faults);
+        note_idle(up, errors);
     }
 }
 
-fn check_key(key: &PoseKey, faults: &mut Faults) {
-    check_aim(&key.position_m, &key.aim, key.up.as_ref(), faults);
+fn check_key(key: &PoseKey, errors: &mut DescriptionErrors) {
+    check_aim(&key.position_m, &key.aim, key.up.as_ref(), errors);
 }
 
-fn check_aim(position: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>>, faults: &mut Faults) {
+fn check_aim(position: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>>, errors: &mut DescriptionErrors) {
     match (aim, up) {
-        (Aim::Rotation(_), Some(up)) => note_idle(up, faults),
-        (Aim::LookAt(target), _) if of_aim(position, aim, up).is_none() => faults.add(
+        (Aim::Rotation(_), Some(up)) => note_idle(up, errors),
+        (Aim::LookAt(target), _) if pose_from_aim(position, aim, up).is_none() => errors.add(
             ErrorCode::Degenerate,
             &target.place,
             "the camera looks at its own position or along \"up\"",
@@ -148,8 +148,8 @@ fn check_aim(position: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]
     }
 }
 
-fn note_idle(up: &Placed<[f64; 3]>, faults: &mut Faults) {
-    faults.add(ErrorCode::NoEffect, &up.place, "\"up\" has no effect here, it belongs to \"look_at_m\"", "remove it");
+fn note_idle(up: &Placed<[f64; 3]>, errors: &mut DescriptionErrors) {
+    errors.add(ErrorCode::NoEffect, &up.place, "\"up\" has no effect here, it belongs to \"look_at_m\"", "remove it");
 }
 
 impl Aim {

@@ -33,7 +33,7 @@ record! {
         /// Scales the number of drops to give `rate_mm_h`; otherwise 5 to 18 % more. Default: false.
         optional rescaled: Placed<bool> = flag();
         /// Extent, and modelling.
-        inside fall: Fall;
+        inside fall: PrecipitationSettings;
     }
 }
 
@@ -47,7 +47,7 @@ record! {
         /// Scales the number of flakes to give `rate_mm_h`. Default: false.
         optional rescaled: Placed<bool> = flag();
         /// Extent, and modelling.
-        inside fall: Fall;
+        inside fall: PrecipitationSettings;
     }
 }
 
@@ -67,7 +67,7 @@ words! {
 
 record! {
     /// Extent and modelling of precipitation.
-    pub struct Fall {
+    pub struct PrecipitationSettings {
         /// Air velocity. Default: 0.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s").at_least(-100.0).at_most(100.0));
         /// Height from which precipitation falls. Default: 500.

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use super::curve::spectrum_file;
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::{AssetKind, Values};
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::asset::request::{AssetKind, SpectrumValues};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::{Place, Placed};
-use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
+use crate::reader::{NumberRule, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
 use etendue_spectra::reflectance;
 
 /// Reflectance or transmittance of a surface.
@@ -55,7 +55,7 @@ impl Colour {
 impl NamesFiles for Colour {
     fn name_files(&self, files: &mut FileList) {
         if let Self::Spectrum(file) = self {
-            files.add(AssetKind::Spectrum(Values::Share), file);
+            files.add(AssetKind::Spectrum(SpectrumValues::Share), file);
         }
     }
 }
@@ -82,9 +82,9 @@ keyed! {
     /// Source of a reflectance.
     pub enum ReflectanceSource {
         /// Name of a texture.
-        texture => Texture(Placed<String>) = name_of(Named::Texture);
+        texture => Texture(Placed<String>) = name_of(NameKind::Texture);
         /// Encoded sRGB colour, converted to a smooth spectrum.
-        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
+        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(fraction());
         /// Two columns: wavelength in nm, reflectance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
         /// A spectrum of the library.
@@ -96,7 +96,7 @@ keyed! {
     /// Source of a colour.
     pub enum ColourTable {
         /// Encoded sRGB colour, converted to a smooth spectrum.
-        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
+        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(fraction());
         /// Two columns: wavelength in nm, fraction of light 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
         /// A spectrum of the library.
@@ -104,29 +104,29 @@ keyed! {
     }
 }
 
-fn share() -> Number {
+fn fraction() -> NumberRule {
     number("").at_least(0.0).at_most(1.0)
 }
 
 /// A number, `[r, g, b]` in linear sRGB, or a table.
 pub(crate) fn any_reflectance() -> impl Rule<Out = Reflectance> {
-    let texture = record().map(ReflectanceTable::resolve, ReflectanceTable::of);
+    let texture = record().map(ReflectanceTable::resolve, ReflectanceTable::from_reflectance);
     either(variant!(grey(), Reflectance::Plain), either(variant!(linear_srgb(), Reflectance::Plain), texture))
 }
 
 /// The same without textures.
 pub(crate) fn any_colour() -> impl Rule<Out = Colour> {
-    either(grey(), either(linear_srgb(), record().map(ColourTable::resolve, ColourTable::of)))
+    either(grey(), either(linear_srgb(), record().map(ColourTable::resolve, ColourTable::from_colour)))
 }
 
 /// A number.
 fn grey() -> impl Rule<Out = Colour> {
-    variant!(share(), Colour::Grey)
+    variant!(fraction(), Colour::Grey)
 }
 
 /// `[r, g, b]`.
 fn linear_srgb() -> impl Rule<Out = Colour> {
-    variant!(vector::<3>(share()), Colour::LinearSrgb)
+    variant!(vector::<3>(fraction()), Colour::LinearSrgb)
 }
 
 impl ColourTable {
@@ -139,7 +139,7 @@ impl ColourTable {
     }
 
     /// Returns the table form of a colour; `None` for forms that are no table.
-    fn of(colour: &Colour) -> Option<Self> {
+    fn from_colour(colour: &Colour) -> Option<Self> {
         match colour {
             Colour::EncodedSrgb(v) => Some(Self::Srgb(v.clone())),
             Colour::Spectrum(v) => Some(Self::Spectrum(v.clone())),
@@ -151,7 +151,7 @@ impl ColourTable {
 
 impl ReflectanceTable {
     /// Returns the table form of a reflectance; `None` for forms that are no table.
-    fn of(reflectance: &Reflectance) -> Option<Self> {
+    fn from_reflectance(reflectance: &Reflectance) -> Option<Self> {
         match reflectance {
             Reflectance::Texture { name, scale } => {
                 Some(Self { scale: scale.clone(), ..Self::new(ReflectanceSource::Texture(name.clone())) })
@@ -173,9 +173,9 @@ impl ReflectanceTable {
     }
 }
 
-fn check(table: &ReflectanceTable, faults: &mut Faults) {
+fn check(table: &ReflectanceTable, errors: &mut DescriptionErrors) {
     if let (Some(scale), false) = (&table.scale, matches!(table.source, ReflectanceSource::Texture(_))) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &scale.place,
             "\"scale\" has no effect here, it belongs to \"texture\"",

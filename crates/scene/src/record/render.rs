@@ -1,6 +1,6 @@
 //! `[render]`: light transport and sampling. `None` means that the plan decides.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{Record, Rule, among, choice, either, keyed, number, record, variant, vector, whole, words};
 use crate::record::paths::PathKeys;
@@ -68,7 +68,7 @@ words! {
 
 keyed! {
     /// A method with parameters.
-    pub enum DepthOfFieldTable {
+    pub enum ParametricDepthMethod {
         /// Artistic: a blend with one blurred copy, by distance.
         fast => Fast(FastBlend) = record::<FastBlend>();
     }
@@ -88,15 +88,15 @@ record! {
 }
 
 fn depth_of_field() -> impl Rule<Out = DepthOfField> {
-    let fast = variant!(record::<DepthOfFieldTable>(), DepthOfFieldTable::Fast => DepthOfField::Fast);
+    let fast = variant!(record::<ParametricDepthMethod>(), ParametricDepthMethod::Fast => DepthOfField::Fast);
     either(variant!(choice(), DepthOfField::Named), fast)
 }
 
-fn check_blend(blend: &FastBlend, faults: &mut Faults) {
+fn check_blend(blend: &FastBlend, errors: &mut DescriptionErrors) {
     for range in [&blend.near_m, &blend.far_m].into_iter().flatten() {
         if range[0] >= range[1] {
             let problem = format!("found {} m before {} m", range[0], range[1]);
-            faults.add(
+            errors.add(
                 ErrorCode::WrongOrder,
                 &range.place,
                 problem,
@@ -162,12 +162,12 @@ impl Render {
     }
 }
 
-fn check(render: &Render, faults: &mut Faults) {
+fn check(render: &Render, errors: &mut DescriptionErrors) {
     if let Some(range) = &render.wavelength_range_nm
         && range[0] >= range[1]
     {
         let problem = format!("found {} to {}", range[0], range[1]);
-        faults.add(
+        errors.add(
             ErrorCode::WrongOrder,
             &range.place,
             problem,
@@ -177,9 +177,9 @@ fn check(render: &Render, faults: &mut Faults) {
 }
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.
-pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
-    render.samples.check(faults);
-    render.paths.check_branches(faults);
+pub(crate) fn check_merged(render: &Render, errors: &mut DescriptionErrors) {
+    render.samples.check(errors);
+    render.paths.check_branches(errors);
     if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
         return;
     }
@@ -194,7 +194,7 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     for (key, place, remedy) in keys {
         if let Some(place) = place {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
-            faults.add_idle(
+            errors.add_without_effect(
                 ErrorCode::NoEffect,
                 key,
                 place,
@@ -208,7 +208,7 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
 
 /// Checks the records of all cameras, into which the job's has been merged. A key of the path integrator must apply to at least one camera that
 /// traces paths.
-pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
+pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, errors: &mut DescriptionErrors) {
     let traces = |render: &Render| render.integrator.as_ref().is_none_or(|key| key.value == Integrator::Path);
     let serves = |place: &Place| {
         let mut tracing = cameras.clone().filter(|render| traces(render));
@@ -218,7 +218,7 @@ pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Cl
         let cause = render.integrator.as_ref().map(|integrator| &integrator.place);
         for (key, item) in render.paths.to_table().entries().filter(|(_, item)| !serves(&item.place)) {
             let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
-            faults.add_idle(
+            errors.add_without_effect(
                 ErrorCode::NoEffect,
                 key,
                 &item.place,

@@ -2,7 +2,7 @@
 //!
 //! Only one of them counts. A camera's choice overrides the job's, and the command line overrides files. Two in one record exclude each other.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{list, number, record, whole};
 
@@ -31,13 +31,13 @@ record! {
 
 /// The key that decides the number of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Choice {
+enum SampleKey {
     Noise,
     Passes,
     Spp,
 }
 
-impl Choice {
+impl SampleKey {
     /// Priority where a record, which is then refused, states several.
     const ALL: [Self; 3] = [Self::Noise, Self::Passes, Self::Spp];
 
@@ -73,9 +73,9 @@ impl Choice {
 
     /// The one that counts in a record.
     fn in_force(keys: &SampleKeys) -> Option<Self> {
-        let stated = Self::ALL.into_iter().filter(|choice| choice.place(keys).is_some());
-        let by_command_line = stated.clone().find(|choice| choice.is_of_command_line(keys));
-        by_command_line.or_else(|| stated.clone().next())
+        let stated_keys = Self::ALL.into_iter().filter(|choice| choice.place(keys).is_some());
+        let by_command_line = stated_keys.clone().find(|choice| choice.is_of_command_line(keys));
+        by_command_line.or_else(|| stated_keys.clone().next())
     }
 }
 
@@ -83,67 +83,67 @@ impl SampleKeys {
     /// Noise threshold, where it decides the number of samples. "spp" or "passes" of the command line override that of a file.
     #[must_use]
     pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
-        self.noise_threshold.as_ref().filter(|_| Choice::in_force(self) == Some(Choice::Noise))
+        self.noise_threshold.as_ref().filter(|_| SampleKey::in_force(self) == Some(SampleKey::Noise))
     }
 
     /// Passes, where they are stated and count.
     #[must_use]
     pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
-        (Choice::in_force(self) == Some(Choice::Passes)).then_some(&self.passes[..])
+        (SampleKey::in_force(self) == Some(SampleKey::Passes)).then_some(&self.passes[..])
     }
 
     /// Removes from a camera's keys and from `base`, the job's, those overridden by the other.
     pub(super) fn exclude(&mut self, base: &mut Self) {
-        if let Some(choice) = Choice::ALL.into_iter().find(|choice| choice.place(self).is_some()) {
-            for other in Choice::ALL.into_iter().filter(|other| *other != choice) {
+        if let Some(choice) = SampleKey::ALL.into_iter().find(|choice| choice.place(self).is_some()) {
+            for other in SampleKey::ALL.into_iter().filter(|other| *other != choice) {
                 if !other.is_of_command_line(base) {
                     other.remove(base);
                 }
             }
         }
-        if Choice::Noise.is_of_command_line(base) {
+        if SampleKey::Noise.is_of_command_line(base) {
             self.noise_threshold = None;
         }
-        if Choice::Passes.is_of_command_line(base) {
+        if SampleKey::Passes.is_of_command_line(base) {
             self.passes.clear();
             // The replicates belong to the passes.
-            if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
+            if base.replicates.as_ref().is_some_and(|key| key.place.is_command_line()) {
                 self.replicates = None;
             }
         }
     }
 
     /// Checks a record into which the job's has been merged.
-    pub(super) fn check(&self, faults: &mut Faults) {
-        if let Some(choice) = Choice::in_force(self) {
-            let others = Choice::ALL.into_iter().filter(|other| *other != choice);
-            others.for_each(|other| refuse(other, choice, self, faults));
+    pub(super) fn check(&self, errors: &mut DescriptionErrors) {
+        if let Some(choice) = SampleKey::in_force(self) {
+            let others = SampleKey::ALL.into_iter().filter(|other| *other != choice);
+            others.for_each(|other| refuse(other, choice, self, errors));
         }
         let keys = [("min_spp", &self.min_spp), ("max_spp", &self.max_spp)];
         let keys = keys.into_iter().filter(|_| self.threshold_in_force().is_none());
         for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
             let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
-            let cause = Choice::in_force(self).and_then(|choice| choice.place(self));
-            faults.add_idle(ErrorCode::NoEffect, key, &value.place, cause, problem, "add it, or remove the key");
+            let cause = SampleKey::in_force(self).and_then(|choice| choice.place(self));
+            errors.add_without_effect(ErrorCode::NoEffect, key, &value.place, cause, problem, "add it, or remove the key");
         }
     }
 }
 
 /// Refuses a choice that conflicts with the one that counts.
-fn refuse(other: Choice, choice: Choice, keys: &SampleKeys, faults: &mut Faults) {
+fn refuse(other: SampleKey, choice: SampleKey, keys: &SampleKeys, errors: &mut DescriptionErrors) {
     let Some(place) = other.place(keys) else { return };
     let problem = match (other, choice) {
-        (Choice::Spp, Choice::Passes) | (Choice::Passes, Choice::Spp) => {
+        (SampleKey::Spp, SampleKey::Passes) | (SampleKey::Passes, SampleKey::Spp) => {
             "\"spp\" and \"passes\" exclude each other: the samples of a pixel are the sum of its passes"
         }
-        (Choice::Noise, Choice::Passes) | (Choice::Passes, Choice::Noise) => {
+        (SampleKey::Noise, SampleKey::Passes) | (SampleKey::Passes, SampleKey::Noise) => {
             "\"passes\" and \"noise_threshold\" exclude each other: a fixed number of samples, or as many as each pixel needs"
         }
         _ => {
             "\"spp\" and \"noise_threshold\" exclude each other: a fixed number of samples, or as many as each pixel needs"
         }
     };
-    faults.add_idle(
+    errors.add_without_effect(
         ErrorCode::Contradiction,
         other.key(),
         place,

@@ -9,7 +9,7 @@ use super::mesh::Mesh;
 use super::object::Object;
 use super::precipitation::Precipitation;
 use super::texture::Texture;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{keyed_by_name, list, record, whole};
 
@@ -39,19 +39,19 @@ record! {
     }
 }
 
-fn check(scene: &Scene, faults: &mut Faults) {
-    frame::check_circles(&scene.frames, faults);
-    check_sun(scene, faults);
+fn check(scene: &Scene, errors: &mut DescriptionErrors) {
+    frame::check_circles(&scene.frames, errors);
+    check_sun(scene, errors);
     if let Some(Environment::Uniform(emission)) = &scene.environment
         && let Some((key, place)) = emission.level.flux()
     {
         let problem = format!("\"{key}\" is the flux of a surface, and the sky has no area");
-        faults.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+        errors.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
     }
 }
 
 /// Refuses a second sun besides that of the sky.
-fn check_sun(scene: &Scene, faults: &mut Faults) {
+fn check_sun(scene: &Scene, errors: &mut DescriptionErrors) {
     let Some(Environment::Sky(sky)) = &scene.environment else { return };
     if sky.sun.as_ref().is_some_and(|sun| !sun.value) {
         return;
@@ -59,7 +59,7 @@ fn check_sun(scene: &Scene, faults: &mut Faults) {
     for light in &scene.lights {
         if let Light::Sun(sun) = light {
             let problem = format!("the sky has its own sun ({}); this light would be a second one", sky.place);
-            faults.add(
+            errors.add(
                 ErrorCode::Contradiction,
                 &sun.place,
                 problem,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
@@ -72,23 +72,23 @@ impl Texture {
     }
 }
 
-fn check(texture: &Texture, faults: &mut Faults) {
+fn check(texture: &Texture, errors: &mut DescriptionErrors) {
     if let (Mapping::Triplanar, Some(mapping), None) = (texture.mapping(), &texture.mapping, &texture.size_m) {
         let problem = "mapping = \"triplanar\" does not state the size of the image on the surface";
-        faults.add(ErrorCode::MissingKey, &mapping.place, problem, "add \"size_m\"");
+        errors.add(ErrorCode::MissingKey, &mapping.place, problem, "add \"size_m\"");
     }
     let of_sides = [("size_m", &texture.size_m), ("sharpness", &texture.sharpness)];
-    for (key, given) in of_sides.into_iter().filter(|_| texture.mapping() == Mapping::Uv) {
-        if let Some(given) = given {
+    for (key, value) in of_sides.into_iter().filter(|_| texture.mapping() == Mapping::Uv) {
+        if let Some(value) = value {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"triplanar\"");
-            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it, or set the mapping");
+            errors.add(ErrorCode::NoEffect, &value.place, problem, "remove it, or set the mapping");
         }
     }
     let of_uv = [("uv_scale", &texture.uv_scale), ("uv_offset", &texture.uv_offset)];
-    for (key, given) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {
-        if let Some(given) = given {
+    for (key, value) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {
+        if let Some(value) = value {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"uv\"");
-            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it; \"size_m\" sets the size of the image");
+            errors.add(ErrorCode::NoEffect, &value.place, problem, "remove it; \"size_m\" sets the size of the image");
         }
     }
 }

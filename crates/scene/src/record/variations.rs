@@ -1,7 +1,7 @@
 //! A variations file: differences between the samples of a data set, and the layout of its files.
 
 use super::render::MAX_SEED;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{
     RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole, words,
@@ -159,16 +159,16 @@ record! {
     }
 }
 
-fn check(file: &Variations, faults: &mut Faults) {
+fn check(file: &Variations, errors: &mut DescriptionErrors) {
     if file.vary.is_empty() && file.presets.is_empty() {
         let remedy = "add [[vary]] with a \"key\" and a \"type\" of distribution, or [[presets]]";
-        faults.add(ErrorCode::Empty, &file.place, "the file varies no key", remedy);
+        errors.add(ErrorCode::Empty, &file.place, "the file varies no key", remedy);
     }
     let keys = file.vary.iter().flat_map(|entry| &entry.key);
-    unique(keys, "is varied twice", "keep one of the two", faults);
-    unique(file.presets.iter().map(|preset| &preset.name), "is the name of two presets", "rename one", faults);
+    unique(keys, "is varied twice", "keep one of the two", errors);
+    unique(file.presets.iter().map(|preset| &preset.name), "is the name of two presets", "rename one", errors);
     for key in file.vary.iter().flat_map(|entry| &entry.key).filter(|key| key.contains('=')) {
-        faults.add(
+        errors.add(
             ErrorCode::InvalidChange,
             &key.place,
             format!("found the change \"{}\" instead of a key", key.value),
@@ -177,30 +177,30 @@ fn check(file: &Variations, faults: &mut Faults) {
     }
 }
 
-fn unique<'a>(names: impl Iterator<Item = &'a Placed<String>>, problem: &str, remedy: &str, faults: &mut Faults) {
+fn unique<'a>(names: impl Iterator<Item = &'a Placed<String>>, problem: &str, remedy: &str, errors: &mut DescriptionErrors) {
     let mut known = Vec::new();
     for name in names {
         if known.contains(&&name.value) {
-            faults.add(ErrorCode::Duplicate, &name.place, format!("\"{}\" {problem}", name.value), remedy);
+            errors.add(ErrorCode::Duplicate, &name.place, format!("\"{}\" {problem}", name.value), remedy);
         }
         known.push(&name.value);
     }
 }
 
-fn check_uniform(range: &Uniform, faults: &mut Faults) {
-    check_range(&range.min, &range.max, faults);
+fn check_uniform(range: &Uniform, errors: &mut DescriptionErrors) {
+    check_range(&range.min, &range.max, errors);
 }
 
-fn check_log_uniform(range: &LogUniform, faults: &mut Faults) {
-    check_range(&range.min, &range.max, faults);
+fn check_log_uniform(range: &LogUniform, errors: &mut DescriptionErrors) {
+    check_range(&range.min, &range.max, errors);
 }
 
-fn check_range(min: &Placed<f64>, max: &Placed<f64>, faults: &mut Faults) {
+fn check_range(min: &Placed<f64>, max: &Placed<f64>, errors: &mut DescriptionErrors) {
     if min.value >= max.value {
         let problem = format!("\"max\" is {} and \"min\" is {}", max.value, min.value);
-        faults.add(ErrorCode::WrongOrder, &max.place, problem, "give a \"max\" above \"min\"");
+        errors.add(ErrorCode::WrongOrder, &max.place, problem, "give a \"max\" above \"min\"");
     } else if !(max.value - min.value).is_finite() {
-        faults.add(
+        errors.add(
             ErrorCode::OutOfRange,
             &max.place,
             "\"max\" − \"min\" exceeds the range of 64 bits",
@@ -209,19 +209,19 @@ fn check_range(min: &Placed<f64>, max: &Placed<f64>, faults: &mut Faults) {
     }
 }
 
-fn check_integer(range: &Integer, faults: &mut Faults) {
+fn check_integer(range: &Integer, errors: &mut DescriptionErrors) {
     if range.min.value > range.max.value {
         let problem = format!("\"max\" is {} and \"min\" is {}", range.max.value, range.min.value);
-        faults.add(ErrorCode::WrongOrder, &range.max.place, problem, "give a \"max\" of at least \"min\"");
+        errors.add(ErrorCode::WrongOrder, &range.max.place, problem, "give a \"max\" of at least \"min\"");
     }
 }
 
 /// Refuses a distribution with less than about one number in fifty within the limits: 4 % of a normal distribution lie within a tenth of a deviation
 /// next to the mean.
-fn check_normal(normal: &Normal, faults: &mut Faults) {
-    let (mean, least) = (normal.mean.value, 0.1 * normal.standard_deviation.value);
+fn check_normal(normal: &Normal, errors: &mut DescriptionErrors) {
+    let (mean, lower) = (normal.mean.value, 0.1 * normal.standard_deviation.value);
     if let Some(min) = normal.min.as_ref().filter(|min| min.value > mean) {
-        faults.add(
+        errors.add(
             ErrorCode::WrongOrder,
             &min.place,
             format!("\"min\" is above the mean {mean}"),
@@ -229,7 +229,7 @@ fn check_normal(normal: &Normal, faults: &mut Faults) {
         );
     }
     if let Some(max) = normal.max.as_ref().filter(|max| max.value < mean) {
-        faults.add(
+        errors.add(
             ErrorCode::WrongOrder,
             &max.place,
             format!("\"max\" is below the mean {mean}"),
@@ -237,21 +237,21 @@ fn check_normal(normal: &Normal, faults: &mut Faults) {
         );
     }
     if let (Some(min), Some(max)) = (&normal.min, &normal.max)
-        && max.value - min.value < least
+        && max.value - min.value < lower
     {
-        let problem = format!("\"min\" and \"max\" differ by less than a tenth of the standard deviation, {least}");
-        faults.add(ErrorCode::OutOfRange, &max.place, problem, "give a wider range, or type = \"uniform\"");
+        let problem = format!("\"min\" and \"max\" differ by less than a tenth of the standard deviation, {lower}");
+        errors.add(ErrorCode::OutOfRange, &max.place, problem, "give a wider range, or type = \"uniform\"");
     }
 }
 
-fn check_choice(choice: &ChoiceOf, faults: &mut Faults) {
-    check_weights(&choice.weights, choice.values.len(), faults);
+fn check_choice(choice: &ChoiceOf, errors: &mut DescriptionErrors) {
+    check_weights(&choice.weights, choice.values.len(), errors);
 }
 
-fn check_preset(preset: &Preset, faults: &mut Faults) {
-    check_weights(&preset.weights, preset.choices.len(), faults);
+fn check_preset(preset: &Preset, errors: &mut DescriptionErrors) {
+    check_weights(&preset.weights, preset.choices.len(), errors);
     for change in preset.choices.iter().flatten().filter(|change| !change.contains('=')) {
-        faults.add(
+        errors.add(
             ErrorCode::InvalidChange,
             &change.place,
             format!("\"{}\" is not a change", change.value),
@@ -260,13 +260,13 @@ fn check_preset(preset: &Preset, faults: &mut Faults) {
     }
 }
 
-fn check_weights(weights: &[Placed<f64>], choices: usize, faults: &mut Faults) {
+fn check_weights(weights: &[Placed<f64>], choices: usize, errors: &mut DescriptionErrors) {
     let Some(first) = weights.first() else { return };
     if weights.len() != choices {
         let problem = format!("found {} weights for {choices} choices", weights.len());
-        faults.add(ErrorCode::WrongCount, &first.place, problem, "give a weight for each choice");
+        errors.add(ErrorCode::WrongCount, &first.place, problem, "give a weight for each choice");
     } else if weights.iter().map(|weight| weight.value).sum::<f64>() <= 0.0 {
-        faults.add(
+        errors.add(
             ErrorCode::Degenerate,
             &first.place,
             "all weights are 0, so nothing can be selected",

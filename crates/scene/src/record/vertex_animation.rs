@@ -4,7 +4,7 @@ use etendue_core::{Cycle, Epoch, ExactTime};
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
@@ -90,11 +90,11 @@ impl VertexAnimation {
     }
 }
 
-fn check(animation: &VertexAnimation, faults: &mut Faults) {
+fn check(animation: &VertexAnimation, errors: &mut DescriptionErrors) {
     let name = animation.files.value.file_name().unwrap_or_default().to_string_lossy();
     if parts(&name).is_none() {
         let problem = format!("\"{name}\" must contain exactly one placeholder for the file number");
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             &animation.files.place,
             problem,
@@ -102,26 +102,26 @@ fn check(animation: &VertexAnimation, faults: &mut Faults) {
         );
     }
     let FrameTimes::Times(times_s) = &animation.times else { return };
-    check_times(animation, times_s, faults);
+    check_times(animation, times_s, errors);
 }
 
-fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], faults: &mut Faults) {
-    let (found, needed, files) = (times_s.len(), animation.times_needed(), animation.count.value);
-    if found as u64 != needed {
+fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], errors: &mut DescriptionErrors) {
+    let (count, needed, files) = (times_s.len(), animation.times_needed(), animation.count.value);
+    if count as u64 != needed {
         let problem = match animation.repeats() {
-            FrameRepeat::Hold => format!("found {found} times for {files} files; each file needs one"),
+            FrameRepeat::Hold => format!("found {count} times for {files} files; each file needs one"),
             FrameRepeat::Loop => {
                 format!(
-                    "found {found} times for a loop of {files} files, which needs one for each and one for the return of the first"
+                    "found {count} times for a loop of {files} files, which needs one for each and one for the return of the first"
                 )
             }
         };
-        faults.add(ErrorCode::WrongCount, &times_s[0].place, problem, format!("give {needed} times"));
+        errors.add(ErrorCode::WrongCount, &times_s[0].place, problem, format!("give {needed} times"));
     }
     let unsorted = times_s.windows(2).filter(|pair| pair[1].value <= pair[0].value);
     for pair in unsorted {
         let problem = format!("the time {} s follows {} s", pair[1].value, pair[0].value);
-        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the times in rising order");
+        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the times in rising order");
     }
 }
 
@@ -145,9 +145,9 @@ mod tests {
         let epoch = Epoch::near("1700000000.1".parse().expect("a time"));
         // 1.7e9 s are 4.25e9 periods.
         let near = animation(FrameRepeat::Loop).frame_times_s(Epoch::default());
-        let far = animation(FrameRepeat::Loop).frame_times_s(epoch);
+        let distant = animation(FrameRepeat::Loop).frame_times_s(epoch);
         // Sums and differences with whole seconds below 2^31 round to 2^-53 of a second each.
-        assert!(near.len() == far.len() && near.iter().zip(&far).all(|(a, b)| (a - b).abs() < 1e-15), "{far:?}");
+        assert!(near.len() == distant.len() && near.iter().zip(&distant).all(|(a, b)| (a - b).abs() < 1e-15), "{distant:?}");
         assert_eq!(animation(FrameRepeat::Hold).frame_times_s(epoch)[0], -1.7e9);
     }
 }

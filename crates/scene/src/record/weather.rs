@@ -1,12 +1,12 @@
 //! A weather file: weather that `etendue weather` adds to stored radiance.
 
 use super::light::Emission;
-use super::medium::{Extinction, MediumShape, Unevenness};
+use super::medium::{Extinction, MediumShape, DensityNoise};
 use super::precipitation::Precipitation;
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::Values;
-use crate::fault::{ErrorCode, Faults};
+use crate::asset::request::SpectrumValues;
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{list, number, record, text, variants};
 
@@ -55,28 +55,28 @@ record! {
         /// Placement of the shape in the world; only of shapes with bounds.
         inside transform: Transform;
         /// Variation of the density. Default: homogeneous.
-        optional unevenness: Unevenness = record();
+        optional unevenness: DensityNoise = record();
     }
 }
 
-fn check_weather(weather: &Weather, faults: &mut Faults) {
-    check_airlight(weather, faults);
+fn check_weather(weather: &Weather, errors: &mut DescriptionErrors) {
+    check_airlight(weather, errors);
     match (&weather.precipitation, &weather.exposure_s) {
         (None, None) if weather.fog.is_empty() => {
-            faults.add(
+            errors.add(
                 ErrorCode::Empty,
                 &weather.place,
                 "the file contains no weather",
                 "give \"fog\" or \"precipitation\"",
             );
         }
-        (None, Some(exposure)) => faults.add(
+        (None, Some(exposure)) => errors.add(
             ErrorCode::NoEffect,
             &exposure.place,
             "\"exposure_s\" has no effect without \"precipitation\"",
             "give \"precipitation\", or remove it",
         ),
-        (Some(falls), None) => faults.add(
+        (Some(falls), None) => errors.add(
             ErrorCode::MissingKey,
             falls.place(),
             "the image has no exposure time, which streaks need",
@@ -86,18 +86,18 @@ fn check_weather(weather: &Weather, faults: &mut Faults) {
     }
 }
 
-fn check_airlight(weather: &Weather, faults: &mut Faults) {
+fn check_airlight(weather: &Weather, errors: &mut DescriptionErrors) {
     if let Airlight::Uniform(emission) = &weather.airlight
         && let Some((key, place)) = emission.level.flux()
     {
         let problem = format!("\"{key}\" is the flux of a surface, and the air has none");
-        faults.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+        errors.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
     }
 }
 
-fn check(fog: &Fog, faults: &mut Faults) {
-    super::medium::check_place(fog.shape.as_ref(), fog.transform.stated_at(), faults);
-    super::medium::check_gain(fog.unevenness.as_ref(), faults);
+fn check(fog: &Fog, errors: &mut DescriptionErrors) {
+    super::medium::check_place(fog.shape.as_ref(), fog.transform.stated_at(), errors);
+    super::medium::check_gain(fog.unevenness.as_ref(), errors);
 }
 
 impl NamesFiles for Weather {
@@ -109,7 +109,7 @@ impl NamesFiles for Weather {
         for Fog { place: _, name: _, extinction, shape, transform: _, unevenness: _ } in fog {
             shape.name_files(files);
             if let Extinction::PerMetre(curve) = extinction {
-                curve.name_file(Values::Light, files);
+                curve.name_file(SpectrumValues::Light, files);
             }
         }
     }

@@ -9,7 +9,7 @@ pub(super) struct Comments {
     /// Above keys and sections.
     pub(super) above: BTreeMap<String, String>,
     /// At the end of the lines of keys.
-    pub(super) beside: BTreeMap<String, String>,
+    pub(super) trailing: BTreeMap<String, String>,
 }
 
 /// Writes the lines of a comment. A control character would end it, and is replaced by a space.

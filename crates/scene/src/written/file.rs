@@ -43,7 +43,7 @@ impl File {
     /// Adds a comment at the end of a key's line.
     #[must_use]
     pub fn beside(mut self, key: &str, comment: impl Into<String>) -> Self {
-        self.comments.beside.insert(key.to_owned(), comment.into());
+        self.comments.trailing.insert(key.to_owned(), comment.into());
         self
     }
 }

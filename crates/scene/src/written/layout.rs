@@ -8,7 +8,7 @@ use super::{Item, Table, Value};
 use crate::document::join;
 
 /// Maximum line length of an inline table within an entry of a list, characters.
-const LINE: usize = 120;
+const MAX_INLINE_LENGTH: usize = 120;
 
 /// Writes the keys of a table: values first, then sections.
 pub(super) fn write_section(f: &mut fmt::Formatter<'_>, comments: &Comments, path: &str, table: &Table) -> fmt::Result {
@@ -28,8 +28,8 @@ fn is_section(item: &Item, _: &str) -> bool {
 fn is_section_of_entry(item: &Item, key: &str) -> bool {
     let Value::Table(table) = &item.value else { return false };
     let mut line = String::new();
-    let is_text = write!(line, "{key} = {}", InLine(item)).is_ok();
-    !table.inline && is_text && line.chars().count() > LINE
+    let is_text = write!(line, "{key} = {}", InlineValue(item)).is_ok();
+    !table.inline && is_text && line.chars().count() > MAX_INLINE_LENGTH
 }
 
 fn write_keys(
@@ -44,7 +44,7 @@ fn write_keys(
         write_comment(f, comments.above.get(&path))?;
         write!(f, "{} = ", Key(key))?;
         write_value(f, item)?;
-        match comments.beside.get(&path) {
+        match comments.trailing.get(&path) {
             Some(comment) => writeln!(f, " # {comment}")?,
             None => f.write_char('\n')?,
         }
@@ -86,10 +86,10 @@ fn tables_of(item: &Item) -> Option<Vec<(&Item, &Table)>> {
 
 /// Writes a value inline, but a list of tables with one line each.
 fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
-    let Some(tables) = tables_of(item) else { return write!(f, "{}", InLine(item)) };
+    let Some(tables) = tables_of(item) else { return write!(f, "{}", InlineValue(item)) };
     f.write_str("[\n")?;
     for (item, _) in tables {
-        writeln!(f, "  {},", InLine(item))?;
+        writeln!(f, "  {},", InlineValue(item))?;
     }
     f.write_str("]")
 }
@@ -99,15 +99,15 @@ impl Item {
     #[must_use]
     pub fn in_one_line(&self) -> String {
         let mut line = String::new();
-        let written = write!(line, "{}", InLine(self));
+        let written = write!(line, "{}", InlineValue(self));
         if written.is_ok() { line } else { String::new() }
     }
 }
 
 /// A value in one line.
-struct InLine<'a>(&'a Item);
+struct InlineValue<'a>(&'a Item);
 
-impl fmt::Display for InLine<'_> {
+impl fmt::Display for InlineValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0.value {
             Value::Flag(flag) => write!(f, "{flag}"),
@@ -118,20 +118,20 @@ impl fmt::Display for InLine<'_> {
             Value::Moment(text) => f.write_str(text),
             Value::List(list) => {
                 f.write_char('[')?;
-                write_parted(f, list, |f, item| write!(f, "{}", InLine(item)))?;
+                write_separated(f, list, |f, item| write!(f, "{}", InlineValue(item)))?;
                 f.write_char(']')
             }
             Value::Table(table) if table.entries.is_empty() => f.write_str("{}"),
             Value::Table(table) => {
                 f.write_str("{ ")?;
-                write_parted(f, &table.entries, |f, (key, item)| write!(f, "{} = {}", Key(key), InLine(item)))?;
+                write_separated(f, &table.entries, |f, (key, item)| write!(f, "{} = {}", Key(key), InlineValue(item)))?;
                 f.write_str(" }")
             }
         }
     }
 }
 
-fn write_parted<T>(
+fn write_separated<T>(
     f: &mut fmt::Formatter<'_>,
     list: &[T],
     write: impl Fn(&mut fmt::Formatter<'_>, &T) -> fmt::Result,

@@ -125,11 +125,11 @@ impl Table {
             Value::Table(table) if !rest.is_empty() => table.place_of(rest),
             _ => None,
         };
-        inner.or(Some(&item.place)).filter(|place| place.is_stated())
+        inner.or(Some(&item.place)).filter(|place| place.has_source())
     }
 
     /// Sets the place of the table, unless it is known.
-    pub(crate) fn stand(&mut self, place: &Place) {
+    pub(crate) fn set_place(&mut self, place: &Place) {
         self.place.get_or_insert_with(|| place.clone());
     }
 
@@ -149,7 +149,7 @@ impl Item {
     }
 
     /// Marks a table for one line.
-    pub(crate) fn in_line(self) -> Self {
+    pub(crate) fn inline(self) -> Self {
         match self.value {
             Value::Table(table) => Self { value: Value::Table(table.in_line()), ..self },
             _ => self,

@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::{File, Item, Table};
 use crate::document::{Entry, Node, Table as Tree, Value, parse};
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::place::Place;
 use crate::reader::{Record, Rule as _, record};
 use crate::record::{DataSheet, Job};
@@ -24,30 +24,30 @@ fn every_key_that_is_read_is_written_and_read_back() {
 fn check<T: Record>() {
     let schema = record::<T>().schema();
     for turn in 0..SAMPLES {
-        let sample = of_schema(&schema, turn);
+        let sample = value_from_schema(&schema, turn);
         let first = read::<T>(&node(&sample)).written();
         assert_eq!(differences("", &first.to_json(), &sample), "", "sample {turn}: what is written is what was read");
         let text = File::new(first.clone()).to_string();
-        let tree = parse(&Arc::from(Path::new("job.toml")), &text, &mut Faults::none());
+        let tree = parse(&Arc::from(Path::new("job.toml")), &text, &mut DescriptionErrors::none());
         let Value::Table(mut tree) = tree.value else { panic!("a table") };
         tree.remove("format").expect("every file says its format");
-        let again = read::<T>(&at_home(Value::Table(tree))).written();
-        assert!(again == first, "sample {turn} is another after it was written:\n{text}");
+        let repeated = read::<T>(&at_home(Value::Table(tree))).written();
+        assert!(repeated == first, "sample {turn} is another after it was written:\n{text}");
     }
 }
 
 /// Reads a sample. Keys are valid one by one; contradictions between them are ignored.
 fn read<T: Record>(tree: &Node) -> T {
-    let mut faults = Faults::none();
-    let read = record::<T>().read(tree, &mut faults);
-    read.unwrap_or_else(|| panic!("{}", faults.list().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
+    let mut errors = DescriptionErrors::none();
+    let read = record::<T>().read(tree, &mut errors);
+    read.unwrap_or_else(|| panic!("{}", errors.as_slice().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
 }
 
 /// A value that the schema admits, different in each turn.
-fn of_schema(schema: &Json, turn: usize) -> Json {
+fn value_from_schema(schema: &Json, turn: usize) -> Json {
     if let Some(options) = schema["oneOf"].as_array().or(schema["anyOf"].as_array()) {
         let options: Vec<_> = options.iter().filter(|option| !is_of_files(option)).collect();
-        return of_schema(options[turn % options.len()], turn / options.len() + turn);
+        return value_from_schema(options[turn % options.len()], turn / options.len() + turn);
     }
     if let Some(words) = schema["enum"].as_array() {
         return words[turn % words.len()].clone();
@@ -56,11 +56,11 @@ fn of_schema(schema: &Json, turn: usize) -> Json {
         return word.clone();
     }
     match schema["type"].as_str().expect("a type") {
-        "object" => of_table(schema, turn),
+        "object" => table_from_schema(schema, turn),
         "array" => {
-            let least = schema["minItems"].as_u64().unwrap_or(0);
-            let count = schema["maxItems"].as_u64().unwrap_or(least.max(1) + turn as u64 % 2);
-            (0..count as usize).map(|i| of_schema(&schema["items"], turn + i)).collect()
+            let min_items = schema["minItems"].as_u64().unwrap_or(0);
+            let count = schema["maxItems"].as_u64().unwrap_or(min_items.max(1) + turn as u64 % 2);
+            (0..count as usize).map(|i| value_from_schema(&schema["items"], turn + i)).collect()
         }
         "number" => json!(number(schema, turn)),
         "integer" => {
@@ -81,13 +81,13 @@ fn is_of_files(option: &Json) -> bool {
     is_file(option) || is_file(&keys["file"]) || keys.get("preset").is_some()
 }
 
-fn of_table(schema: &Json, turn: usize) -> Json {
+fn table_from_schema(schema: &Json, turn: usize) -> Json {
     if let Some(entry) = schema.get("additionalProperties").filter(|entry| entry.is_object()) {
-        return json!({ "a name": of_schema(entry, turn), "b": of_schema(entry, turn + 1) });
+        return json!({ "a name": value_from_schema(entry, turn), "b": value_from_schema(entry, turn + 1) });
     }
     let mut table: Map<String, Json> = Map::new();
     for (index, (key, schema)) in schema["properties"].as_object().expect("keys").iter().enumerate() {
-        table.insert(key.clone(), of_schema(schema, turn + index));
+        table.insert(key.clone(), value_from_schema(schema, turn + index));
     }
     for choice in schema["allOf"].as_array().into_iter().flatten() {
         let options = choice["oneOf"].as_array().expect("options");
@@ -111,11 +111,11 @@ fn of_table(schema: &Json, turn: usize) -> Json {
 fn number(schema: &Json, turn: usize) -> f64 {
     let low = schema["minimum"].as_f64().or(schema["exclusiveMinimum"].as_f64());
     let high = schema["maximum"].as_f64().or(schema["exclusiveMaximum"].as_f64());
-    let share = 1.0 / (turn as f64 + 1.7);
+    let fraction = 1.0 / (turn as f64 + 1.7);
     match (low, high) {
-        (Some(low), Some(high)) => low + (high - low) * share,
-        (Some(low), None) => low + share * [1e-9_f64, 1.0, 1e22][turn % 3].max(low.abs() * 1e-3),
-        (None, high) => high.unwrap_or(0.5) - share * [1e-7, 1.0, 1e17][turn % 3],
+        (Some(low), Some(high)) => low + (high - low) * fraction,
+        (Some(low), None) => low + fraction * [1e-9_f64, 1.0, 1e22][turn % 3].max(low.abs() * 1e-3),
+        (None, high) => high.unwrap_or(0.5) - fraction * [1e-7, 1.0, 1e17][turn % 3],
     }
 }
 
@@ -207,9 +207,9 @@ fn changed(json: &Json, which: &mut usize) -> Json {
         Json::Array(list) => list.iter().map(|entry| changed(entry, which)).collect(),
         Json::Object(table) => table.iter().map(|(key, value)| (key.clone(), changed(value, which))).collect(),
         leaf => {
-            let is_it = *which == 0;
+            let is_target = *which == 0;
             *which = which.wrapping_sub(1);
-            if is_it { json!("another") } else { leaf.clone() }
+            if is_target { json!("another") } else { leaf.clone() }
         }
     }
 }
@@ -219,9 +219,9 @@ fn every_value_of_every_key_changes_the_bytes() {
     let schema = record::<Job>().schema();
     let of = |json: &Json| bytes(&table(json));
     for turn in 0..12 {
-        let sample = of_schema(&schema, turn);
-        let whole = of(&sample);
-        let mut known = std::collections::BTreeSet::from([whole.clone()]);
+        let sample = value_from_schema(&schema, turn);
+        let all_bytes = of(&sample);
+        let mut known = std::collections::BTreeSet::from([all_bytes.clone()]);
         for leaf in 0.. {
             let mut which = leaf;
             let other = changed(&sample, &mut which);
@@ -230,7 +230,7 @@ fn every_value_of_every_key_changes_the_bytes() {
             }
             assert!(known.insert(of(&other)), "part {leaf} of sample {turn}");
         }
-        assert!(known.len() > 100 && whole == of(&sample), "equal tables have equal bytes");
+        assert!(known.len() > 100 && all_bytes == of(&sample), "equal tables have equal bytes");
     }
 }
 
@@ -252,11 +252,11 @@ fn comments_stand_where_they_belong() {
 #[test]
 fn keys_have_the_places_of_the_file() {
     let text = "format = 1\n[sensor]\nbits = 12\n[sensor.dark]\nhot = { fraction = 0.1, mean_e_s = 1 }\n[[sensor.lag]]\nfraction = 0.2\n";
-    let tree = parse(&Arc::from(Path::new("camera.toml")), text, &mut Faults::none());
+    let tree = parse(&Arc::from(Path::new("camera.toml")), text, &mut DescriptionErrors::none());
     let sensor = tree.as_table().and_then(|tree| tree.get("sensor")).expect("the sensor");
     let mut table = Table::new();
     let dark = record::<crate::record::sensor::charge::Dark>();
-    let read = sensor.as_table().and_then(|sensor| dark.read(sensor.get("dark")?, &mut Faults::none()));
+    let read = sensor.as_table().and_then(|sensor| dark.read(sensor.get("dark")?, &mut DescriptionErrors::none()));
     table.put("dark", dark.write(&read.expect("faulty, but read")).expect("written"));
     let line = |key: &str| table.place_of(key).and_then(Place::line_column).map(|(line, _)| line);
     assert_eq!([line("dark"), line("dark.spread"), line("dark.hot"), line("lag")], [Some(4), Some(4), Some(5), None]);

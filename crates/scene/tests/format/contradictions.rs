@@ -1,6 +1,6 @@
 //! Contradictions of lights, skies, textures and materials.
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 
 const JOB: &str = r#"format = 1
 
@@ -19,24 +19,24 @@ encoding = "srgb"
 "#;
 
 /// Errors of a job with `more` appended, one per line.
-fn faults_of(more: &str) -> String {
-    load(&Files::of_job(&format!("{JOB}{more}")), &[]).err().map_or(String::new(), |f| f.to_string())
+fn errors_of_job(more: &str) -> String {
+    load(&DescriptionFiles::from_job(&format!("{JOB}{more}")), &[]).err().map_or(String::new(), |f| f.to_string())
 }
 
 /// Errors of a light with these keys.
 fn light(keys: &str) -> String {
-    faults_of(&format!("[[scene.lights]]\nname = \"l\"\n{keys}\n"))
+    errors_of_job(&format!("[[scene.lights]]\nname = \"l\"\n{keys}\n"))
 }
 
 /// Errors of a material with these keys.
 fn material(keys: &str) -> String {
-    faults_of(&format!("[[scene.materials]]\nname = \"m\"\n{keys}\n"))
+    errors_of_job(&format!("[[scene.materials]]\nname = \"m\"\n{keys}\n"))
 }
 
 const SPOT: &str = "type = \"spot\"\nintensity_cd = 100\nilluminant = \"A\"\nfield_angle_deg = 40\n";
 
 #[test]
-fn lamps_stand_and_point_in_one_way() {
+fn lamps_have_one_position_and_direction() {
     let spot = |keys: &str| light(&format!("{SPOT}{keys}"));
     assert_eq!(spot("position_m = [0, 0, 5]\ntarget_m = [5, 0, 0]"), "");
     assert_eq!(
@@ -94,8 +94,8 @@ fn suns_by_level_and_by_model() {
 }
 
 #[test]
-fn skies_know_where_the_sun_stands_by_one_way() {
-    let sky = |keys: &str| faults_of(&format!("[scene.environment]\ntype = \"sky\"\nturbidity = 3\n{keys}"));
+fn skies_have_one_position_of_the_sun() {
+    let sky = |keys: &str| errors_of_job(&format!("[scene.environment]\ntype = \"sky\"\nturbidity = 3\n{keys}"));
     let moment = "date = 2026-06-21\ntime_utc = \"09:30:00\"\nlatitude_deg = 48\nlongitude_deg = 11\n";
     let angles = "sun_elevation_deg = 30\nsun_azimuth_deg = 10\n";
     assert_eq!(sky(moment), "");
@@ -113,9 +113,9 @@ fn skies_know_where_the_sun_stands_by_one_way() {
 }
 
 #[test]
-fn textures_are_laid_in_one_way() {
+fn textures_have_one_mapping() {
     let texture = |keys: &str| {
-        faults_of(&format!("[[scene.textures]]\nname = \"t\"\nfile = \"t.exr\"\nencoding = \"data\"\n{keys}"))
+        errors_of_job(&format!("[[scene.textures]]\nname = \"t\"\nfile = \"t.exr\"\nencoding = \"data\"\n{keys}"))
     };
     assert_eq!(texture("uv_scale = [2, 2]"), "");
     assert_eq!(texture("mapping = \"triplanar\"\nsize_m = 2"), "");
@@ -164,13 +164,13 @@ fn levels_that_trace_no_paths() {
     let level = |job: &str, own: &str| {
         let text = JOB.replace("lens =", &format!("render = {{ {own} }}\nlens ="));
         let text = format!("{text}\n[render]\n{job}\n");
-        load(&Files::of_job(&text), &[]).err().map_or(String::new(), |f| f.to_string())
+        load(&DescriptionFiles::from_job(&text), &[]).err().map_or(String::new(), |f| f.to_string())
     };
     assert_eq!(level("integrator = \"direct\"", ""), "");
-    let told = level("integrator = \"direct\"\nmax_bounces = 8", "");
+    let message = level("integrator = \"direct\"\nmax_bounces = 8", "");
     assert!(
-        told.contains("render.max_bounces: \"max_bounces\" has no effect here, it belongs to integrator = \"path\""),
-        "{told}"
+        message.contains("render.max_bounces: \"max_bounces\" has no effect here, it belongs to integrator = \"path\""),
+        "{message}"
     );
     assert!(level("caustics = false", "integrator = \"flat\"").contains("\"caustics\" has no effect here"));
     let second = "\n[[cameras]]\nname = \"second\"\nposition_m = [0, 0, 1]\nlook_at_m = [9, 0, 1]\n\
@@ -189,7 +189,7 @@ fn psf(keys: &str) -> String {
     let read = |_: &std::path::Path| Ok(text.clone());
     let camera =
         etendue_scene::load_camera(std::path::Path::new("camera.toml"), &read, &etendue_scene::Overrides::default());
-    camera.err().map_or(String::new(), |faults| faults.to_string())
+    camera.err().map_or(String::new(), |errors| errors.to_string())
 }
 
 #[test]
@@ -197,9 +197,9 @@ fn a_point_spread_function_is_of_an_aperture_or_from_a_picture() {
     assert_eq!(psf("blades = 6, rotation_deg = 10, wavefront = [{ noll = 4, rms_um = 0.1 }]"), "");
     assert_eq!(psf("image = \"k.exr\", image_pitch_um = 2, image_wavelength_nm = 550"), "");
     let says = |keys: &str, words: [&str; 2]| {
-        let said = psf(keys);
-        assert!(said.starts_with("camera.toml:2:") && words.iter().all(|w| said.contains(w)), "{keys}: {said}");
-        assert_eq!(said.lines().count(), 1, "{said}");
+        let message = psf(keys);
+        assert!(message.starts_with("camera.toml:2:") && words.iter().all(|w| message.contains(w)), "{keys}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
     };
     says("image = \"k.exr\"", ["effects.psf.image:", "add \"image_pitch_um\""]);
     says("image = \"k.jpg\", image_pitch_um = 2", ["effects.psf.image:", "k.jpg"]);
@@ -233,9 +233,9 @@ fn files_over_the_field_are_the_whole_function() {
         ("files = [\"a.txt\"], wavefront = [{ noll = 4, rms_um = 0.1 }]", "contradicts \"files\""),
         ("files = [\"a.txt\"], patches = [0, 3]", "effects.psf.patches"),
     ] {
-        let said = psf(keys);
-        assert!(said.starts_with("camera.toml:2:") && said.contains(words), "{keys}: {said}");
-        assert_eq!(said.lines().count(), 1, "{said}");
+        let message = psf(keys);
+        assert!(message.starts_with("camera.toml:2:") && message.contains(words), "{keys}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
     }
 }
 
@@ -258,25 +258,25 @@ fn an_aperture_says_what_it_means() {
         ("wavefront = [{ noll = 4, rms_waves = 0.1 }]", "add \"wavelength_nm\""),
         ("wavefront = [{ noll = 4, rms_um = 0.1, wavelength_nm = 550 }]", "no effect with \"rms_um\""),
     ] {
-        let said = psf(keys);
-        assert!(said.starts_with("camera.toml:2:") && said.contains(words), "{keys}: {said}");
+        let message = psf(keys);
+        assert!(message.starts_with("camera.toml:2:") && message.contains(words), "{keys}: {message}");
     }
 }
 
 #[test]
 fn openings_contradict_what_a_surface_cannot_be() {
     let lamp = "type = \"point\"\nposition_m = [0, 0, 3]\nintensity_cd = 10\nilluminant = \"E\"";
-    let told = light(&format!("{lamp}\nattenuation_per_m = 0.1\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
-    assert!(told.contains("lights.l.attenuation_per_m: \"attenuation_per_m\" contradicts \"opening\""), "{told}");
-    let told = light(&format!("{lamp}\nopening = {{ shape = \"file\" }}"));
-    assert!(told.contains("lights.l.opening: shape = \"file\" has no effect here"), "{told}");
+    let message = light(&format!("{lamp}\nattenuation_per_m = 0.1\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
+    assert!(message.contains("lights.l.attenuation_per_m: \"attenuation_per_m\" contradicts \"opening\""), "{message}");
+    let message = light(&format!("{lamp}\nopening = {{ shape = \"file\" }}"));
+    assert!(message.contains("lights.l.opening: shape = \"file\" has no effect here"), "{message}");
     for size in ["radius_m = -0.05", "radius_m = 0", "radius_m = 51"] {
-        let told = light(&format!("{lamp}\nopening = {{ shape = \"disc\", {size} }}"));
-        assert!(told.contains("lights.l.opening.radius_m: "), "{told}");
+        let message = light(&format!("{lamp}\nopening = {{ shape = \"disc\", {size} }}"));
+        assert!(message.contains("lights.l.opening.radius_m: "), "{message}");
     }
     let aim = "rotation_deg = [10, 0, 0]";
-    let told = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
-    assert!(told.contains("direction"), "{told}");
-    let told = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"tube\", radius_m = 0.013, length_m = 1.2 }}"));
-    assert_eq!(told, "", "a tube points somewhere");
+    let message = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
+    assert!(message.contains("direction"), "{message}");
+    let message = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"tube\", radius_m = 0.013, length_m = 1.2 }}"));
+    assert_eq!(message, "", "a tube points somewhere");
 }

@@ -2,20 +2,20 @@
 
 use std::path::Path;
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 use glam::DVec3;
 
 use etendue_scene::asset::{AssetKind, Assets};
 use etendue_scene::record::{Lens, Light, Surface};
 use etendue_scene::{Overrides, load_camera};
 
-fn example() -> Files {
-    Files::of_example()
+fn example() -> DescriptionFiles {
+    DescriptionFiles::from_example()
 }
 
 #[test]
 fn the_example_is_read() {
-    let d = load(&example(), &[]).unwrap_or_else(|faults| panic!("{faults}"));
+    let d = load(&example(), &[]).unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!(d.cameras.len(), 2);
     assert_eq!(d.scene.objects[1].instances.len(), 2);
     let Lens::Thin(lens) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
@@ -27,7 +27,7 @@ fn the_example_is_read() {
 
 #[test]
 fn the_small_example_is_read() {
-    let d = load(&Files::of_small_example(), &[]).unwrap_or_else(|faults| panic!("{faults}"));
+    let d = load(&DescriptionFiles::from_small_example(), &[]).unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!((d.cameras.len(), d.scene.objects.len()), (1, 1));
 }
 
@@ -65,13 +65,13 @@ fn assets_are_listed_once_relative_to_the_job() {
     files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"sub/scene.toml\"");
     let d = load(&files, &[]).expect("the example");
     let missing = Assets::default().missing(&d.assets());
-    let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind.clone())).collect();
+    let requests: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind.clone())).collect();
     let expected = [
         (Path::new("sub/lamps/road.ies"), AssetKind::Photometry),
         (Path::new("sub/meshes/car.obj"), AssetKind::Mesh),
         (Path::new("sub/textures/asphalt.png"), AssetKind::Texture),
     ];
-    assert_eq!(found, expected);
+    assert_eq!(requests, expected);
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn overrides_reach_every_file() {
         "scene.objects.globe.material=red",
         "output={raw=false}",
     ];
-    let d = load(&example(), &sets).unwrap_or_else(|faults| panic!("{faults}"));
+    let d = load(&example(), &sets).unwrap_or_else(|errors| panic!("{errors}"));
     let Lens::Thin(front) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
     let Lens::Pinhole(left) = &d.cameras[1].camera.lens else { panic!("a pinhole") };
     let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
@@ -108,7 +108,7 @@ fn an_override_can_name_another_file() {
 #[test]
 fn the_last_override_wins() {
     let mut overrides = Overrides::new(["render.spp=16"]);
-    overrides.push("render.spp=24");
+    overrides.add("render.spp=24");
     let files = example();
     let d =
         etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides).expect("the example");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use etendue_scene::{Description, Faults, Overrides};
+use etendue_scene::{Description, DescriptionErrors, Overrides};
 
 /// Path of a page of the documentation.
 pub(crate) fn page_path(name: &str) -> PathBuf {
@@ -36,16 +36,16 @@ pixel_pitch_um = 6.0
 "#;
 
 /// Files by name.
-pub(crate) struct Files(BTreeMap<String, String>);
+pub(crate) struct DescriptionFiles(BTreeMap<String, String>);
 
-impl Files {
+impl DescriptionFiles {
     /// The example of the pages of jobs, scenes and cameras.
-    pub(crate) fn of_example() -> Self {
+    pub(crate) fn from_example() -> Self {
         Self::on_pages(["job", "scene", "camera"].map(|kind| (kind, page(&format!("format/{kind}.md")))))
     }
 
     /// The small example of the overview.
-    pub(crate) fn of_small_example() -> Self {
+    pub(crate) fn from_small_example() -> Self {
         let overview = page("scene-format.md");
         Self::on_pages(["job", "scene", "camera"].map(|kind| (kind, overview.clone())))
     }
@@ -61,13 +61,13 @@ impl Files {
     }
 
     /// A job without other files.
-    pub(crate) fn of_job(text: &str) -> Self {
+    pub(crate) fn from_job(text: &str) -> Self {
         Self([("job.toml".to_owned(), text.to_owned())].into())
     }
 
     /// A job with a valid camera, and `text`.
     pub(crate) fn with_camera(text: &str) -> Self {
-        Self::of_job(&format!("{CAMERA}{text}"))
+        Self::from_job(&format!("{CAMERA}{text}"))
     }
 
     pub(crate) fn put(&mut self, name: &str, text: &str) {
@@ -95,6 +95,6 @@ impl Files {
     }
 }
 
-pub(crate) fn load(files: &Files, sets: &[&str]) -> Result<Description, Faults> {
+pub(crate) fn load(files: &DescriptionFiles, sets: &[&str]) -> Result<Description, DescriptionErrors> {
     Description::load(Path::new("job.toml"), &|p| files.read(p), &Overrides::new(sets))
 }

@@ -1,6 +1,6 @@
 //! Descriptions that could crash a program: long lines, deep keys.
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 
 const JOB: &str = r#"
 [[scene.materials]]
@@ -22,7 +22,7 @@ fn objects(count: usize) -> String {
 /// With columns counted from the start of the line, this number took minutes.
 #[test]
 fn a_hundred_thousand_objects_on_one_line() {
-    let files = Files::with_camera(&format!("{JOB}objects=[{}]\n", objects(100_000)));
+    let files = DescriptionFiles::with_camera(&format!("{JOB}objects=[{}]\n", objects(100_000)));
     let description = load(&files, &[]).expect("a right job");
     assert_eq!(description.scene.objects.len(), 100_000);
     let mut files = files;
@@ -35,7 +35,7 @@ fn a_hundred_thousand_objects_on_one_line() {
 #[test]
 fn a_base_of_many_objects_under_as_many() {
     let list = objects(30_000);
-    let mut files = Files::with_camera("");
+    let mut files = DescriptionFiles::with_camera("");
     files.edit("job.toml", "format = 1\n", "format = 1\nscene = \"over.toml\"\n");
     let materials = "materials=[{name=\"grey\",type=\"diffuse\",reflectance=0.18}]";
     files.put("over.toml", &format!("format=1\nbase=\"under.toml\"\nobjects=[{list}]\n"));
@@ -47,7 +47,7 @@ fn a_base_of_many_objects_under_as_many() {
 #[test]
 fn a_key_of_twenty_thousand_parts() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));
-    let message = load(&Files::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
+    let message = load(&DescriptionFiles::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
     assert!(message.starts_with("`set` a.a.a.a."), "{message}");
     let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
     assert!(message.ends_with(end) && message.len() < 400, "{message}");

@@ -1,15 +1,15 @@
 //! Contradictions of lights with modulated strength.
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 
 /// Errors of a job with `more` appended, one per line.
-fn faults_of(more: &str) -> String {
-    load(&Files::with_camera(more), &[]).err().map_or(String::new(), |f| f.to_string())
+fn errors_of_job(more: &str) -> String {
+    load(&DescriptionFiles::with_camera(more), &[]).err().map_or(String::new(), |f| f.to_string())
 }
 
 fn lamp(keys: &str) -> String {
     let lamp = "[[scene.lights]]\nname = \"l\"\ntype = \"point\"\nintensity_cd = 100\nilluminant = \"A\"\n";
-    faults_of(&format!("{lamp}{keys}\n"))
+    errors_of_job(&format!("{lamp}{keys}\n"))
 }
 
 fn modulated(keys: &str) -> String {
@@ -33,8 +33,8 @@ fn every_modulation_is_read() {
 }
 
 #[test]
-fn what_is_no_modulation_is_told_with_its_place() {
-    for (keys, told) in [
+fn invalid_modulations_are_reported_with_their_place() {
+    for (keys, problem) in [
         ("type = \"pwm\", frequency_hz = 90, duty_cycle = 1", "modulation.duty_cycle: found 1"),
         ("type = \"pwm\", frequency_hz = 0, duty_cycle = 0.5", "modulation.frequency_hz: found 0"),
         (
@@ -64,8 +64,8 @@ fn what_is_no_modulation_is_told_with_its_place() {
         ),
         ("type = \"pulses\", frequency_hz = 90", "modulation.type: found the text \"pulses\""),
     ] {
-        let found = modulated(keys);
-        assert!(found.contains(told) && found.contains("scene.lights.l.modulation"), "{keys}: {found}");
+        let message = modulated(keys);
+        assert!(message.contains(problem) && message.contains("scene.lights.l.modulation"), "{keys}: {message}");
     }
 }
 
@@ -83,8 +83,8 @@ fn places_have_delays_where_there_is_something_to_delay() {
 #[test]
 fn surroundings_do_not_go_up_and_down() {
     let sky = "[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = 1\nilluminant = \"A\"\n";
-    assert_eq!(faults_of(sky), "");
-    let told =
-        faults_of(&format!("{sky}modulation = {{ type = \"mains\", frequency_hz = 50, modulation_depth = 1 }}\n"));
-    assert!(told.contains("modulation"), "{told}");
+    assert_eq!(errors_of_job(sky), "");
+    let message =
+        errors_of_job(&format!("{sky}modulation = {{ type = \"mains\", frequency_hz = 50, modulation_depth = 1 }}\n"));
+    assert!(message.contains("modulation"), "{message}");
 }

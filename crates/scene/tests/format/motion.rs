@@ -1,12 +1,12 @@
 //! Contradictory statements of motion are refused.
 
-use crate::faults::faults_of;
+use crate::faults::errors_of_job;
 
 #[test]
 fn keys_in_their_order() {
     let keys = |times: [&str; 2]| {
         let key = |time: &str| format!("[[scene.objects.keys]]\ntime_s = {time}\nposition_m = [{time}, 0, 0]\n");
-        faults_of("position_m = [5, 0, 1]", &times.map(key).concat())
+        errors_of_job("position_m = [5, 0, 1]", &times.map(key).concat())
     };
     assert_eq!(keys(["0", "1"]), "");
     assert_eq!(
@@ -15,7 +15,7 @@ fn keys_in_their_order() {
          of time"
     );
     assert!(keys(["1", "1.0"]).ends_with("keys[1].time_s: two keys are both at 1 s; give each key a time of its own"));
-    let of = |keys: &str| faults_of("position_m = [5, 0, 1]", keys);
+    let of = |keys: &str| errors_of_job("position_m = [5, 0, 1]", keys);
     assert_eq!(of("keys = [{ time_s = 0, position_m = [5, 0, 1] }]"), "");
     let still = "position_m = [5, 0, 1]\ninterpolation = \"smooth\"";
     assert!(
@@ -35,12 +35,12 @@ fn keys_in_their_order() {
 
 #[test]
 fn frames_that_are_not_there_or_carry_themselves() {
-    let framed = |frames: &str| faults_of("position_m = [5, 0, 1]", &format!("frame = \"car\"\n{frames}"));
+    let framed = |frames: &str| errors_of_job("position_m = [5, 0, 1]", &format!("frame = \"car\"\n{frames}"));
     let frame = |name: &str, parent: &str| format!("[[scene.frames]]\nname = \"{name}\"\n{parent}\n");
     assert!(framed("").contains("there is no frame \"car\"; define the frame, the scene has none"), "{}", framed(""));
     assert_eq!(framed(&frame("car", "position_m = [5, 0, 1]")), "");
-    let lost = framed(&frame("car", "parent = \"roda\"\n[[scene.frames]]\nname = \"road\""));
-    assert!(lost.contains("scene.frames.car.parent: there is no frame \"roda\"; did you mean \"road\"?"), "{lost}");
+    let unknown_parent = framed(&frame("car", "parent = \"roda\"\n[[scene.frames]]\nname = \"road\""));
+    assert!(unknown_parent.contains("scene.frames.car.parent: there is no frame \"roda\"; did you mean \"road\"?"), "{unknown_parent}");
     let circle = framed(&[frame("car", "parent = \"arm\""), frame("arm", "parent = \"car\"")].concat());
     assert!(
         circle.contains("scene.frames.car.parent: the frame carries itself: car in arm in car; name another parent")
@@ -53,7 +53,7 @@ fn frames_that_are_not_there_or_carry_themselves() {
 
 #[test]
 fn cameras_that_move_say_once_where() {
-    let of = |pose: &str| faults_of("position_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]", pose);
+    let of = |pose: &str| errors_of_job("position_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]", pose);
     let key = |time: u8| format!("{{ time_s = {time}, position_m = [{time}, 0, 1], look_at_m = [10, 0, 1] }}");
     let keys = format!("keys = [{}, {}]", key(0), key(1));
     assert_eq!(of(&keys), "");

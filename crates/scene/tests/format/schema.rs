@@ -3,7 +3,7 @@
 use etendue_scene::{FileKind, schema};
 use serde_json::{Map, Value as Json, json};
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 
 /// Returns the cause if `value` does not fit `schema`, for the keywords that our schemas use.
 fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
@@ -16,9 +16,9 @@ fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
     if of("not").is_some_and(|not| misfit(value, not, path).is_none()) {
         return fail("is excluded by");
     }
-    if let Some(found) = of("allOf").and_then(Json::as_array).into_iter().flatten().find_map(|s| misfit(value, s, path))
+    if let Some(problem) = of("allOf").and_then(Json::as_array).into_iter().flatten().find_map(|s| misfit(value, s, path))
     {
-        return Some(found);
+        return Some(problem);
     }
     if let Some(options) = of("anyOf").or(of("oneOf")).and_then(Json::as_array) {
         let fits = options.iter().filter(|o| misfit(value, o, path).is_none()).count();
@@ -98,7 +98,7 @@ fn choices(schema: &Json) -> Vec<(Vec<&str>, bool)> {
 
 #[test]
 fn the_example_fits_the_schema() {
-    let files = Files::of_example();
+    let files = DescriptionFiles::from_example();
     for (name, kind) in
         [("job.toml", FileKind::Job), ("scene.toml", FileKind::Scene), ("camera.toml", FileKind::Camera)]
     {
@@ -109,7 +109,7 @@ fn the_example_fits_the_schema() {
 
 #[test]
 fn what_the_parser_refuses_does_not_fit_the_schema() {
-    let camera = Files::of_example().text("camera.toml");
+    let camera = DescriptionFiles::from_example().text("camera.toml");
     for (old, new) in [
         ("f_number", "f_nmuber"),
         ("width_px = 640", "width_px = 0"),
@@ -186,9 +186,9 @@ fn short(value: &Json) -> Json {
 
 fn array_samples(schema: &Json) -> Vec<Json> {
     let items = samples(&schema["items"]);
-    let least = schema["minItems"].as_u64().unwrap_or(0) as usize;
+    let min_items = schema["minItems"].as_u64().unwrap_or(0) as usize;
     let Some(count) = schema["maxItems"].as_u64() else {
-        let length = items.len().max(least);
+        let length = items.len().max(min_items);
         return vec![items.iter().cycle().take(length).cloned().collect()];
     };
     let scaled = |v: &Json, i: u64| match v.as_f64().filter(|_| !v.is_u64()) {
@@ -225,16 +225,16 @@ fn number_sample(schema: &Json) -> f64 {
 #[test]
 fn the_parser_accepts_every_key_of_the_schema() {
     let schema = schema(FileKind::Job)["else"].clone();
-    let found = samples(&schema);
+    let count_and_samples = samples(&schema);
     let types = |s: &Json| s["scene"]["materials"].as_array().map_or(0, Vec::len);
-    assert!(found.iter().any(|s| types(s) > 20), "every variant has its sample");
-    for sample in found {
+    assert!(count_and_samples.iter().any(|s| types(s) > 20), "every variant has its sample");
+    for sample in count_and_samples {
         assert_eq!(misfit(&sample, &schema, ""), None, "a sample fits");
         let text = toml::to_string(&sample).expect("TOML");
-        let Err(faults) = load(&Files::of_job(&text), &[]) else { continue };
-        for fault in faults.list() {
-            let misread = ["is no key", "is missing", "found "].iter().any(|w| fault.problem.contains(w));
-            assert!(!misread, "{fault}\n{text}");
+        let Err(errors) = load(&DescriptionFiles::from_job(&text), &[]) else { continue };
+        for error in errors.as_slice() {
+            let misread = ["is no key", "is missing", "found "].iter().any(|w| error.problem.contains(w));
+            assert!(!misread, "{error}\n{text}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Unused parts of a scene are not required.
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 use etendue_scene::Description;
 use std::path::Path;
 
@@ -26,7 +26,7 @@ objects = [{ name = "o", mesh = "shown", material = "MATERIAL", position_m = [5,
 "#;
 
 fn described(material: &str) -> Description {
-    load(&Files::with_camera(&JOB.replace("MATERIAL", material)), &[]).expect("a right job")
+    load(&DescriptionFiles::with_camera(&JOB.replace("MATERIAL", material)), &[]).expect("a right job")
 }
 
 fn files(description: &Description) -> Vec<String> {
@@ -43,9 +43,9 @@ fn files_of_what_is_shown_are_asked_for_and_no_others() {
 }
 
 #[test]
-fn what_is_not_used_is_told() {
+fn unused_names_are_reported() {
     assert_eq!(
-        described("mixed").unused.remarks(),
+        described("mixed").unused.notes(),
         [
             "not read: the mesh that no object shows: spare",
             "not read: 2 materials that no object has: more, rest",
@@ -57,7 +57,7 @@ fn what_is_not_used_is_told() {
 #[test]
 fn a_material_of_the_scene_covers_those_of_the_mesh() {
     let covered = |job: &str| {
-        let description = load(&Files::with_camera(job), &[]).expect("a right job");
+        let description = load(&DescriptionFiles::with_camera(job), &[]).expect("a right job");
         let request = description.assets().into_iter().find(|a| a.path == Path::new("shown.obj")).expect("the mesh");
         ["red", "blue"].map(|slot| request.covered.has(slot))
     };

@@ -2,24 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::{Files, load};
+use crate::files::{DescriptionFiles, load};
 use etendue_scene::written::File;
 use etendue_scene::{Description, Overrides};
 
 fn check(description: &Description) {
     let table = description.to_table();
     let text = File::new(table.clone()).to_string();
-    let again = Description::load(Path::new("job.toml"), &|_| Ok(text.clone()), &Overrides::default());
-    let again = again.unwrap_or_else(|faults| panic!("{}: {faults}\n{text}", description.file.display()));
-    assert!(again.to_table() == table, "{} is another after it was written:\n{text}", description.file.display());
+    let repeated = Description::load(Path::new("job.toml"), &|_| Ok(text.clone()), &Overrides::default());
+    let repeated = repeated.unwrap_or_else(|errors| panic!("{}: {errors}\n{text}", description.file.display()));
+    assert!(repeated.to_table() == table, "{} is another after it was written:\n{text}", description.file.display());
 }
 
 #[test]
 fn the_examples_of_the_pages() {
     // The job's keys apply to each camera: none may be without effect.
     let sets = ["cameras.left.render.integrator=path"];
-    check(&load(&Files::of_example(), &sets).unwrap_or_else(|faults| panic!("{faults}")));
-    check(&load(&Files::of_small_example(), &[]).unwrap_or_else(|faults| panic!("{faults}")));
+    check(&load(&DescriptionFiles::from_example(), &sets).unwrap_or_else(|errors| panic!("{errors}")));
+    check(&load(&DescriptionFiles::from_small_example(), &[]).unwrap_or_else(|errors| panic!("{errors}")));
 }
 
 /// Jobs in all folders of the scenes.

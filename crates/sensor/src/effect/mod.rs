@@ -229,7 +229,7 @@ pub(crate) struct SensorFacts {
     /// True if temporal noise is modelled.
     pub(crate) noise: bool,
     /// Seed of the unit; `None`: that of the camera's place in the job.
-    pub(crate) specimen: Option<u64>,
+    pub(crate) unit: Option<u64>,
     /// Pixel pitch, µm.
     pub(crate) pitch_um: f64,
     /// Columns and rows before the first lit pixel.
@@ -263,25 +263,25 @@ pub(crate) struct Context {
 }
 
 /// Seed of the patterns of cameras that are distinguished only by their place in the job.
-const SPECIMENS: u64 = 0x7061_7474_6572_6e73;
+const UNIT_SEED: u64 = 0x7061_7474_6572_6e73;
 
 impl Context {
     /// The key of random numbers that differ from capture to capture.
-    pub(crate) fn noise(&self, draw: NoiseDraw) -> NoiseKey {
+    pub(crate) fn noise(&self, purpose: NoiseDraw) -> NoiseKey {
         let FrameAddress { seed, camera, frame, capture } = self.address;
-        NoiseKey::new(seed, camera, frame, capture, draw)
+        NoiseKey::new(seed, camera, frame, capture, purpose)
     }
 
     /// The key of random numbers that differ from frame to frame and are the same in all captures of a frame.
-    pub(crate) fn frame_noise(&self, draw: NoiseDraw) -> NoiseKey {
-        NoiseKey::new(self.address.seed, self.address.camera, self.address.frame, 0, draw)
+    pub(crate) fn frame_noise(&self, purpose: NoiseDraw) -> NoiseKey {
+        NoiseKey::new(self.address.seed, self.address.camera, self.address.frame, 0, purpose)
     }
 
     /// The key of random numbers of the unit: the same in every frame and capture of every job.
-    pub(crate) fn pattern(&self, draw: NoiseDraw) -> NoiseKey {
-        match self.facts.specimen {
-            Some(seed) => NoiseKey::new(seed, 0, 0, 0, draw),
-            None => NoiseKey::new(SPECIMENS, self.address.camera, 0, 0, draw),
+    pub(crate) fn pattern(&self, purpose: NoiseDraw) -> NoiseKey {
+        match self.facts.unit {
+            Some(seed) => NoiseKey::new(seed, 0, 0, 0, purpose),
+            None => NoiseKey::new(UNIT_SEED, self.address.camera, 0, 0, purpose),
         }
     }
 }

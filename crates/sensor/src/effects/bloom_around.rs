@@ -12,10 +12,10 @@ use rayon::prelude::*;
 
 use crate::signal_breakdown::ChargeAccount;
 
-const BESIDE: f32 = 0.2;
-const CORNER: f32 = 0.05;
+const SIDE_FRACTION: f32 = 0.2;
+const CORNER_FRACTION: f32 = 0.05;
 /// Excess that is clipped rather than moved, e⁻ per pixel.
-const NEGLIGIBLE_E: f32 = 1e-3;
+const MIN_EXCESS_E: f32 = 1e-3;
 /// Larger charges count as this value, so that sums of neighbours stay finite.
 const MAX_E: f32 = 1e38;
 
@@ -27,13 +27,13 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
     let own = |_, charge: &mut [f32], excess: &mut [f32]| {
         charge.iter_mut().zip(excess).for_each(|(q, e)| {
             let own = std::mem::take(q).min(MAX_E);
-            *e = hold(q, own, well);
+            *e = add_up_to_well(q, own, well);
         });
     };
-    let mut tally = given(plane.samples_mut(), &mut excess, width, &rows, own);
-    while tally.largest > NEGLIGIBLE_E {
+    let mut tally = distribute(plane.samples_mut(), &mut excess, width, &rows, own);
+    while tally.largest > MIN_EXCESS_E {
         account.drained_e += (1.0 - overflow_fraction) * tally.sum;
-        account.spilt_e += overflow_fraction * lost_at_edges(&excess, width, height);
+        account.spilt_e += overflow_fraction * charge_lost_at_edges(&excess, width, height);
         let before = std::mem::replace(&mut rows, widened(&tally.rows, height));
         // Remainders of earlier rounds lie in the rows of the previous round.
         next[width * before.start..width * before.end].fill(0.0);
@@ -42,9 +42,9 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
             let row = row_of(y).unwrap_or_default();
             let gained = gained(y.checked_sub(1).and_then(row_of), row, row_of(y + 1));
             let pixels = charge.iter_mut().zip(rest).zip(gained);
-            pixels.for_each(|((q, e), gained)| *e = hold(q, overflow_fraction as f32 * gained, well));
+            pixels.for_each(|((q, e), gained)| *e = add_up_to_well(q, overflow_fraction as f32 * gained, well));
         };
-        tally = given(plane.samples_mut(), &mut next, width, &rows, of_neighbours);
+        tally = distribute(plane.samples_mut(), &mut next, width, &rows, of_neighbours);
         std::mem::swap(&mut excess, &mut next);
     }
     account.clipped_e += tally.sum;
@@ -52,14 +52,14 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
 
 /// Adds charge to a pixel up to its well; returns the excess. The excess is not computed as a difference of sums with the well: rounding in the last
 /// digits of a full well would keep the rounds from ending.
-fn hold(charge: &mut f32, given: f32, well: f32) -> f32 {
+fn add_up_to_well(charge: &mut f32, added: f32, well: f32) -> f32 {
     let room = well - *charge;
-    *charge = if given < room { (*charge + given).min(well) } else { well };
-    (given - room).max(0.0)
+    *charge = if added < room { (*charge + added).min(well) } else { well };
+    (added - room).max(0.0)
 }
 
 /// The excess after a round.
-struct Tally {
+struct ExcessTally {
     sum: f64,
     largest: f32,
     /// The rows with an excess.
@@ -67,13 +67,13 @@ struct Tally {
 }
 
 /// Distributes charge to all pixels of rows: `give` receives the index, the charge and the excess of each row.
-fn given(
+fn distribute(
     charge: &mut [f32],
     excess: &mut [f32],
     width: usize,
     rows: &Range<usize>,
     give: impl Fn(usize, &mut [f32], &mut [f32]) + Sync,
-) -> Tally {
+) -> ExcessTally {
     let part = rows.start * width..rows.end * width;
     let charge = charge[part.clone()].par_chunks_mut(width);
     let of_row = |(i, (charge, excess)): (usize, (&mut [f32], &mut [f32]))| {
@@ -83,7 +83,7 @@ fn given(
     let sums: Vec<(f64, f32)> = charge.zip(excess[part].par_chunks_mut(width)).enumerate().map(of_row).collect();
     let first = sums.iter().position(|(sum, _)| *sum > 0.0).unwrap_or(0);
     let last = sums.iter().rposition(|(sum, _)| *sum > 0.0).map_or(first, |i| i + 1);
-    Tally {
+    ExcessTally {
         sum: sums.iter().map(|(sum, _)| sum).sum(),
         largest: sums.iter().map(|(_, largest)| *largest).fold(0.0, f32::max),
         rows: rows.start + first..rows.start + last,
@@ -97,11 +97,11 @@ fn widened(rows: &Range<usize>, height: usize) -> Range<usize> {
 /// Charge that each pixel of the middle row receives from the excess of its eight neighbours.
 fn gained(above: Option<&[f32]>, row: &[f32], below: Option<&[f32]>) -> Vec<f32> {
     let mut gained = vec![0.0; row.len()];
-    let mut to_sides: Vec<f32> = row.iter().map(|e| BESIDE * e).collect();
+    let mut to_sides: Vec<f32> = row.iter().map(|e| SIDE_FRACTION * e).collect();
     for near in [above, below].into_iter().flatten() {
         for ((gained, to_sides), e) in gained.iter_mut().zip(&mut to_sides).zip(near) {
-            *gained += BESIDE * e;
-            *to_sides += CORNER * e;
+            *gained += SIDE_FRACTION * e;
+            *to_sides += CORNER_FRACTION * e;
         }
     }
     gained.iter_mut().skip(1).zip(&to_sides).for_each(|(gained, left)| *gained += left);
@@ -110,14 +110,14 @@ fn gained(above: Option<&[f32]>, row: &[f32], below: Option<&[f32]>) -> Vec<f32>
 }
 
 /// Charge that pixels at the edges lose to absent neighbours.
-fn lost_at_edges(excess: &[f32], width: usize, height: usize) -> f64 {
+fn charge_lost_at_edges(excess: &[f32], width: usize, height: usize) -> f64 {
     let weight = |x: usize, y: usize| {
         let columns = [x > 0, true, x + 1 < width];
         let rows = [y > 0, true, y + 1 < height];
         let mut lost = 0.0;
         for (j, row) in rows.into_iter().enumerate() {
             for (i, column) in columns.into_iter().enumerate() {
-                let weight = [CORNER, BESIDE, if i == 1 { 0.0 } else { BESIDE }];
+                let weight = [CORNER_FRACTION, SIDE_FRACTION, if i == 1 { 0.0 } else { SIDE_FRACTION }];
                 let kind = usize::from(i == 1 || j == 1) + usize::from(i == 1 && j == 1);
                 lost += if row && column { 0.0 } else { weight[kind] };
             }

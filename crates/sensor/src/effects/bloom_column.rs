@@ -18,7 +18,7 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
     let samples = plane.samples();
     let column = |x: usize| (0..height).map(move |y| samples[y * width + x]);
     let full: Vec<usize> = (0..width).into_par_iter().filter(|x| column(*x).any(|q| q > well)).collect();
-    let solved: Vec<Column> = full
+    let solved: Vec<OverflowColumn> = full
         .par_iter()
         .map(|x| solve(column(*x).map(f64::from).collect(), f64::from(well), overflow_fraction))
         .collect();
@@ -33,18 +33,18 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
 
 /// A column after overflow, and the charge that left it.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Column {
+struct OverflowColumn {
     charge: Vec<f64>,
     drained: f64,
     spilt: f64,
 }
 
 /// Both directions treated equally.
-fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> Column {
+fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> OverflowColumn {
     let excess: Vec<f64> = charge.iter().map(|q| (q - well).max(0.0)).collect();
     let start = || {
         let drained = excess.iter().sum::<f64>() * (1.0 - overflow_fraction);
-        Column { charge: charge.iter().map(|q| q.min(well)).collect(), drained, spilt: 0.0 }
+        OverflowColumn { charge: charge.iter().map(|q| q.min(well)).collect(), drained, spilt: 0.0 }
     };
     let halves: Vec<f64> = excess.iter().map(|e| 0.5 * overflow_fraction * e).collect();
     let height = charge.len();
@@ -54,14 +54,14 @@ fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> Column {
     b.stream(0..height, &halves, well, overflow_fraction);
     b.stream((0..height).rev(), &halves, well, overflow_fraction);
     let mean = |p: f64, q: f64| 0.5 * (p + q);
-    Column {
+    OverflowColumn {
         charge: a.charge.iter().zip(&b.charge).map(|(p, q)| mean(*p, *q)).collect(),
         drained: mean(a.drained, b.drained),
         spilt: mean(a.spilt, b.spilt),
     }
 }
 
-impl Column {
+impl OverflowColumn {
     /// Moves the halves of all pixels in one direction, in the order of `rows`.
     fn stream(&mut self, rows: impl Iterator<Item = usize>, halves: &[f64], well: f64, overflow_fraction: f64) {
         let mut carried = 0.0;

@@ -96,8 +96,8 @@ impl PreparedBrighterFatter {
             let own = square(here[x]);
             let sides = [x.checked_sub(1).map(|i| here[i]), here.get(x + 1).copied()];
             let rows = near.map(|row| row.map(|row| row[x]));
-            let given: f64 = sides.into_iter().chain(rows).flatten().map(|q| own - square(q)).sum();
-            *out = (f64::from(here[x]) - self.quarter * given) as f32;
+            let given_away: f64 = sides.into_iter().chain(rows).flatten().map(|q| own - square(q)).sum();
+            *out = (f64::from(here[x]) - self.quarter * given_away) as f32;
         }
     }
 }
@@ -109,7 +109,7 @@ mod tests {
     use crate::parameters::SensorParameters;
 
     #[test]
-    fn flat_pictures_get_the_variance_and_covariance_of_the_model() {
+    fn flat_images_get_the_variance_and_covariance_of_the_model() {
         let (mu, a) = (50_000.0, 5e-7);
         let mut p = one_dn_an_electron();
         (p.charge.full_well.capacity_e, p.charge.brighter_fatter.shift_per_e) = (2e5, a);

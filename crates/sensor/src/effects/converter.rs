@@ -12,7 +12,7 @@ use crate::{capture::Operation, check::Checks};
 
 /// The ADC at the gain of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Converter {
+pub(crate) struct Adc {
     /// Digital numbers per electron, analogue gain included.
     pub(crate) gain_dn_e: f64,
     /// Digital number of zero charge, DN.
@@ -28,7 +28,7 @@ pub(crate) fn largest_dn(bits: u32) -> f64 {
     if bits <= 24 { f64::from((1_u32 << bits) - 1) } else { f64::INFINITY }
 }
 
-impl Effect for Converter {
+impl Effect for Adc {
     const NAME: &'static str = "converter";
     const KEY: &'static str = "sensor.bits";
 
@@ -64,7 +64,7 @@ impl Effect for Converter {
     }
 }
 
-impl Converter {
+impl Adc {
     /// The digital numbers of a row.
     pub(crate) fn convert(&self, row: &Row<'_, Voltage>, numbers: &mut [u32]) {
         numbers.iter_mut().zip(&*row.values).for_each(|(dn, e)| *dn = self.digital_number(*e));
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn rounds_to_even_and_clips_after_the_offset() {
-        let mut converter = Converter { gain_dn_e: 0.5, black_level_dn: 10.0, bits: 8, digital_gain: 1.0 };
+        let mut converter = Adc { gain_dn_e: 0.5, black_level_dn: 10.0, bits: 8, digital_gain: 1.0 };
         let dn = [-100.0, -20.0, -3.0, 0.0, 1.0, 3.0, 4.0, 490.0, 1e12].map(|e| converter.digital_number(e));
         assert_eq!(dn, [0, 0, 8, 10, 10, 12, 12, 255, 255]);
         converter.digital_gain = 2.0;

@@ -16,7 +16,7 @@ use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
 
 use super::temperature::Temperature;
-use super::two_level::{self, Draws, Site, TwoLevel, high_in_row};
+use super::two_level::{self, RandomPurposes, RtsPixel, TwoLevel, high_in_row};
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::random::pattern::{self, Deviations, Sigmas};
 use crate::random::{Poisson, standard_normal};
@@ -72,7 +72,7 @@ pub struct DarkCurrent {
 impl DarkCurrent {
     /// The same current for all pixels, at the sensor's own temperature.
     #[must_use]
-    pub fn even(current_e_s: f64) -> Self {
+    pub fn uniform(current_e_s: f64) -> Self {
         Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, dark_current_rts: None }
     }
 
@@ -167,10 +167,10 @@ impl EffectOn for DarkCurrent {
 
 impl DarkCurrent {
     /// The blinking pixels at their upper level; none without noise from frame to frame.
-    fn at_upper_level(&self, context: &Context, memory: &mut Memory) -> Vec<Site> {
+    fn at_upper_level(&self, context: &Context, memory: &mut Memory) -> Vec<RtsPixel> {
         let Some(two) = self.dark_current_rts.filter(|_| context.facts.noise) else { return Vec::new() };
-        let draws = Draws { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
-        let (sites, high) = two_level::next(&two, draws, context, &memory.before.dark_current_rts_high);
+        let purposes = RandomPurposes { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
+        let (sites, high) = two_level::next_levels(&two, purposes, context, &memory.before.dark_current_rts_high);
         let up = sites.into_iter().zip(&high).filter(|(_, high)| **high).map(|(site, _)| site).collect();
         memory.after.dark_current_rts_high = high;
         up
@@ -220,12 +220,12 @@ struct DarkPattern {
     /// Fraction, and mean in electrons.
     hot: Option<(f64, f64, NoiseKey)>,
     /// Pixels at their upper level, amplitudes in electrons.
-    dark_current_rts: Vec<Site>,
+    dark_current_rts: Vec<RtsPixel>,
 }
 
 impl DarkElectrons {
     /// `high`: the blinking pixels at their upper level.
-    fn new(dark: &DarkCurrent, context: &Context, high: &[Site]) -> Self {
+    fn new(dark: &DarkCurrent, context: &Context, high: &[RtsPixel]) -> Self {
         let electrons_per_current = dark.temperature_factor() * context.operation.exposure_s;
         let mean_e = dark.current_e_s * electrons_per_current;
         Self {
@@ -236,8 +236,8 @@ impl DarkElectrons {
         }
     }
 
-    fn draw(&self, counts: &Poisson, x: usize, y: u32) -> f64 {
-        counts.draw(&mut self.key.stream(Pixel { x: x as u32, y }))
+    fn sample(&self, counts: &Poisson, x: usize, y: u32) -> f64 {
+        counts.sample(&mut self.key.stream(Pixel { x: x as u32, y }))
     }
 }
 
@@ -248,13 +248,13 @@ impl RowEffect<Charge> for DarkElectrons {
         match (&self.pattern, self.counts) {
             (None, None) => electrons.iter_mut().for_each(|e| *e += self.mean_e),
             (None, Some(counts)) => {
-                electrons.iter_mut().enumerate().for_each(|(x, e)| *e += self.draw(&counts, x, y));
+                electrons.iter_mut().enumerate().for_each(|(x, e)| *e += self.sample(&counts, x, y));
             }
             (Some(pattern), counts) => {
                 let means = pattern.means(self.mean_e, electrons.len(), y);
                 for ((x, e), mean) in electrons.iter_mut().enumerate().zip(means) {
                     let poisson = counts.and_then(|_| Poisson::new(mean));
-                    *e += poisson.map_or(mean, |poisson| self.draw(&poisson, x, y));
+                    *e += poisson.map_or(mean, |poisson| self.sample(&poisson, x, y));
                 }
             }
         }
@@ -262,15 +262,15 @@ impl RowEffect<Charge> for DarkElectrons {
 }
 
 impl DarkPattern {
-    fn new(dark: &DarkCurrent, context: &Context, high: &[Site], electrons_per_current: f64) -> Self {
+    fn new(dark: &DarkCurrent, context: &Context, high: &[RtsPixel], electrons_per_current: f64) -> Self {
         let DarkSpread { white, row, column, distribution } = dark.spread;
         let log_normal = (distribution == SpreadDistribution::LogNormal && white > 0.0)
             .then(|| (ln_1p(white * white).sqrt(), context.pattern(NoiseDraw::PixelDark)));
         let sigmas = Sigmas { white: if log_normal.is_some() { 0.0 } else { white }, row, column };
-        let draws = [NoiseDraw::PixelDark, NoiseDraw::RowDark, NoiseDraw::ColumnDark];
-        let in_electrons = |site: &Site| Site { amplitude: site.amplitude * electrons_per_current, ..*site };
+        let purposes = [NoiseDraw::PixelDark, NoiseDraw::RowDark, NoiseDraw::ColumnDark];
+        let in_electrons = |site: &RtsPixel| RtsPixel { amplitude: site.amplitude * electrons_per_current, ..*site };
         Self {
-            deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width),
+            deviations: Deviations::new(sigmas, purposes, |purpose| context.pattern(purpose), context.width),
             log_normal,
             hot: dark.hot.map(|h| (h.fraction, h.mean_e_s * electrons_per_current, context.pattern(NoiseDraw::Hot))),
             dark_current_rts: high.iter().map(in_electrons).collect(),
@@ -280,7 +280,7 @@ impl DarkPattern {
     /// Mean dark electrons of a row's pixels.
     fn means(&self, mean_e: f64, width: usize, y: u32) -> Vec<f64> {
         let mut means = vec![0.0; width];
-        self.deviations.of_row(y, width, |x, d| means[x] = mean_e * (1.0 + d).max(0.0));
+        self.deviations.for_row(y, width, |x, d| means[x] = mean_e * (1.0 + d).max(0.0));
         if let Some((s, key)) = self.log_normal {
             for (x, mean) in means.iter_mut().enumerate() {
                 let z = standard_normal(&mut key.stream(Pixel { x: x as u32, y }));
@@ -309,7 +309,7 @@ mod tests {
 
     fn moments(p: &SensorParameters, size: usize) -> Moments {
         let raw = run(p, &Plane::filled(size, size, 0.0), ADDRESS);
-        Moments::of(raw.plane.samples().iter().map(|dn| f64::from(*dn)))
+        Moments::from_values(raw.plane.samples().iter().map(|dn| f64::from(*dn)))
     }
 
     #[test]

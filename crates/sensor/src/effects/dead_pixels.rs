@@ -45,18 +45,18 @@ impl EffectOn for DeadPixels {
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
-        Action::rows(Emptied { fraction: self.fraction, key: context.pattern(NoiseDraw::Dead) })
+        Action::rows(PreparedDeadPixels { fraction: self.fraction, key: context.pattern(NoiseDraw::Dead) })
     }
 }
 
 /// Dead pixels, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Emptied {
+struct PreparedDeadPixels {
     fraction: f64,
     key: NoiseKey,
 }
 
-impl RowEffect<Charge> for Emptied {
+impl RowEffect<Charge> for PreparedDeadPixels {
     fn apply(&self, row: &mut Row<'_, Charge>) {
         let charges = &mut *row.values;
         pattern::each(self.key, row.y, self.fraction, charges.len(), |x, _| charges[x] = 0.0);

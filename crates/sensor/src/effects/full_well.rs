@@ -103,19 +103,19 @@ impl EffectOn for FullWell {
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
         let capacity_e = context.operation.full_well_e;
         match self.blooming {
-            None => Action::rows(Clip { capacity_e }),
-            Some(blooming) => Action::plane(Overflow { blooming, capacity_e }),
+            None => Action::rows(PreparedClipping { capacity_e }),
+            Some(blooming) => Action::plane(PreparedOverflow { blooming, capacity_e }),
         }
     }
 }
 
 /// Full well without blooming, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Clip {
+struct PreparedClipping {
     capacity_e: f64,
 }
 
-impl RowEffect<Charge> for Clip {
+impl RowEffect<Charge> for PreparedClipping {
     /// Clips the pixels of the row that need it, and records the row's charge.
     fn apply(&self, row: &mut Row<'_, Charge>) {
         let electrons = &mut *row.values;
@@ -142,19 +142,19 @@ fn row_sum(electrons: &[f64]) -> f64 {
 
 /// Full well with blooming, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Overflow {
+struct PreparedOverflow {
     blooming: Blooming,
     capacity_e: f64,
 }
 
-impl PlaneEffect<Charge> for Overflow {
+impl PlaneEffect<Charge> for PreparedOverflow {
     fn apply(&self, mut plane: Plane<Charge>, traces: &mut Traces<'_>) -> Plane<Charge> {
         *traces.account = Some(self.spread(&mut plane));
         plane
     }
 }
 
-impl Overflow {
+impl PreparedOverflow {
     /// Moves the charge above the well.
     fn spread(&self, plane: &mut Plane<Charge>) -> ChargeAccount {
         let generated_e = sum(plane);

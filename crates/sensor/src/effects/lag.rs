@@ -35,7 +35,7 @@ pub struct Lag {
 
 impl Lag {
     /// Total fraction captured by all traps.
-    fn kept(&self) -> f64 {
+    fn total_fraction(&self) -> f64 {
         self.traps.iter().map(|trap| trap.fraction).sum()
     }
 }
@@ -55,9 +55,9 @@ impl Effect for Lag {
                 "the traps are those of one photodiode, but a capture of another sensitivity has a separate photodiode: remove one of the two".to_owned()
             });
         }
-        let kept = self.kept();
-        let legal = kept <= 0.5 || self.traps.is_empty();
-        checks.agree("lag", legal, || format!("the traps retain {kept} in total: give at most 0.5"));
+        let total = self.total_fraction();
+        let legal = total <= 0.5 || self.traps.is_empty();
+        checks.agree("lag", legal, || format!("the traps retain {total} in total: give at most 0.5"));
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
@@ -78,26 +78,26 @@ impl EffectOn for Lag {
         let frame_s = context.facts.frame_period_s.expect("checked with the parameters");
         let period_s = frame_s / context.facts.exposures as f64;
         let kinds = self.traps.iter().map(|t| (t.fraction, 1.0 - exp(-period_s / t.time_constant_s)));
-        Action::plane(Traps { kinds: kinds.collect(), full_well_e: context.operation.full_well_e })
+        Action::plane(PreparedTraps { kinds: kinds.collect(), full_well_e: context.operation.full_well_e })
     }
 }
 
 /// Traps, prepared.
 #[derive(Clone, Debug, PartialEq)]
-struct Traps {
+struct PreparedTraps {
     /// Fraction captured, and fraction released.
     kinds: Vec<(f64, f64)>,
     full_well_e: f64,
 }
 
-impl PlaneEffect<Charge> for Traps {
+impl PlaneEffect<Charge> for PreparedTraps {
     fn apply(&self, mut plane: Plane<Charge>, traces: &mut Traces<'_>) -> Plane<Charge> {
         self.exchange(&mut plane, traces.after);
         plane
     }
 }
 
-impl Traps {
+impl PreparedTraps {
     /// Exchanges charge with the traps of each pixel.
     fn exchange(&self, plane: &mut Plane<Charge>, after: &mut SensorState) {
         let trapped_e = &mut after.trapped_e;
@@ -149,12 +149,12 @@ mod tests {
         let again = Capture { gain_ratio: 0.5, dual_conversion_gain: true, ..Capture::default() };
         p.hdr = HighDynamicRange { captures: vec![second, again], bits: Some(24), ..HighDynamicRange::default() };
         let sensor = Sensor::new(p.clone()).expect("legal");
-        let kept = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };
-        let (after, _) = sensor.step(kept, &Plane::new(2, 2), FrameAddress { frame: 1, ..ADDRESS });
+        let trapped = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };
+        let (after, _) = sensor.step(trapped, &Plane::new(2, 2), FrameAddress { frame: 1, ..ADDRESS });
         // A time constant of one second, two captures of 20 ms; each captures 1 % of the released charge.
         let half = exp(-0.02);
-        let want = 1000.0 * (half + 0.01 * (1.0 - half)) * (half + 0.01 * (1.0 - half));
-        assert!((f64::from(after.trapped_e[0][0]) - want).abs() < 1e-3, "{} {want}", after.trapped_e[0][0]);
+        let expected = 1000.0 * (half + 0.01 * (1.0 - half)) * (half + 0.01 * (1.0 - half));
+        assert!((f64::from(after.trapped_e[0][0]) - expected).abs() < 1e-3, "{} {expected}", after.trapped_e[0][0]);
         p.hdr.captures[0].sensitivity_ratio = 0.5;
         assert!(Sensor::new(p).is_err());
     }
@@ -165,7 +165,7 @@ mod tests {
         let (mut state, first) =
             sensor.step(SensorState::default(), &Plane::filled(2, 2, 100_000.0), FrameAddress { frame: 0, ..ADDRESS });
         assert_eq!(first.plane.at(0, 0), 94_000);
-        let (mut given, mut fast, mut slow) = (94_000.0, 5000.0, 1000.0);
+        let (mut charge, mut fast, mut slow) = (94_000.0, 5000.0, 1000.0);
         for frame in 1..200 {
             let (next, raw) = sensor.step(state, &Plane::new(2, 2), FrameAddress { frame, ..ADDRESS });
             state = next;
@@ -173,7 +173,7 @@ mod tests {
             let read = (a + b) * 0.94;
             fast += 0.05 * (a + b) - a;
             slow += 0.01 * (a + b) - b;
-            given += read;
+            charge += read;
             // The ADC rounds to one electron.
             assert!(
                 (f64::from(raw.plane.at(1, 1)) - read).abs() <= 0.51,
@@ -181,8 +181,8 @@ mod tests {
                 raw.plane.at(1, 1)
             );
         }
-        let kept: f64 = state.trapped_e.iter().map(|kind| f64::from(kind[0])).sum();
+        let trapped_e: f64 = state.trapped_e.iter().map(|kind| f64::from(kind[0])).sum();
         // Charges are f32: each of 200 frames rounds by at most 100 000 · 2⁻²⁴.
-        assert!((given + kept - 100_000.0).abs() < 1.2, "{}", given + kept);
+        assert!((charge + trapped_e - 100_000.0).abs() < 1.2, "{}", charge + trapped_e);
     }
 }

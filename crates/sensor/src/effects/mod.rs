@@ -117,18 +117,18 @@ mod tests {
     #[test]
     fn what_has_no_strength_is_absent_and_says_why() {
         let mut p = ideal();
-        let kept = |p: &SensorParameters| -> Vec<_> {
+        let remaining = |p: &SensorParameters| -> Vec<_> {
             let effects = p.effects(SignalLevels::default());
             assert!(effects.iter().all(|effect| !effect.status.reason().is_empty()));
             effects.into_iter().filter(|effect| effect.status.is_modelled()).map(|effect| effect.name).collect()
         };
         p.noise = false;
-        assert_eq!(kept(&p), ["full well", "converter"]);
+        assert_eq!(remaining(&p), ["full well", "converter"]);
         p.noise = true;
         p.charge.dark.current_e_s = 3.0;
-        assert_eq!(kept(&p), ["shot noise", "dark current", "full well", "read noise", "converter"]);
+        assert_eq!(remaining(&p), ["shot noise", "dark current", "full well", "read noise", "converter"]);
         p.exposure.exposure_s = 0.0;
         p.voltage.noise.white_e = 0.0;
-        assert_eq!(kept(&p), ["full well", "converter"]);
+        assert_eq!(remaining(&p), ["full well", "converter"]);
     }
 }

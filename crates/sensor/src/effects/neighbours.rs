@@ -33,18 +33,18 @@ pub struct Neighbours {
 
 impl Neighbours {
     pub(crate) fn check(&self, key: &'static str, checks: &mut Checks) {
-        for given in [self.horizontal, self.vertical, self.corner] {
-            checks.fraction(key, given);
+        for fraction in [self.horizontal, self.vertical, self.corner] {
+            checks.fraction(key, fraction);
         }
-        let given = self.given();
-        checks.agree(key, given <= 0.75, || {
-            format!("a pixel passes on {given} in total: give at most 0.75, so that it retains the largest part")
+        let total = self.total_fraction();
+        checks.agree(key, total <= 0.75, || {
+            format!("a pixel passes on {total} in total: give at most 0.75, so that it retains the largest part")
         });
     }
 
     /// Total fraction that a pixel gives away.
     #[must_use]
-    pub fn given(&self) -> f64 {
+    pub fn total_fraction(&self) -> f64 {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 
@@ -53,7 +53,7 @@ impl Neighbours {
     #[must_use]
     pub fn weight(&self, dx: usize, dy: usize) -> f64 {
         match (dx, dy) {
-            (1, 1) => 1.0 - self.given(),
+            (1, 1) => 1.0 - self.total_fraction(),
             (_, 1) => self.horizontal,
             (1, _) => self.vertical,
             _ => self.corner,
@@ -93,9 +93,9 @@ impl Neighbours {
 }
 
 /// The exchange, prepared.
-pub(crate) struct Exchange(pub(crate) Neighbours);
+pub(crate) struct PreparedExchange(pub(crate) Neighbours);
 
-impl<Q: Quantity<Sample = f32>> PlaneEffect<Q> for Exchange {
+impl<Q: Quantity<Sample = f32>> PlaneEffect<Q> for PreparedExchange {
     fn apply(&self, plane: Plane<Q>, _: &mut Traces<'_>) -> Plane<Q> {
         self.0.exchange(&plane)
     }
@@ -114,7 +114,7 @@ impl Effect for Crosstalk {
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        EffectStatus::Modelled(format!("{} of a pixel's light is collected by its neighbours", self.0.given()))
+        EffectStatus::Modelled(format!("{} of a pixel's light is collected by its neighbours", self.0.total_fraction()))
     }
 }
 
@@ -123,7 +123,7 @@ impl EffectOn for Crosstalk {
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, _: &Context, _: &mut Memory) -> Action<MeanElectrons> {
-        Action::plane(Exchange(self.0))
+        Action::plane(PreparedExchange(self.0))
     }
 }
 
@@ -140,7 +140,7 @@ impl Effect for InterPixelCapacitance {
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        EffectStatus::Modelled(format!("{} of a pixel's voltage couples to its neighbours", self.0.given()))
+        EffectStatus::Modelled(format!("{} of a pixel's voltage couples to its neighbours", self.0.total_fraction()))
     }
 }
 
@@ -149,7 +149,7 @@ impl EffectOn for InterPixelCapacitance {
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, _: &Context, _: &mut Memory) -> Action<Voltage> {
-        Action::plane(Exchange(self.0))
+        Action::plane(PreparedExchange(self.0))
     }
 }
 
@@ -160,14 +160,14 @@ mod tests {
     use super::*;
     use crate::frame::tests::{ADDRESS, covariance, one_dn_an_electron, run};
 
-    const GIVEN: Neighbours = Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.005 };
+    const NEIGHBOURS: Neighbours = Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.005 };
 
     #[test]
     fn a_point_becomes_the_kernel() {
         let mut plane = Plane::<Voltage>::new(5, 5);
         plane.set(2, 2, 1000.0);
-        let out = GIVEN.exchange(&plane);
-        let near = |x, y, want: f32| assert!((out.at(x, y) - want).abs() < 1e-3, "{x} {y}: {}", out.at(x, y));
+        let out = NEIGHBOURS.exchange(&plane);
+        let near = |x, y, expected: f32| assert!((out.at(x, y) - expected).abs() < 1e-3, "{x} {y}: {}", out.at(x, y));
         near(1, 2, 20.0);
         near(2, 3, 30.0);
         near(3, 1, 5.0);
@@ -181,19 +181,19 @@ mod tests {
             let value = |i: usize| (i * 7919 % 977) as f32;
             let plane = Plane::from_samples(width, height, (0..width * height).map(value).collect()).expect("filled");
             let sum = |plane: &Plane<Voltage>| plane.samples().iter().map(|v| f64::from(*v)).sum::<f64>();
-            let out = GIVEN.exchange(&plane);
+            let out = NEIGHBOURS.exchange(&plane);
             // Samples are f32: 24 bits each.
             assert!((sum(&out) - sum(&plane)).abs() <= 6e-8 * sum(&plane).max(1.0));
             let even = Plane::<Voltage>::filled(width, height, 3.5);
-            assert_eq!(GIVEN.exchange(&even), even);
+            assert_eq!(NEIGHBOURS.exchange(&even), even);
         }
     }
 
     #[test]
     fn noise_is_correlated_and_the_variance_falls() {
         let mut p = one_dn_an_electron();
-        let given = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 };
-        p.voltage.capacitance = Some(InterPixelCapacitance(given));
+        let neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 };
+        p.voltage.capacitance = Some(InterPixelCapacitance(neighbours));
         let raw = run(&p, &Plane::filled(512, 512, 10_000.0), ADDRESS);
         // White noise of variance μ through the kernel: Σ k² at no shift, 2 k₀ k₁ at a shift of one (and 1/12 of rounding).
         let (own, one) = (0.96, 0.01);

@@ -24,7 +24,7 @@ pub(super) struct VoltageDeviations(pub(super) Deviations);
 impl RowEffect<Voltage> for VoltageDeviations {
     fn apply(&self, row: &mut Row<'_, Voltage>) {
         let voltages = &mut *row.values;
-        self.0.of_row(row.y, voltages.len(), |x, d| voltages[x] += d);
+        self.0.for_row(row.y, voltages.len(), |x, d| voltages[x] += d);
     }
 }
 
@@ -82,9 +82,9 @@ impl EffectOn for OffsetPattern {
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
-        let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
-        let key = |draw| context.pattern(draw);
-        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(), draws, key, context.width)))
+        let purposes = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
+        let key = |purpose| context.pattern(purpose);
+        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(), purposes, key, context.width)))
     }
 }
 
@@ -149,8 +149,8 @@ impl EffectOn for ReadNoise {
     const COMPONENT: SignalComponent = SignalComponent::Read;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
-        let draws = [NoiseDraw::Read, NoiseDraw::RowRead, NoiseDraw::ColumnRead];
-        let key = |draw| context.noise(draw);
-        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(&context.operation), draws, key, context.width)))
+        let purposes = [NoiseDraw::Read, NoiseDraw::RowRead, NoiseDraw::ColumnRead];
+        let key = |purpose| context.noise(purpose);
+        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(&context.operation), purposes, key, context.width)))
     }
 }

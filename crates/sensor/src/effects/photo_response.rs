@@ -64,9 +64,9 @@ impl EffectOn for PhotoResponse {
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {
-        let draws = [NoiseDraw::PixelResponse, NoiseDraw::RowResponse, NoiseDraw::ColumnResponse];
-        let key = |draw| context.pattern(draw);
-        Action::rows(ResponsePattern { deviations: Deviations::new(self.sigmas(), draws, key, context.width) })
+        let purposes = [NoiseDraw::PixelResponse, NoiseDraw::RowResponse, NoiseDraw::ColumnResponse];
+        let key = |purpose| context.pattern(purpose);
+        Action::rows(ResponsePattern { deviations: Deviations::new(self.sigmas(), purposes, key, context.width) })
     }
 }
 
@@ -79,7 +79,7 @@ struct ResponsePattern {
 impl RowEffect<MeanElectrons> for ResponsePattern {
     fn apply(&self, row: &mut Row<'_, MeanElectrons>) {
         let means = &mut *row.values;
-        self.deviations.of_row(row.y, means.len(), |x, d| means[x] *= (1.0 + d).max(0.0));
+        self.deviations.for_row(row.y, means.len(), |x, d| means[x] *= (1.0 + d).max(0.0));
     }
 }
 
@@ -102,9 +102,9 @@ mod tests {
         for mean in [1e3, 1e4, 1e6] {
             let raw = run(&patterned(), &Plane::filled(512, 512, mean), ADDRESS);
             let sigma = 0.01 * f64::from(mean);
-            let want = sigma * sigma + 1.0 / 12.0;
+            let expected = sigma * sigma + 1.0 / 12.0;
             // A variance of 512² numbers is known to 0.28 %; tolerance: four of those.
-            assert!((covariance(&raw, 0, 0) / want - 1.0).abs() < 0.0112, "{mean}");
+            assert!((covariance(&raw, 0, 0) / expected - 1.0).abs() < 0.0112, "{mean}");
         }
     }
 
@@ -113,7 +113,7 @@ mod tests {
         let means = Plane::filled(32, 32, 1e4);
         let with = |seed, address| {
             let mut p = patterned();
-            p.specimen = seed;
+            p.unit = seed;
             run(&p, &means, address).plane
         };
         let first = with(None, ADDRESS);

@@ -16,9 +16,9 @@ pub(crate) struct ShotNoise;
 
 impl ShotNoise {
     /// Counting, prepared; `None` if charge equals its mean.
-    pub(crate) fn prepare(self, context: &Context) -> Option<Counting> {
+    pub(crate) fn prepare(self, context: &Context) -> Option<PreparedShotNoise> {
         let counted = self.status(&context.facts, &context.operation).is_modelled();
-        counted.then(|| Counting { key: context.noise(NoiseDraw::Shot) })
+        counted.then(|| PreparedShotNoise { key: context.noise(NoiseDraw::Shot) })
     }
 }
 
@@ -52,11 +52,11 @@ impl Effect for ShotNoise {
 
 /// Converts mean electrons to charge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Counting {
+pub(crate) struct PreparedShotNoise {
     key: NoiseKey,
 }
 
-impl RowConversion for Counting {
+impl RowConversion for PreparedShotNoise {
     type From = MeanElectrons;
     type To = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Shot;
@@ -65,7 +65,7 @@ impl RowConversion for Counting {
     fn convert<'a>(&self, row: Row<'a, MeanElectrons>) -> Row<'a, Charge> {
         for (x, e) in row.values.iter_mut().enumerate() {
             if let Some(poisson) = Poisson::new(*e) {
-                *e = poisson.draw(&mut self.key.stream(Pixel { x: x as u32, y: row.y }));
+                *e = poisson.sample(&mut self.key.stream(Pixel { x: x as u32, y: row.y }));
             }
         }
         row.counted()

@@ -44,8 +44,8 @@ impl Smear {
     }
 
     /// The exposure, s, that smear adds to every pixel of a uniformly and steadily lit image of this number of lit rows among `rows`.
-    pub(crate) fn even_s(&self, frame_period_s: Option<f64>, lit: usize, rows: usize) -> f64 {
-        self.leak() * self.line_s(frame_period_s, rows) * lit as f64
+    pub(crate) fn uniform_smear_s(&self, frame_period_s: Option<f64>, lit_rows: usize, rows: usize) -> f64 {
+        self.leak() * self.line_s(frame_period_s, rows) * lit_rows as f64
     }
 
     /// The fraction ε of the light collected by passing charge.
@@ -109,7 +109,7 @@ impl PlaneEffect<MeanElectrons> for ColumnSmear {
     fn apply(&self, mut means: Plane<MeanElectrons>, _: &mut Traces<'_>) -> Plane<MeanElectrons> {
         let width = means.width();
         if width > 0 {
-            let smear = self.of_columns(&means);
+            let smear = self.column_sums(&means);
             means.samples_mut().par_chunks_mut(width).for_each(|row| {
                 row.iter_mut().zip(&smear).for_each(|(mean, s)| *mean = (f64::from(*mean) + s) as f32);
             });
@@ -120,7 +120,7 @@ impl PlaneEffect<MeanElectrons> for ColumnSmear {
 
 impl ColumnSmear {
     /// Each column is summed from the top by one thread, so the bits do not depend on threads.
-    fn of_columns(&self, means: &Plane<MeanElectrons>) -> Vec<f64> {
+    fn column_sums(&self, means: &Plane<MeanElectrons>) -> Vec<f64> {
         const BLOCK: usize = 64;
         let mut sums = vec![0.0; means.width()];
         sums.par_chunks_mut(BLOCK).enumerate().for_each(|(block, sums)| {
@@ -152,9 +152,9 @@ mod tests {
 
     #[test]
     fn leaks_of_data_sheets() {
-        for (smear_db, want) in [(-80.0, 1e-3), (-100.0, 1e-4), (-120.0, 1e-5)] {
+        for (smear_db, expected) in [(-80.0, 1e-3), (-100.0, 1e-4), (-120.0, 1e-5)] {
             let smear = Smear::Interline { smear_db, measured_exposure_ratio: 1.0 };
-            assert!((smear.leak() / want - 1.0).abs() < 1e-12);
+            assert!((smear.leak() / expected - 1.0).abs() < 1e-12);
         }
     }
 
@@ -172,15 +172,15 @@ mod tests {
 
     /// A uniform image has the stated exposure, with and without shielded rows.
     #[test]
-    fn an_even_picture_has_the_exposure_told() {
+    fn a_uniform_image_has_the_exposure_stated() {
         for dark in [0, 20] {
             let mut p = smeared(false, 1e-3);
             p.read_out.layout.optical_black.rows = dark;
             let raw = run(&p, &Plane::filled(3, 80, 1000.0_f32), ADDRESS);
             let raw = raw.linear();
-            let want = 1000.0 * (1.0 + p.even_smear_s(80) / 1e-3);
+            let expected = 1000.0 * (1.0 + p.uniform_smear_s(80) / 1e-3);
             let pixel = f64::from(raw.plane.at(1, raw.plane.height() - 1));
-            assert!((pixel - want).abs() <= 0.5 && want > 1025.0, "{dark}: {pixel} {want}");
+            assert!((pixel - expected).abs() <= 0.5 && expected > 1025.0, "{dark}: {pixel} {expected}");
         }
     }
 
@@ -201,7 +201,7 @@ mod tests {
         (0..64).for_each(|x| means.set(x, 0, 5e7_f32));
         let raw = run(&smeared(true, 0.04), &means, ADDRESS);
         let dark = (1..1000).flat_map(|y| (0..64).map(move |x| (x, y)));
-        let moments = Moments::of(dark.map(|(x, y)| f64::from(raw.plane.at(x, y))));
+        let moments = Moments::from_values(dark.map(|(x, y)| f64::from(raw.plane.at(x, y))));
         // 50 e⁻ per pixel; 63 936 pixels give the mean to 0.028 and the variance to 0.56 %; tolerance: four of each (and 1/12 of rounding).
         assert!((moments.mean() - 50.0).abs() < 0.12, "{}", moments.mean());
         assert!((moments.variance().expect("many") / 50.0 - 1.0).abs() < 0.023);

@@ -84,8 +84,8 @@ mod tests {
 
     #[test]
     fn doubling_over_forty_kelvin() {
-        for (step_k, want) in [(8.0, 32.0), (7.0, 52.5), (6.0, 101.6)] {
-            assert!((factor(TemperatureLaw::Doubling { step_k }, 300.0, 340.0) / want - 1.0).abs() < 1e-3);
+        for (step_k, expected) in [(8.0, 32.0), (7.0, 52.5), (6.0, 101.6)] {
+            assert!((factor(TemperatureLaw::Doubling { step_k }, 300.0, 340.0) / expected - 1.0).abs() < 1e-3);
         }
     }
 

@@ -38,40 +38,40 @@ impl TwoLevel {
 
 /// A pixel and its amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Site {
+pub(crate) struct RtsPixel {
     pub(crate) x: u32,
     pub(crate) y: u32,
     pub(crate) amplitude: f64,
 }
 
 /// The random numbers of a kind of two-level pixels: their selection, and the jumps.
-pub(crate) struct Draws {
+pub(crate) struct RandomPurposes {
     pub(crate) which: NoiseDraw,
     pub(crate) flip: NoiseDraw,
 }
 
 /// The sites of a capture's array, and those at their upper level, given the levels `before` in the last frame.
-pub(crate) fn next(two: &TwoLevel, draws: Draws, context: &Context, before: &[bool]) -> (Vec<Site>, Vec<bool>) {
-    let key = context.pattern(draws.which);
+pub(crate) fn next_levels(two: &TwoLevel, purposes: RandomPurposes, context: &Context, before: &[bool]) -> (Vec<RtsPixel>, Vec<bool>) {
+    let key = context.pattern(purposes.which);
     let mut sites = Vec::new();
     for y in 0..context.height as u32 {
         pattern::each(key, y, two.fraction, context.width, |x, stream| {
-            sites.push(Site { x: x as u32, y, amplitude: pattern::exponential(two.mean, stream) });
+            sites.push(RtsPixel { x: x as u32, y, amplitude: pattern::exponential(two.mean, stream) });
         });
     }
     // All captures of a frame see the same level.
-    let flips = context.frame_noise(draws.flip);
-    let draw = |site: &Site| flips.stream(Pixel { x: site.x, y: site.y }).unit_f64();
+    let flips = context.frame_noise(purposes.flip);
+    let random = |site: &RtsPixel| flips.stream(Pixel { x: site.x, y: site.y }).unit_f64();
     let high = if before.len() == sites.len() {
-        sites.iter().zip(before).map(|(site, high)| high ^ (draw(site) * two.dwell_frames < 1.0)).collect()
+        sites.iter().zip(before).map(|(site, high)| high ^ (random(site) * two.dwell_frames < 1.0)).collect()
     } else {
-        sites.iter().map(|site| draw(site) < 0.5).collect()
+        sites.iter().map(|site| random(site) < 0.5).collect()
     };
     (sites, high)
 }
 
 /// The sites of row `y` that are at their upper level.
-pub(crate) fn high_in_row(sites: &[Site], y: u32) -> &[Site] {
+pub(crate) fn high_in_row(sites: &[RtsPixel], y: u32) -> &[RtsPixel] {
     let start = sites.partition_point(|site| site.y < y);
     let end = sites.partition_point(|site| site.y <= y);
     &sites[start..end]
@@ -104,8 +104,8 @@ impl EffectOn for RtsNoise {
     const COMPONENT: SignalComponent = SignalComponent::Read;
 
     fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Voltage> {
-        let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
-        let (sites, high) = next(&self.0, draws, context, &memory.before.rts_noise_high);
+        let purposes = RandomPurposes { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
+        let (sites, high) = next_levels(&self.0, purposes, context, &memory.before.rts_noise_high);
         let jumps = PreparedRts::new(&sites, &high);
         memory.after.rts_noise_high = high;
         Action::rows(jumps)
@@ -115,13 +115,13 @@ impl EffectOn for RtsNoise {
 /// RTS noise, prepared: half the jump of each pixel, up or down.
 #[derive(Clone, Debug, PartialEq)]
 struct PreparedRts {
-    halves: Vec<Site>,
+    halves: Vec<RtsPixel>,
 }
 
 impl PreparedRts {
-    fn new(sites: &[Site], high: &[bool]) -> Self {
+    fn new(sites: &[RtsPixel], high: &[bool]) -> Self {
         let half =
-            |(site, high): (&Site, &bool)| Site { amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude, ..*site };
+            |(site, high): (&RtsPixel, &bool)| RtsPixel { amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude, ..*site };
         Self { halves: sites.iter().zip(high).map(half).collect() }
     }
 }
@@ -148,10 +148,10 @@ mod tests {
         let two = TwoLevel { fraction: 0.05, mean: 3.0, dwell_frames: 4.0 };
         let p = ideal();
         let frame = |frame: u32, before: &[bool]| {
-            let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
+            let purposes = RandomPurposes { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
             let address = FrameAddress { seed: 1, camera: 0, frame, capture: 0 };
             let operation = p.operation(p.described_point());
-            next(&two, draws, &Context { facts: p.facts(), operation, address, width: 200, height: 200 }, before)
+            next_levels(&two, purposes, &Context { facts: p.facts(), operation, address, width: 200, height: 200 }, before)
         };
         let (sites, mut high) = frame(0, &[]);
         let n = sites.len() as f64;
@@ -180,18 +180,18 @@ mod tests {
         p.voltage.rts_noise = Some(RtsNoise(two));
         let sensor = Sensor::new(p).expect("legal");
         let mut state = SensorState::default();
-        let mut seen = vec![std::collections::BTreeSet::new(); 32 * 32];
+        let mut levels = vec![std::collections::BTreeSet::new(); 32 * 32];
         for frame in 0..40 {
             let (next, raw) = sensor.step(state, &Plane::new(32, 32), FrameAddress { frame, ..ADDRESS });
             state = next;
-            seen.iter_mut().zip(raw.plane.samples()).for_each(|(set, dn)| {
+            levels.iter_mut().zip(raw.plane.samples()).for_each(|(set, dn)| {
                 set.insert(*dn);
             });
         }
-        assert!(seen.iter().all(|set| set.len() <= 2));
-        let jumping = seen.iter().filter(|set| set.len() == 2).count() as f64;
+        assert!(levels.iter().all(|set| set.len() <= 2));
+        let jumping = levels.iter().filter(|set| set.len() == 2).count() as f64;
         // 102 ± 10 pixels; jumps below half a DN are invisible (0.5 %), as is a pixel that never jumps in 40 frames.
         assert!((jumping - 102.0).abs() < 40.0, "{jumping}");
-        assert!(seen.iter().filter(|s| s.len() == 2).all(|s| s.iter().sum::<u32>().abs_diff(2000) <= 1));
+        assert!(levels.iter().filter(|s| s.len() == 2).all(|s| s.iter().sum::<u32>().abs_diff(2000) <= 1));
     }
 }

@@ -22,11 +22,11 @@ fn has(p: SensorParameters, mean_e: f32, mean_dn: f64, variance_dn2: f64) {
 
 /// Checks the fraction of the pixels of a flat frame that have the number.
 #[track_caller]
-fn share_is(p: SensorParameters, mean_e: f32, dn: u32, share: f64) {
+fn check_fraction(p: SensorParameters, mean_e: f32, dn: u32, expected: f64) {
     let raw = expose(p, mean_e, SIZE);
-    let found = raw.plane.samples().iter().filter(|v| **v == dn).count() as f64 / N;
-    let tolerance = 4.0 * (share * (1.0 - share) / N).sqrt();
-    assert!((found - share).abs() <= tolerance, "{found} for {share}");
+    let actual = raw.plane.samples().iter().filter(|v| **v == dn).count() as f64 / N;
+    let tolerance = 4.0 * (expected * (1.0 - expected) / N).sqrt();
+    assert!((actual - expected).abs() <= tolerance, "{actual} for {expected}");
 }
 
 #[test]
@@ -44,9 +44,9 @@ fn a_well_of_an_electron_has_one_or_none() {
     let mut p = one_dn_an_electron();
     p.charge.full_well.capacity_e = 1.0;
     let none = etendue_core::maths::f64::exp(-0.7);
-    share_is(p.clone(), 0.7, 0, none);
-    share_is(p.clone(), 0.7, 1, 1.0 - none);
-    share_is(p, 1e12, 1, 1.0);
+    check_fraction(p.clone(), 0.7, 0, none);
+    check_fraction(p.clone(), 0.7, 1, 1.0 - none);
+    check_fraction(p, 1e12, 1, 1.0);
 }
 
 #[test]
@@ -56,8 +56,8 @@ fn a_million_seconds_are_counted_or_fill_the_well() {
     // 200 dark electrons and 300 of light; Poisson, and 1/12 of rounding.
     has(p.clone(), 300.0, 500.0, 500.0);
     p.charge.dark.current_e_s = 1e9;
-    share_is(p.clone(), 0.0, 10_000_000, 1.0);
-    share_is(p, f32::MAX, 10_000_000, 1.0);
+    check_fraction(p.clone(), 0.0, 10_000_000, 1.0);
+    check_fraction(p, f32::MAX, 10_000_000, 1.0);
 }
 
 #[test]
@@ -75,8 +75,8 @@ fn a_converter_of_one_bit_is_a_threshold() {
     (p.read_out.bits, p.voltage.noise.white_e, p.noise) = (1, 5.0, true);
     p.read_out.gain_dn_e = 0.1;
     // Half a number is 5 e⁻: a standard deviation above black.
-    share_is(p.clone(), 0.0, 1, normal::cdf(-1.0));
-    share_is(p, 1e6, 1, 1.0);
+    check_fraction(p.clone(), 0.0, 1, normal::cdf(-1.0));
+    check_fraction(p, 1e6, 1, 1.0);
 }
 
 #[test]
@@ -84,10 +84,10 @@ fn gains_may_be_tiny_and_huge() {
     let mut p = one_dn_an_electron();
     (p.read_out.bits, p.read_out.gain_dn_e) = (12, 1e9);
     let none = etendue_core::maths::f64::exp(-1.5);
-    share_is(p.clone(), 1.5, 0, none);
-    share_is(p.clone(), 1.5, 4095, 1.0 - none);
+    check_fraction(p.clone(), 1.5, 0, none);
+    check_fraction(p.clone(), 1.5, 4095, 1.0 - none);
     p.read_out.gain_dn_e = 1e-12;
-    share_is(p.clone(), 1e6, 0, 1.0);
+    check_fraction(p.clone(), 1e6, 0, 1.0);
     (p.read_out.gain_dn_e, p.read_out.analogue_gain, p.read_out.digital_gain) = (1e-3, 1e3, 1e6);
-    share_is(p, 1.5, 4095, 1.0 - none);
+    check_fraction(p, 1.5, 4095, 1.0 - none);
 }

@@ -10,11 +10,11 @@ use etendue_core::{Plane, random::Pixel};
 use crate::capture::{CaptureLight, FrameAddress, OperatingPoint, Operation, SensorState};
 use crate::effect::{Context, Memory};
 use crate::signal_breakdown::{ChargeAccount, SignalBreakdown};
-use crate::{effects::shot_noise::ShotNoise, hdr::merge::Merged, raw::Raw, sensor::Sensor};
-use pass::Pass;
+use crate::{effects::shot_noise::ShotNoise, hdr::merge::MergedCaptures, raw::Raw, sensor::Sensor};
+use pass::CapturePass;
 
 /// The result of reading a capture's charge.
-struct Reading {
+struct ReadingResult {
     numbers: Plane<DigitalNumber>,
     /// The digital number of a saturated pixel.
     white_dn: f64,
@@ -24,7 +24,7 @@ struct Reading {
 }
 
 /// The result of all captures of a frame.
-struct Taken {
+struct CaptureResults {
     numbers: Plane<DigitalNumber>,
     signal_breakdown: Option<SignalBreakdown>,
     /// For each capture with its own charge: its index, and the balance of its charge if it overflows.
@@ -93,12 +93,12 @@ impl Sensor {
         let mut memory = Memory { before: state, after };
         let arrays = self.arrays(light);
         let first = p.operation(point);
-        let taken = if p.hdr.captures.is_empty() {
+        let results = if p.hdr.captures.is_empty() {
             self.single(&arrays[0], first, address, &mut memory, with_breakdown)
         } else {
             self.merged(&arrays, first, address, &mut memory, with_breakdown)
         };
-        let (raw, signal_breakdown) = self.raw(taken, &arrays[0], point);
+        let (raw, signal_breakdown) = self.raw(results, &arrays[0], point);
         let mut state = memory.after;
         state.operating_point = p.exposure.control.map(|control| control.next(&raw, point));
         (state, raw, signal_breakdown)
@@ -108,7 +108,7 @@ impl Sensor {
     fn arrays<'a>(&self, light: CaptureLight<'a>) -> Vec<Cow<'a, Plane<MeanElectrons>>> {
         let layout = &self.parameters().read_out.layout;
         let array = |k: usize| {
-            let means = light.of(k);
+            let means = light.capture(k);
             layout.with_optical_black(means).map_or(Cow::Borrowed(means), Cow::Owned)
         };
         (0..=light.further.len()).map(array).collect()
@@ -126,9 +126,9 @@ impl Sensor {
         context: &Context,
         memory: &mut Memory,
         with_breakdown: bool,
-    ) -> Pass<'a, Charge> {
+    ) -> CapturePass<'a, Charge> {
         let p = self.parameters();
-        let mut means = Pass::new(array, context.operation.light, with_breakdown);
+        let mut means = CapturePass::new(array, context.operation.light, with_breakdown);
         means.run(p.light.stages(context, memory), &mut memory.after);
         let mut charge = means.converted(ShotNoise.prepare(context));
         charge.run(p.charge.stages(context, memory), &mut memory.after);
@@ -136,7 +136,7 @@ impl Sensor {
     }
 
     /// The digital numbers of a charge, and their breakdown. `context` has the size of the array.
-    fn reading(&self, mut charge: Pass<'_, Charge>, context: &Context, memory: &mut Memory) -> Reading {
+    fn reading(&self, mut charge: CapturePass<'_, Charge>, context: &Context, memory: &mut Memory) -> ReadingResult {
         let p = self.parameters();
         let mut context = *context;
         if let Some(binning) = p.read_out.layout.charge_binning() {
@@ -147,7 +147,7 @@ impl Sensor {
         voltage.run(p.voltage.stages(&context, memory), &mut memory.after);
         let white_dn = p.capture_white_dn(&context.operation);
         let numbers = voltage.convert(&p.converter(&context.operation), white_dn);
-        Reading { numbers, white_dn, signal_breakdown: voltage.signal_breakdown, account: voltage.account }
+        ReadingResult { numbers, white_dn, signal_breakdown: voltage.signal_breakdown, account: voltage.account }
     }
 
     /// A single capture, from means to digital numbers.
@@ -158,12 +158,12 @@ impl Sensor {
         address: FrameAddress,
         memory: &mut Memory,
         with_breakdown: bool,
-    ) -> Taken {
+    ) -> CaptureResults {
         let context = self.context(array, operation, address);
         let charge = self.charge(array, &context, memory, with_breakdown);
-        let Reading { numbers, signal_breakdown, account, .. } = self.reading(charge, &context, memory);
+        let ReadingResult { numbers, signal_breakdown, account, .. } = self.reading(charge, &context, memory);
         let accounts = account.map(|account| (0, account)).into_iter().collect();
-        Taken { numbers: self.companded(numbers), signal_breakdown, accounts }
+        CaptureResults { numbers: self.companded(numbers), signal_breakdown, accounts }
     }
 
     /// Companding of a single capture.
@@ -182,33 +182,33 @@ impl Sensor {
         address: FrameAddress,
         memory: &mut Memory,
         with_breakdown: bool,
-    ) -> Taken {
+    ) -> CaptureResults {
         let p = self.parameters();
-        let mut merged = Merged::new(p.read_out.black_level_dn);
-        let (mut held, mut accounts): (Option<Pass<'_, Charge>>, _) = (None, Vec::new());
+        let mut merged = MergedCaptures::new(p.read_out.black_level_dn);
+        let (mut held, mut accounts): (Option<CapturePass<'_, Charge>>, _) = (None, Vec::new());
         for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
             let array = &*arrays[if arrays.len() > 1 { k } else { 0 }];
             let address = FrameAddress { capture: address.capture + k as u32, ..address };
             let context = self.context(array, operation, address);
             if k == 0 || !p.hdr.captures[k - 1].dual_conversion_gain {
                 let mut charge = self.charge(array, &context, memory, with_breakdown);
-                charge.settle();
+                charge.apply_deferred();
                 accounts.extend(charge.account.map(|account| (k, account)));
                 held = Some(charge);
             }
             let Some(charge) = &held else { continue };
-            let reading = self.reading(charge.again(), &context, memory);
+            let reading = self.reading(charge.reborrow(), &context, memory);
             let black_dn = p.read_out.black_level_dn;
-            let switch_dn = black_dn + p.hdr.switch() * (reading.white_dn - black_dn);
+            let switch_dn = black_dn + p.hdr.transition_level_or_default() * (reading.white_dn - black_dn);
             let factor = p.hdr.scale(k) * operation.gain_dn_e / first.gain_dn_e;
             let signal_breakdown = reading.signal_breakdown.as_ref().map(|layers| (layers, factor));
             merged.take(&reading.numbers, p.hdr.scale(k), switch_dn, signal_breakdown);
         }
-        Taken { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
+        CaptureResults { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
     }
 
     /// Merged numbers, companded if there is a curve, rounded once.
-    fn rounded(&self, merged: &Merged) -> Plane<DigitalNumber> {
+    fn rounded(&self, merged: &MergedCaptures) -> Plane<DigitalNumber> {
         let hdr = &self.parameters().hdr;
         let largest = f64::from((1_u32 << self.delivered_bits()) - 1);
         let curve = |v: f64| hdr.companding.as_ref().map_or(v, |c| c.companded(v));
@@ -219,21 +219,21 @@ impl Sensor {
     }
 
     /// The raw of the captures: binned numbers, the region that is read, invalid means.
-    fn raw(&self, taken: Taken, array: &Plane<MeanElectrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
+    fn raw(&self, results: CaptureResults, array: &Plane<MeanElectrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;
-        let Taken { mut numbers, mut signal_breakdown, accounts } = taken;
+        let CaptureResults { mut numbers, mut signal_breakdown, accounts } = results;
         if let Some(binning) = layout.number_binning() {
             numbers = binning.averaged(&p.cfa, &numbers);
             signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
         }
         if let Some(skipping) = layout.skipping {
-            numbers = skipping.of(&p.cfa, &numbers);
-            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| skipping.of(&p.cfa, layer)));
+            numbers = skipping.read(&p.cfa, &numbers);
+            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| skipping.read(&p.cfa, layer)));
         }
         if let Some(part) = layout.read_part() {
-            numbers = part.of(&numbers);
-            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| part.of(layer)));
+            numbers = part.crop(&numbers);
+            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| part.crop(layer)));
         }
         let invalid = invalid_pixels(array);
         let places = invalid.iter().filter_map(|i| layout.raw_of_array(&p.cfa, i.x as usize, i.y as usize));
@@ -241,7 +241,7 @@ impl Sensor {
             numbers.set(x, y, 0);
         }
         let raw = Raw {
-            picture: layout.picture_in_raw(numbers.width(), numbers.height()),
+            image: layout.image_in_raw(numbers.width(), numbers.height()),
             plane: numbers,
             black_level_dn: self.black_level_dn(),
             white_level_dn: self.white_level_at(point),

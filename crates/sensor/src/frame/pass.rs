@@ -13,11 +13,11 @@ use rayon::prelude::*;
 
 use crate::effect::{Action, Row, RowConversion, Stage, Traces};
 use crate::signal_breakdown::{ChargeAccount, RowTally, SignalBreakdown, SignalComponent, SignalComponentRow};
-use crate::{capture::SensorState, cfa::Cfa, effects::converter::Converter, layout::Binning};
+use crate::{capture::SensorState, cfa::Cfa, effects::converter::Adc, layout::Binning};
 
 /// A capture in progress: its image and the recorded breakdown.
-pub(super) struct Pass<'a, Q> {
-    source: Source<'a>,
+pub(super) struct CapturePass<'a, Q> {
+    source: ValueSource<'a>,
     /// The signal breakdown, if requested.
     pub(super) signal_breakdown: Option<SignalBreakdown>,
     /// Balance of charge at the full well.
@@ -25,54 +25,54 @@ pub(super) struct Pass<'a, Q> {
     quantity: PhantomData<Q>,
 }
 
-impl<'a> Pass<'a, MeanElectrons> {
+impl<'a> CapturePass<'a, MeanElectrons> {
     /// The means of the described exposure, times `light`.
     pub(super) fn new(means: &'a Plane<MeanElectrons>, light: f64, with_breakdown: bool) -> Self {
         let signal_breakdown = with_breakdown.then(|| SignalBreakdown::new(means.width(), means.height()));
-        let source = Source::of(means, Some(light));
+        let source = ValueSource::from_plane(means, Some(light));
         Self { source, signal_breakdown, account: None, quantity: PhantomData }
     }
 }
 
-impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
+impl<'a, Q: Quantity<Sample = f32>> CapturePass<'a, Q> {
     /// Applies effects, or defers them.
     pub(super) fn run(&mut self, stages: Vec<Stage<Q>>, after: &mut SensorState) {
         for Stage { component, action } in stages {
             match action {
-                Action::Rows(effect) => self.source.waiting.push(Step {
+                Action::Rows(effect) => self.source.waiting.push(DeferredEffect {
                     component,
                     apply: Box::new(move |values, y, tally| effect.apply(&mut Row::new(values, y, tally))),
                 }),
                 Action::Plane(effect) => {
                     let before = self.take_plane();
-                    let kept = self.signal_breakdown.is_some().then(|| before.clone());
+                    let original = self.signal_breakdown.is_some().then(|| before.clone());
                     let plane = effect.apply(before, &mut Traces { after, account: &mut self.account });
-                    if let (Some(signal_breakdown), Some(before)) = (&mut self.signal_breakdown, kept) {
-                        signal_breakdown.note(component, &before, &plane);
+                    if let (Some(signal_breakdown), Some(before)) = (&mut self.signal_breakdown, original) {
+                        signal_breakdown.add_change(component, &before, &plane);
                     }
-                    self.source = Source::owned(plane);
+                    self.source = ValueSource::owned(plane);
                 }
             }
         }
     }
 
     /// The image converted to another quantity; the same values without a conversion.
-    pub(super) fn converted<C>(mut self, conversion: Option<C>) -> Pass<'a, C::To>
+    pub(super) fn converted<C>(mut self, conversion: Option<C>) -> CapturePass<'a, C::To>
     where
         C: RowConversion<From = Q> + 'static,
     {
-        self.source.waiting.extend(conversion.map(|conversion| Step {
+        self.source.waiting.extend(conversion.map(|conversion| DeferredEffect {
             component: C::COMPONENT,
             apply: Box::new(move |values, y, tally| {
                 conversion.convert(Row::new(values, y, tally));
             }),
         }));
         let Self { source, signal_breakdown, account, .. } = self;
-        Pass { source, signal_breakdown, account, quantity: PhantomData }
+        CapturePass { source, signal_breakdown, account, quantity: PhantomData }
     }
 
     /// Applies the deferred effects.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn apply_deferred(&mut self) {
         if self.source.waiting.is_empty() && matches!(self.source.samples, Cow::Owned(_)) {
             return;
         }
@@ -82,23 +82,23 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
         };
         let account = self.source.rows(out.samples_mut(), self.signal_breakdown.as_mut(), store);
         self.account = self.account.or(account);
-        self.source = Source::owned(out);
+        self.source = ValueSource::owned(out);
     }
 
     /// Applies the deferred effects and takes the plane; leaves an empty one in its place.
     fn take_plane(&mut self) -> Plane<Q> {
-        self.settle();
-        let Source { samples, width, height, .. } =
-            std::mem::replace(&mut self.source, Source::owned(Plane::<Q>::new(0, 0)));
+        self.apply_deferred();
+        let ValueSource { samples, width, height, .. } =
+            std::mem::replace(&mut self.source, ValueSource::owned(Plane::<Q>::new(0, 0)));
         Plane::from_samples(width, height, samples.into_owned()).expect("a sample a pixel")
     }
 }
 
-impl Pass<'_, Charge> {
+impl CapturePass<'_, Charge> {
     /// Another reading of this charge, which is complete.
-    pub(super) fn again(&self) -> Pass<'_, Charge> {
-        Pass {
-            source: self.source.again(),
+    pub(super) fn reborrow(&self) -> CapturePass<'_, Charge> {
+        CapturePass {
+            source: self.source.reborrow(),
             signal_breakdown: self.signal_breakdown.clone(),
             account: None,
             quantity: PhantomData,
@@ -108,14 +108,14 @@ impl Pass<'_, Charge> {
     /// Adds the charge of pixels that are read together.
     pub(super) fn bin(&mut self, binning: Binning, cfa: &Cfa) {
         let plane = binning.added(cfa, &self.take_plane());
-        self.source = Source::owned(plane);
+        self.source = ValueSource::owned(plane);
         self.signal_breakdown = self.signal_breakdown.take().map(|all| all.mapped(|layer| binning.added(cfa, layer)));
     }
 }
 
-impl Pass<'_, Voltage> {
+impl CapturePass<'_, Voltage> {
     /// Converts to digital numbers.
-    pub(super) fn convert(&mut self, converter: &Converter, white_dn: f64) -> Plane<DigitalNumber> {
+    pub(super) fn convert(&mut self, converter: &Adc, white_dn: f64) -> Plane<DigitalNumber> {
         let mut numbers = Plane::new(self.source.width, self.source.height);
         let finish = |out: &mut [u32], row: &Row<'_, Voltage>, notes: Option<&mut SignalComponentRow<'_>>| {
             converter.convert(row, out);
@@ -141,24 +141,24 @@ pub(super) fn is_valid(mean: f32) -> bool {
 type RowStep = dyn Fn(&mut [f64], u32, &mut Option<RowTally>) + Send + Sync;
 
 /// A deferred effect on rows, without its quantity in the type: that of its pass applies.
-struct Step {
+struct DeferredEffect {
     component: SignalComponent,
     apply: Box<RowStep>,
 }
 
 /// Stored values, and the deferred effects on rows.
-struct Source<'a> {
+struct ValueSource<'a> {
     /// Unchanged mean electrons, or the pass's own values; row by row.
     samples: Cow<'a, [f32]>,
     width: usize,
     height: usize,
     /// Factor on the means; `None` if the values are those of a pass.
     light: Option<f64>,
-    waiting: Vec<Step>,
+    waiting: Vec<DeferredEffect>,
 }
 
-impl<'a> Source<'a> {
-    fn of<Q: Quantity<Sample = f32>>(plane: &'a Plane<Q>, light: Option<f64>) -> Self {
+impl<'a> ValueSource<'a> {
+    fn from_plane<Q: Quantity<Sample = f32>>(plane: &'a Plane<Q>, light: Option<f64>) -> Self {
         let (width, height) = (plane.width(), plane.height());
         Self { samples: Cow::Borrowed(plane.samples()), width, height, light, waiting: Vec::new() }
     }
@@ -169,9 +169,9 @@ impl<'a> Source<'a> {
     }
 
     /// The same stored values without deferred effects.
-    fn again(&self) -> Source<'_> {
+    fn reborrow(&self) -> ValueSource<'_> {
         debug_assert!(self.waiting.is_empty(), "a charge that is read again is at rest");
-        Source { samples: Cow::Borrowed(&self.samples), waiting: Vec::new(), ..*self }
+        ValueSource { samples: Cow::Borrowed(&self.samples), waiting: Vec::new(), ..*self }
     }
 
     /// Processes all rows in the caller's rayon pool; `finish` stores each as the quantity of the last step. Returns the balance of charge if a full
@@ -187,9 +187,9 @@ impl<'a> Source<'a> {
         }
         let mut tallies = vec![None; self.height];
         let rows = out.par_chunks_mut(self.width).zip(self.samples.par_chunks(self.width));
-        let whole = rows.zip(&mut tallies).enumerate();
+        let indexed = rows.zip(&mut tallies).enumerate();
         match signal_breakdown {
-            None => whole.for_each_init(
+            None => indexed.for_each_init(
                 || vec![0.0; self.width],
                 |values, (y, ((out, source), tally))| {
                     let y = y as u32;
@@ -199,16 +199,16 @@ impl<'a> Source<'a> {
                 },
             ),
             Some(signal_breakdown) => {
-                whole.zip(signal_breakdown.rows().into_par_iter()).for_each(
+                indexed.zip(signal_breakdown.rows().into_par_iter()).for_each(
                     |((y, ((out, source), tally)), mut notes)| {
-                        let mut values = self.noted_row(source, y as u32, &mut notes, tally);
+                        let mut values = self.row_with_breakdown(source, y as u32, &mut notes, tally);
                         finish(out, &Row::new(&mut values, y as u32, tally), Some(&mut notes));
                     },
                 );
             }
         }
         let tallies: Option<Vec<RowTally>> = tallies.into_iter().collect();
-        tallies.map(|rows| ChargeAccount::of_rows(&rows))
+        tallies.map(|rows| ChargeAccount::from_rows(&rows))
     }
 
     /// Loads a row; an invalid mean counts as zero.
@@ -224,7 +224,7 @@ impl<'a> Source<'a> {
     }
 
     /// A row after all steps, with the contribution of each.
-    fn noted_row(
+    fn row_with_breakdown(
         &self,
         source: &[f32],
         y: u32,
@@ -234,12 +234,12 @@ impl<'a> Source<'a> {
         let mut values = vec![0.0; source.len()];
         self.load(&mut values, source);
         if self.light.is_some() {
-            notes.note(SignalComponent::Signal, &vec![0.0; source.len()], &values);
+            notes.add_change(SignalComponent::Signal, &vec![0.0; source.len()], &values);
         }
         for step in &self.waiting {
             let before = values.clone();
             (step.apply)(&mut values, y, tally);
-            notes.note(step.component, &before, &values);
+            notes.add_change(step.component, &before, &values);
         }
         values
     }

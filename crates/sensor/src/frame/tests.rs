@@ -46,16 +46,16 @@ pub(crate) fn expose(p: SensorParameters, mean: f32, size: usize) -> Raw {
 }
 
 pub(crate) fn moments(raw: &Raw) -> Moments {
-    Moments::of(raw.plane.samples().iter().map(|dn| f64::from(*dn) - raw.black_level_dn))
+    Moments::from_values(raw.plane.samples().iter().map(|dn| f64::from(*dn) - raw.black_level_dn))
 }
 
 #[test]
 fn signal_to_noise_is_that_of_emva_1288() {
-    for (mean, want) in [(100.0, 8.897), (1000.0, 31.21), (10_000.0, 99.87)] {
+    for (mean, expected) in [(100.0, 8.897), (1000.0, 31.21), (10_000.0, 99.87)] {
         let m = moments(&expose(ideal(), mean, 512));
         let snr = m.mean() / m.variance().expect("many").sqrt();
         // A standard deviation of 512² numbers is known to 1/√(2n) = 0.14 %; tolerance: four of those.
-        assert!((snr / want - 1.0).abs() < 0.0055, "{mean}: {snr}");
+        assert!((snr / expected - 1.0).abs() < 0.0055, "{mean}: {snr}");
     }
 }
 
@@ -90,7 +90,7 @@ fn dark_current_has_its_own_shot_noise() {
 }
 
 #[test]
-fn without_noise_a_picture_is_its_mean() {
+fn without_noise_an_image_is_its_mean() {
     let mut p = ideal();
     (p.noise, p.charge.dark.current_e_s) = (false, 400.0);
     assert!(expose(p.clone(), 100.0, 8).plane.samples().iter().all(|dn| *dn == 126));
@@ -157,8 +157,8 @@ fn everything() -> SensorParameters {
     let table = vec![[0.0, 1.0], [30.0, 0.8]];
     p.light.angle_response =
         Some(angle_response::AngleResponse { table, exit_pupil_mm: 2.0, principal_px: [30.0, 20.0] });
-    let given = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
-    p.light.crosstalk = Some(neighbours::Crosstalk(given));
+    let crosstalk_to_neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
+    p.light.crosstalk = Some(neighbours::Crosstalk(crosstalk_to_neighbours));
     p.light.photo_response = crate::effects::photo_response::PhotoResponse { white: 0.01, row: 0.002, column: 0.003 };
     p.voltage.offset = crate::effects::offset_pattern::OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
     p.charge.dead_pixels.fraction = 1e-3;
@@ -172,7 +172,7 @@ fn everything() -> SensorParameters {
         },
         hot: Some(dark_current::Hot { fraction: 0.01, mean_e_s: 1e5 }),
         dark_current_rts: Some(two(1e5)),
-        ..dark_current::DarkCurrent::even(2000.0)
+        ..dark_current::DarkCurrent::uniform(2000.0)
     };
     p.light.smear = Some(smear::Smear::Interline { smear_db: -70.0, measured_exposure_ratio: 1.0 });
     p.charge.lag.traps = vec![lag::Trap { fraction: 0.02, time_constant_s: 0.1 }];
@@ -180,7 +180,7 @@ fn everything() -> SensorParameters {
     p.charge.full_well.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
     let knee = crate::effects::response::Knee { at_e: 10_000.0, slope: 0.5 };
     p.read_out.response = crate::effects::response::Response::Knees(vec![knee]);
-    p.voltage.capacitance = Some(neighbours::InterPixelCapacitance(given));
+    p.voltage.capacitance = Some(neighbours::InterPixelCapacitance(crosstalk_to_neighbours));
     (p.voltage.noise.row_e, p.voltage.noise.column_e) = (1.0, 1.0);
     p.voltage.rts_noise = Some(two_level::RtsNoise(two(20.0)));
     p
@@ -198,8 +198,8 @@ fn causes_add_up_to_the_digital_number_and_do_not_change_it() {
     for p in [one_dn_an_electron(), everything()] {
         let sensor = Sensor::new(p).expect("legal");
         let (after, raw) = sensor.step(SensorState::default(), &scene(), ADDRESS);
-        let (state, noted, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &scene(), ADDRESS);
-        assert_eq!((&after, &raw), (&state, &noted));
+        let (state, raw_with_breakdown, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &scene(), ADDRESS);
+        assert_eq!((&after, &raw), (&state, &raw_with_breakdown));
         let read_out = &sensor.parameters().read_out;
         let gain = read_out.gain_dn_e * read_out.digital_gain;
         for (i, dn) in raw.plane.samples().iter().enumerate() {
@@ -207,8 +207,8 @@ fn causes_add_up_to_the_digital_number_and_do_not_change_it() {
             let sum: f64 = parts.clone().map(|c| f64::from(signal_breakdown.layer(c).samples()[i])).sum();
             let largest = parts.map(|c| f64::from(signal_breakdown.layer(c).samples()[i]).abs()).fold(1.0, f64::max);
             // Layers and planes are f32: a few roundings of the largest of them.
-            let want = (f64::from(*dn) - raw.black_level_dn) / gain;
-            assert!((sum - want).abs() < 1e-6 * largest + 1e-3, "{i}: {sum} {want}");
+            let expected = (f64::from(*dn) - raw.black_level_dn) / gain;
+            assert!((sum - expected).abs() < 1e-6 * largest + 1e-3, "{i}: {sum} {expected}");
         }
         let saturated = signal_breakdown.layer(SignalComponent::Saturated).samples();
         let at_white = |dn: &u32| f64::from(*dn) >= raw.white_level_dn.floor();
@@ -242,8 +242,8 @@ fn counts_are_poisson_at_every_mean() {
         raw.plane.samples().iter().for_each(|dn| counts[edges.partition_point(|e| *e <= f64::from(*dn))] += 1);
         let below = |e: f64| if e <= 0.0 { 0.0 } else { special::gamma_q(e, mu) };
         let cumulative: Vec<f64> = edges.iter().map(|e| below(*e)).chain([1.0]).collect();
-        let shares = std::iter::once(cumulative[0]).chain(cumulative.windows(2).map(|w| w[1] - w[0]));
-        let expected: Vec<f64> = shares.map(|share| share * 160_000.0).collect();
+        let fractions = std::iter::once(cumulative[0]).chain(cumulative.windows(2).map(|w| w[1] - w[0]));
+        let expected: Vec<f64> = fractions.map(|fraction| fraction * 160_000.0).collect();
         let test = chi_square::goodness_of_fit(&counts, &expected).expect("bins");
         assert!(test.p > 1e-3, "{mean}: {test:?}");
     }

@@ -10,7 +10,7 @@ use crate::signal_breakdown::SignalBreakdown;
 
 /// Captures merged so far.
 #[derive(Clone, Debug)]
-pub(crate) struct Merged {
+pub(crate) struct MergedCaptures {
     black_level_dn: f64,
     width: usize,
     values: Vec<f32>,
@@ -20,7 +20,7 @@ pub(crate) struct Merged {
     signal_breakdown: Option<SignalBreakdown>,
 }
 
-impl Merged {
+impl MergedCaptures {
     /// No captures yet.
     pub(crate) fn new(black_level_dn: f64) -> Self {
         Self { black_level_dn, width: 0, values: Vec::new(), pending: Vec::new(), signal_breakdown: None }
@@ -118,7 +118,7 @@ pub(crate) mod tests {
         (p.noise, p.voltage.noise.white_e) = (true, 2.0);
         let snr = |mean: f32| {
             let raw = run(&p, &Plane::filled(256, 256, mean), ADDRESS);
-            let m = Moments::of(raw.plane.samples().iter().map(|dn| f64::from(*dn) - 100.0));
+            let m = Moments::from_values(raw.plane.samples().iter().map(|dn| f64::from(*dn) - 100.0));
             m.mean() / m.variance().expect("many").sqrt()
         };
         let (before, after) = (snr(3200.0), snr(4200.0));

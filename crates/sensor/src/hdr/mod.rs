@@ -107,7 +107,7 @@ impl Capture {
 
 impl HighDynamicRange {
     /// The fraction of a capture's range above which the next one is used.
-    pub(crate) fn switch(&self) -> f64 {
+    pub(crate) fn transition_level_or_default(&self) -> f64 {
         self.transition_level.unwrap_or(0.9)
     }
 
@@ -169,7 +169,7 @@ impl Effect for HighDynamicRange {
             "{} captures of scales {}, each used up to {} of its range, merged to {bits} bits",
             scales.len(),
             scales.join(", "),
-            self.switch()
+            self.transition_level_or_default()
         ))
     }
 

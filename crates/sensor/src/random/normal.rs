@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn mean_and_variance() {
         let mut stream = stream(12);
-        let moments = Moments::of((0..1_000_000).map(|_| standard_normal(&mut stream)));
+        let moments = Moments::from_values((0..1_000_000).map(|_| standard_normal(&mut stream)));
         // Standard errors 1e-3 and 1.41e-3; four of each.
         assert!(moments.mean().abs() < 4e-3);
         assert!((moments.variance().expect("many") - 1.0).abs() < 5.7e-3);
@@ -153,10 +153,10 @@ mod tests {
     #[test]
     fn bits_are_pinned() {
         let mut stream = stream(7);
-        let drawn = [0; 4].map(|_: i32| standard_normal(&mut stream).to_bits());
+        let samples = [0; 4].map(|_: i32| standard_normal(&mut stream).to_bits());
         let tails = [1e-3, 1.0 - 1e-9, 1e-14].map(|u| quantile(u).to_bits());
-        let got = [&drawn[..], &tails].concat();
-        assert_eq!(got, PINNED, "changed bits change every noisy picture: is it meant?");
+        let actual = [&samples[..], &tails].concat();
+        assert_eq!(actual, PINNED, "changed bits change every noisy picture: is it meant?");
     }
 
     const PINNED: [u64; 7] = [

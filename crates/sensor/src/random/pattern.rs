@@ -31,13 +31,13 @@ impl Sigmas {
     /// The non-zero parts in words: `pixels by 0.01, rows by 0.002`, each with its unit.
     pub(crate) fn described(self, unit: &str) -> String {
         let parts = [("pixels", self.white), ("rows", self.row), ("columns", self.column)];
-        let stated = parts.into_iter().filter(|(_, sigma)| *sigma > 0.0);
-        stated.map(|(name, sigma)| format!("{name} by {sigma}{unit}")).collect::<Vec<_>>().join(", ")
+        let nonzero = parts.into_iter().filter(|(_, sigma)| *sigma > 0.0);
+        nonzero.map(|(name, sigma)| format!("{name} by {sigma}{unit}")).collect::<Vec<_>>().join(", ")
     }
 }
 
 /// Random numbers of the three parts: of a pixel, of a row (at column 0), of a column (at row 0).
-pub(crate) type Draws = [NoiseDraw; 3];
+pub(crate) type PartPurposes = [NoiseDraw; 3];
 
 /// Deviations of an array, prepared.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +49,8 @@ pub(crate) struct Deviations {
 }
 
 impl Deviations {
-    pub(crate) fn new(sigmas: Sigmas, draws: Draws, key: impl Fn(NoiseDraw) -> NoiseKey, width: usize) -> Self {
-        let [white, row, column] = draws.map(key);
+    pub(crate) fn new(sigmas: Sigmas, purposes: PartPurposes, key: impl Fn(NoiseDraw) -> NoiseKey, width: usize) -> Self {
+        let [white, row, column] = purposes.map(key);
         let part = |sigma: f64, key| (sigma > 0.0).then_some((sigma, key));
         let columns = match part(sigmas.column, column) {
             None => Vec::new(),
@@ -60,7 +60,7 @@ impl Deviations {
     }
 
     /// Calls `take` with the column and deviation of each pixel of row `y`.
-    pub(crate) fn of_row(&self, y: u32, width: usize, mut take: impl FnMut(usize, f64)) {
+    pub(crate) fn for_row(&self, y: u32, width: usize, mut take: impl FnMut(usize, f64)) {
         let row = self.row.map_or(0.0, |(sigma, key)| sigma * normal(key, 0, y));
         for x in 0..width {
             let shared = row + self.columns.get(x).copied().unwrap_or(0.0);
@@ -110,16 +110,16 @@ mod tests {
 
     #[test]
     fn the_three_parts_have_their_own_variance() {
-        let key = |draw| NoiseKey::new(3, 0, 0, 0, draw);
-        let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
+        let key = |purpose| NoiseKey::new(3, 0, 0, 0, purpose);
+        let purposes = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
         let sigmas = Sigmas { white: 3.0, row: 2.0, column: 1.0 };
         let n = 512;
-        let pattern = Deviations::new(sigmas, draws, key, n);
+        let pattern = Deviations::new(sigmas, purposes, key, n);
         let mut d = vec![vec![0.0; n]; n];
-        (0..n).for_each(|y| pattern.of_row(y as u32, n, |x, value| d[y][x] = value));
+        (0..n).for_each(|y| pattern.for_row(y as u32, n, |x, value| d[y][x] = value));
         let row_means: Vec<f64> = d.iter().map(|row| row.iter().sum::<f64>() / n as f64).collect();
         let column_means: Vec<f64> = (0..n).map(|x| d.iter().map(|row| row[x]).sum::<f64>() / n as f64).collect();
-        let variance = |values: &[f64]| Moments::of(values.iter().copied()).variance().expect("many");
+        let variance = |values: &[f64]| Moments::from_values(values.iter().copied()).variance().expect("many");
         // A mean over n pixels keeps σ_w²/n and, common to all, the mean of the other part. A variance of n normal numbers is known to √(2/n) = 6.3
         // %; tolerance: four of those.
         assert!((variance(&row_means) / (4.0 + 9.0 / 512.0) - 1.0).abs() < 0.25);
@@ -127,25 +127,25 @@ mod tests {
         let mean = row_means.iter().sum::<f64>() / n as f64;
         let rest = (0..n * n).map(|i| d[i / n][i % n] - row_means[i / n] - column_means[i % n] + mean);
         // √(2/n²) = 0.28 %.
-        assert!((Moments::of(rest).variance().expect("many") / 9.0 - 1.0).abs() < 0.0112 + 2.0 / 512.0);
+        assert!((Moments::from_values(rest).variance().expect("many") / 9.0 - 1.0).abs() < 0.0112 + 2.0 / 512.0);
     }
 
     #[test]
     fn parts_of_zero_are_zero() {
-        let key = |draw| NoiseKey::new(3, 0, 0, 0, draw);
-        let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
-        let pattern = Deviations::new(Sigmas { column: 1.0, ..Sigmas::default() }, draws, key, 8);
+        let key = |purpose| NoiseKey::new(3, 0, 0, 0, purpose);
+        let purposes = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
+        let pattern = Deviations::new(Sigmas { column: 1.0, ..Sigmas::default() }, purposes, key, 8);
         let mut rows = [[0.0; 8]; 2];
-        (0..2).for_each(|y| pattern.of_row(y, 8, |x, value| rows[y as usize][x] = value));
+        (0..2).for_each(|y| pattern.for_row(y, 8, |x, value| rows[y as usize][x] = value));
         assert_eq!(rows[0], rows[1]);
         assert!(rows[0][0] != rows[0][1]);
     }
 
     fn chosen(fraction: f64, width: usize, rows: u32) -> Vec<(usize, u32)> {
         let key = NoiseKey::new(9, 0, 0, 0, NoiseDraw::Hot);
-        let mut found = Vec::new();
-        (0..rows).for_each(|y| each(key, y, fraction, width, |x, _| found.push((x, y))));
-        found
+        let mut columns = Vec::new();
+        (0..rows).for_each(|y| each(key, y, fraction, width, |x, _| columns.push((x, y))));
+        columns
     }
 
     #[test]

@@ -27,7 +27,7 @@ enum Method {
 }
 
 /// Hörmann's constants hold from this mean up.
-const REJECTION_FROM: f64 = 10.0;
+const MIN_REJECTION_MEAN: f64 = 10.0;
 
 impl Poisson {
     /// The distribution of a mean. `None` if the mean is negative or not finite.
@@ -36,7 +36,7 @@ impl Poisson {
         if !(mean.is_finite() && mean >= 0.0) {
             return None;
         }
-        let method = if mean < REJECTION_FROM {
+        let method = if mean < MIN_REJECTION_MEAN {
             Method::Inversion { probability_of_zero: exp(-mean) }
         } else {
             Self::rejection(mean)
@@ -56,7 +56,7 @@ impl Poisson {
 
     /// Samples the next number of a stream: an integer, exact below 2⁵³.
     #[must_use]
-    pub fn draw(&self, stream: &mut NoiseStream) -> f64 {
+    pub fn sample(&self, stream: &mut NoiseStream) -> f64 {
         match self.method {
             Method::Inversion { probability_of_zero } => invert(self.mean, probability_of_zero, stream.unit_f64()),
             Method::Rejection { a, b, inverse_alpha, squeeze } => loop {
@@ -136,15 +136,15 @@ mod tests {
     use etendue_stats::{Moments, chi_square, special};
     use rand_distr::Distribution;
 
-    const DRAWS: usize = 200_000;
+    const SAMPLES: usize = 200_000;
 
     fn stream(seed: u64) -> NoiseStream {
         NoiseStream::new(seed, 0, 0, 0, Pixel { x: 1, y: 2 }, NoiseDraw::Shot)
     }
 
-    fn draws(mean: f64, seed: u64, count: usize) -> Vec<f64> {
+    fn samples(mean: f64, seed: u64, count: usize) -> Vec<f64> {
         let (poisson, mut stream) = (Poisson::new(mean).expect("a mean"), stream(seed));
-        (0..count).map(|_| poisson.draw(&mut stream)).collect()
+        (0..count).map(|_| poisson.sample(&mut stream)).collect()
     }
 
     /// Edges of up to 80 bins over ±4 standard deviations: a bin holds the integers from its edge to the next.
@@ -177,8 +177,8 @@ mod tests {
         // Each χ² test fails wrongly for one in a thousand seeds; these seeds are fixed.
         for (i, mean) in [0.1, 1.0, 9.9, 10.0, 14.3, 50.0, 1e4, 1e6].into_iter().enumerate() {
             let edges = edges(mean);
-            let counts = counted(&draws(mean, 100 + i as u64, DRAWS), &edges);
-            let test = chi_square::goodness_of_fit(&counts, &expected(mean, &edges, DRAWS)).expect("bins");
+            let counts = counted(&samples(mean, 100 + i as u64, SAMPLES), &edges);
+            let test = chi_square::goodness_of_fit(&counts, &expected(mean, &edges, SAMPLES)).expect("bins");
             assert!(test.p > 1e-3, "mean {mean}: {test:?}");
         }
     }
@@ -187,19 +187,19 @@ mod tests {
     fn a_rounded_normal_number_would_fail_the_same_test() {
         let (mean, mut stream) = (50.0_f64, stream(1));
         let rounded: Vec<f64> =
-            (0..DRAWS).map(|_| (mean + mean.sqrt() * super::super::standard_normal(&mut stream)).round()).collect();
+            (0..SAMPLES).map(|_| (mean + mean.sqrt() * super::super::standard_normal(&mut stream)).round()).collect();
         let edges = edges(mean);
-        let test = chi_square::goodness_of_fit(&counted(&rounded, &edges), &expected(mean, &edges, DRAWS));
+        let test = chi_square::goodness_of_fit(&counted(&rounded, &edges), &expected(mean, &edges, SAMPLES));
         assert!(test.expect("bins").p < 1e-6);
     }
 
     #[test]
-    fn draws_are_those_of_rand_distr() {
+    fn samples_are_those_of_rand_distr() {
         for (i, mean) in [0.5, 7.0, 12.0, 300.0, 1e5, 1e9].into_iter().enumerate() {
             let (oracle, mut other) = (rand_distr::Poisson::new(mean).expect("a mean"), stream(500 + i as u64));
-            let theirs: Vec<f64> = (0..DRAWS).map(|_| oracle.sample(&mut other)).collect();
+            let theirs: Vec<f64> = (0..SAMPLES).map(|_| oracle.sample(&mut other)).collect();
             let edges = edges(mean);
-            let ours = counted(&draws(mean, 600 + i as u64, DRAWS), &edges);
+            let ours = counted(&samples(mean, 600 + i as u64, SAMPLES), &edges);
             let test = chi_square::same_distribution(&ours, &counted(&theirs, &edges)).expect("bins");
             assert!(test.p > 1e-3, "mean {mean}: {test:?}");
         }
@@ -208,8 +208,8 @@ mod tests {
     #[test]
     fn mean_and_variance_hold_at_every_size() {
         for (i, mean) in [1e-6, 0.3, 25.0, 1e9, 1e12, 1e15].into_iter().enumerate() {
-            let moments = Moments::of(draws(mean, 900 + i as u64, DRAWS));
-            let n = DRAWS as f64;
+            let moments = Moments::from_values(samples(mean, 900 + i as u64, SAMPLES));
+            let n = SAMPLES as f64;
             assert!((moments.mean() - mean).abs() < 4.0 * (mean / n).sqrt(), "mean of {mean}");
             // Variance of s²: (μ₄ − σ⁴)/n with μ₄ = 3μ² + μ.
             let error = ((2.0 * mean * mean + mean) / n).sqrt();
@@ -224,15 +224,15 @@ mod tests {
             assert!((ln_probability(k, mean) - direct).abs() < 1e-11, "{k} {mean}");
         }
         // At k = μ = 1e12 the probability is 1/√(2πμ) · (1 − 1/(12 μ)).
-        let want = -0.5 * ln(2.0 * PI * 1e12);
-        assert!((ln_probability(1e12, 1e12) - want).abs() < 1e-13);
+        let expected = -0.5 * ln(2.0 * PI * 1e12);
+        assert!((ln_probability(1e12, 1e12) - expected).abs() < 1e-13);
     }
 
     #[test]
     fn the_extremes() {
-        assert!(draws(0.0, 1, 100).iter().all(|k| *k == 0.0));
-        assert!(draws(1e-30, 1, 100).iter().all(|k| *k == 0.0));
-        assert!(draws(3e38, 1, 100).iter().all(|k| k.is_finite() && *k > 2.9e38));
+        assert!(samples(0.0, 1, 100).iter().all(|k| *k == 0.0));
+        assert!(samples(1e-30, 1, 100).iter().all(|k| *k == 0.0));
+        assert!(samples(3e38, 1, 100).iter().all(|k| k.is_finite() && *k > 2.9e38));
         for mean in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(Poisson::new(mean).is_none());
         }
@@ -242,8 +242,8 @@ mod tests {
 
     #[test]
     fn bits_are_pinned() {
-        let got = [3.5, 9.0, 10.0, 1234.5, 1e9].map(|mean| draws(mean, 7, 3));
-        assert_eq!(got, PINNED, "changed bits change every noisy picture: is it meant?");
+        let actual = [3.5, 9.0, 10.0, 1234.5, 1e9].map(|mean| samples(mean, 7, 3));
+        assert_eq!(actual, PINNED, "changed bits change every noisy picture: is it meant?");
     }
 
     const PINNED: [[f64; 3]; 5] = [

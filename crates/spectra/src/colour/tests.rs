@@ -4,8 +4,8 @@ use crate::{Spectrum, illuminant, observer};
 #[test]
 fn primaries_of_xyz_and_of_rec_709_are_known() {
     let xyz = Primaries { red: [1.0, 0.0], green: [0.0, 1.0], blue: [0.0, 0.0], white: [1.0 / 3.0; 2] };
-    let found = xyz.to_linear_srgb().expect("a space");
-    for (row, expected) in found.iter().zip(&SRGB_FROM_XYZ) {
+    let actual = xyz.to_linear_srgb().expect("a space");
+    for (row, expected) in actual.iter().zip(&SRGB_FROM_XYZ) {
         assert!(row.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{row:?}");
     }
     let same = REC_709.to_linear_srgb().expect("a space");
@@ -18,9 +18,9 @@ fn primaries_of_xyz_and_of_rec_709_are_known() {
 #[test]
 fn white_keeps_its_chromaticity() {
     let aces = Primaries { red: [0.713, 0.293], green: [0.165, 0.83], blue: [0.128, 0.044], white: [0.32168, 0.33767] };
-    let found = times(&aces.to_linear_srgb().expect("a space"), [1.0; 3]);
+    let actual = times(&aces.to_linear_srgb().expect("a space"), [1.0; 3]);
     let expected = linear_srgb_from_xyz([0.32168 / 0.33767, 1.0, (1.0 - 0.32168 - 0.33767) / 0.33767]);
-    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+    assert!(actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{actual:?} {expected:?}");
 }
 
 #[test]
@@ -124,9 +124,9 @@ const PUBLISHED: [Pair; 34] = [
 fn the_published_pairs_have_their_published_differences() {
     for ([l, a, b], [l2, a2, b2], difference) in PUBLISHED {
         let (one, two) = (Lab { l, a, b }, Lab { l: l2, a: a2, b: b2 });
-        for found in [ciede2000(one, two), ciede2000(two, one)] {
+        for actual in [ciede2000(one, two), ciede2000(two, one)] {
             // Printed to four decimals.
-            assert!((found - difference).abs() < 5.1e-5, "{one:?} {two:?}: {found} for {difference}");
+            assert!((actual - difference).abs() < 5.1e-5, "{one:?} {two:?}: {actual} for {difference}");
         }
     }
 }

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use etendue_core::maths;
 
 use super::{
-    BANDS, MEANS, Mix, Row, SHAPES, SkyError, check_albedo, check_elevation, check_turbidity, sky_spectrum,
+    BANDS, MEANS, BandWeights, BandRow, SHAPES, SkyError, check_albedo, check_elevation, check_turbidity, sky_spectrum,
     turbidity_step,
 };
 use crate::Spectrum;
@@ -75,12 +75,12 @@ impl SkyModel {
         check_turbidity(turbidity)?;
         check_albedo(ground_albedo)?;
         check_elevation(sun_elevation_rad)?;
-        let sky = Self::of_day(turbidity, ground_albedo, sun_elevation_rad.max(0.0));
+        let sky = Self::day(turbidity, ground_albedo, sun_elevation_rad.max(0.0));
         Ok(if sun_elevation_rad < 0.0 { sky.dimmed(sun_elevation_rad) } else { sky })
     }
 
-    fn of_day(turbidity: f64, albedo: f64, elevation_rad: f64) -> Self {
-        let corner = Corners::new(turbidity, albedo, elevation_rad);
+    fn day(turbidity: f64, albedo: f64, elevation_rad: f64) -> Self {
+        let corner = CornerWeights::new(turbidity, albedo, elevation_rad);
         let band = |b| SkyBand {
             shape: core::array::from_fn(|k| corner.value(&SHAPES, 9, k, b)),
             scale: corner.value(&MEANS, 1, 0, b),
@@ -108,7 +108,7 @@ impl SkyModel {
 
     /// The mix of bands at a wavelength (nm); the same for all skies.
     #[must_use]
-    pub fn mix(nm: f64) -> Mix {
+    pub fn mix(nm: f64) -> BandWeights {
         super::sky(nm)
     }
 
@@ -156,12 +156,12 @@ fn cos_between(cos_zenith: f64, sun_sin: f64, sun_cos: f64, azimuth: f64) -> f64
 }
 
 /// Weights of the four corners in albedo and turbidity, and of the six control points of an elevation.
-struct Corners {
+struct CornerWeights {
     weights: [(usize, f64); 4],
     points: [f64; 6],
 }
 
-impl Corners {
+impl CornerWeights {
     fn new(turbidity: f64, albedo: f64, elevation_rad: f64) -> Self {
         let (low, t) = turbidity_step(turbidity);
         let weights = [
@@ -174,7 +174,7 @@ impl Corners {
     }
 
     /// Value `k` of `count` per control point, in a band.
-    fn value(&self, table: &[Row], count: usize, k: usize, band: usize) -> f64 {
+    fn value(&self, table: &[BandRow], count: usize, k: usize, band: usize) -> f64 {
         let curve =
             |corner: usize| -> f64 { (0..6).map(|p| self.points[p] * table[(corner * 6 + p) * count + k][band]).sum() };
         self.weights.iter().map(|(corner, weight)| weight * curve(*corner)).sum()
@@ -218,9 +218,9 @@ mod tests {
             let sky = model(turbidity, 0.1, elevation);
             for step in 0..=200 {
                 let (zenith, sun) = (f64::from(step) / 200.0, f64::from(step % 41) / 20.0 - 1.0);
-                for (band, got) in sky.bands().iter().zip(sky.band_radiances(zenith, sun)) {
+                for (band, actual) in sky.bands().iter().zip(sky.band_radiances(zenith, sun)) {
                     let parts = band.scale() * band.gradient(zenith) * (band.glow(sun) + band.rise(zenith));
-                    assert!(got == parts.max(0.0) && got.is_finite());
+                    assert!(actual == parts.max(0.0) && actual.is_finite());
                 }
             }
             assert_eq!(sky.band_radiances(-0.1, 0.3), [0.0; BANDS], "no sky below the horizon");
@@ -241,9 +241,9 @@ mod tests {
             }
         }
         let fine = 2.0 * PI * FRAC_PI_2 * sum / f64::from(rings * sectors);
-        let got = f64::from(sky.horizontal_irradiance().at(560.0));
+        let actual = f64::from(sky.horizontal_irradiance().at(560.0));
         // The glow within some degrees of the Sun is the finest feature of the sky; a cell is 2° to 4°.
-        assert!((got / fine - 1.0).abs() < 2e-3, "{got} against {fine}");
+        assert!((actual / fine - 1.0).abs() < 2e-3, "{actual} against {fine}");
     }
 
     #[test]

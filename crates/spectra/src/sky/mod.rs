@@ -95,12 +95,12 @@ pub enum SkyError {
     },
 }
 
-fn check_turbidity(found: f64) -> Result<(), SkyError> {
-    if TURBIDITIES.contains(&found) { Ok(()) } else { Err(SkyError::Turbidity { found }) }
+fn check_turbidity(turbidity: f64) -> Result<(), SkyError> {
+    if TURBIDITIES.contains(&turbidity) { Ok(()) } else { Err(SkyError::Turbidity { found: turbidity }) }
 }
 
-fn check_albedo(found: f64) -> Result<(), SkyError> {
-    if (0.0..=1.0).contains(&found) { Ok(()) } else { Err(SkyError::Albedo { found }) }
+fn check_albedo(albedo: f64) -> Result<(), SkyError> {
+    if (0.0..=1.0).contains(&albedo) { Ok(()) } else { Err(SkyError::Albedo { found: albedo }) }
 }
 
 fn check_elevation(rad: f64) -> Result<(), SkyError> {
@@ -115,22 +115,22 @@ fn turbidity_step(turbidity: f64) -> (usize, f64) {
 }
 
 /// One row of a table: a value per band.
-type Row = [f64; BANDS];
+type BandRow = [f64; BANDS];
 
-fn rows(text: &str) -> Vec<Row> {
+fn rows(text: &str) -> Vec<BandRow> {
     let rows = table::rows::<BANDS>(text).expect("a table of the crate has a number for each band");
     rows.into_iter().map(|(_, row)| row).collect()
 }
 
 /// Coefficients of the sky's shape: albedo {0, 1} × turbidity {1 … 10} × 6 control points × 9 (fastest).
-static SHAPES: LazyLock<Vec<Row>> =
+static SHAPES: LazyLock<Vec<BandRow>> =
     LazyLock::new(|| rows(include_str!("../../data/hosek_wilkie/sky_coefficients.csv")));
 
 /// Mean radiances of the sky: albedo {0, 1} × turbidity {1 … 10} × 6 control points (fastest), W·m⁻²·sr⁻¹·nm⁻¹.
-static MEANS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(include_str!("../../data/hosek_wilkie/sky_radiance.csv")));
+static MEANS: LazyLock<Vec<BandRow>> = LazyLock::new(|| rows(include_str!("../../data/hosek_wilkie/sky_radiance.csv")));
 
 /// The Sun's radiance: turbidity {1 … 10} × 45 pieces × 4 coefficients, highest power first (fastest).
-static SUN: LazyLock<Vec<Row>> = LazyLock::new(|| rows(include_str!("../../data/hosek_wilkie/sun_radiance.csv")));
+static SUN: LazyLock<Vec<BandRow>> = LazyLock::new(|| rows(include_str!("../../data/hosek_wilkie/sun_radiance.csv")));
 
 /// Limb darkening: for each band the coefficients of powers 0 to 5.
 static LIMB: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
@@ -163,8 +163,8 @@ pub fn illuminance(elevation_deg: f64) -> f64 {
 
 /// Scale factor of a sky that gives `horizon_lx` with the Sun at the horizon.
 fn factor(horizon_lx: f64, elevation_deg: f64) -> f64 {
-    let kept = (1.0 - elevation_deg / PUBLISHED_DEG).max(0.0);
-    let ratio = maths::f64::pow(horizon_lx / illuminance(0.0), kept);
+    let fraction = (1.0 - elevation_deg / PUBLISHED_DEG).max(0.0);
+    let ratio = maths::f64::pow(horizon_lx / illuminance(0.0), fraction);
     illuminance(elevation_deg) * ratio / horizon_lx
 }
 
@@ -173,61 +173,61 @@ const GAS_NM: [(f64, f64); 2] = [(686.0, 695.0), (714.0, 735.0)];
 
 /// Weights of two neighbouring bands for the radiance at a wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mix {
+pub struct BandWeights {
     /// The lower band.
     pub band: usize,
     /// Weights of that band and the next.
     pub weights: [f64; 2],
 }
 
-impl Mix {
+impl BandWeights {
     /// The mix of one value per band.
     #[must_use]
-    pub fn of(&self, values: &[f64; BANDS]) -> f64 {
+    pub fn apply(&self, values: &[f64; BANDS]) -> f64 {
         self.weights[0] * values[self.band] + self.weights[1] * values[self.band + 1]
     }
 }
 
 /// The mix of bands at a wavelength (nm, 300 to 1 100) of the sky's light.
 #[must_use]
-pub fn sky(nm: f64) -> Mix {
+pub fn sky(nm: f64) -> BandWeights {
     mix(nm, &SKY)
 }
 
 /// The mix of bands at a wavelength (nm, 300 to 1 100) of the Sun's light.
 #[must_use]
-pub fn sun(nm: f64) -> Mix {
+pub fn sun(nm: f64) -> BandWeights {
     mix(nm, &CONTINUATION_SUN)
 }
 
 /// The sky's spectrum from one value per band.
 #[must_use]
 pub fn sky_spectrum(values: &[f64; BANDS]) -> Spectrum {
-    Spectrum::from_fn(|nm| sky(nm).of(values))
+    Spectrum::from_fn(|nm| sky(nm).apply(values))
 }
 
 /// The Sun's spectrum from one value per band.
 #[must_use]
 pub fn sun_spectrum(values: &[f64; BANDS]) -> Spectrum {
-    Spectrum::from_fn(|nm| sun(nm).of(values))
+    Spectrum::from_fn(|nm| sun(nm).apply(values))
 }
 
 /// The shape beyond both ends, relative to the band there.
-struct Shape {
+struct ContinuationShape {
     below: Spectrum,
     above: Spectrum,
 }
 
-static CONTINUATION_SUN: LazyLock<Shape> = LazyLock::new(|| shape(&illuminant::solar().direct));
+static CONTINUATION_SUN: LazyLock<ContinuationShape> = LazyLock::new(|| shape(&illuminant::solar().direct));
 
-static SKY: LazyLock<Shape> = LazyLock::new(|| {
+static SKY: LazyLock<ContinuationShape> = LazyLock::new(|| {
     let solar = illuminant::solar();
     shape(&Spectrum::from_fn(|nm| f64::from(solar.global_tilt.at(nm as f32) - solar.direct.at(nm as f32))))
 });
 
-fn shape(light: &Spectrum) -> Shape {
+fn shape(light: &Spectrum) -> ContinuationShape {
     let relative = |centre_nm, half_nm| light.scaled(1.0 / mean_under_hat(light, centre_nm, half_nm));
-    Shape { below: relative(FIRST_NM, FIRST_NM - 300.0), above: relative(LAST_NM, STEP_NM) }
+    ContinuationShape { below: relative(FIRST_NM, FIRST_NM - 300.0), above: relative(LAST_NM, STEP_NM) }
 }
 
 /// The mean about a wavelength with triangular weights, excluding the gas bands.
@@ -242,15 +242,15 @@ fn mean_under_hat(light: &Spectrum, centre_nm: f64, half_nm: f64) -> f64 {
     sum / total
 }
 
-fn mix(nm: f64, shape: &Shape) -> Mix {
+fn mix(nm: f64, shape: &ContinuationShape) -> BandWeights {
     if nm < FIRST_NM {
-        return Mix { band: 0, weights: [f64::from(shape.below.at(nm as f32)), 0.0] };
+        return BandWeights { band: 0, weights: [f64::from(shape.below.at(nm as f32)), 0.0] };
     }
     if nm > LAST_NM {
-        return Mix { band: BANDS - 2, weights: [0.0, f64::from(shape.above.at(nm as f32))] };
+        return BandWeights { band: BANDS - 2, weights: [0.0, f64::from(shape.above.at(nm as f32))] };
     }
     let (band, t) = band_below(nm);
-    Mix { band, weights: [1.0 - t, t] }
+    BandWeights { band, weights: [1.0 - t, t] }
 }
 
 /// The band at or below a wavelength, never the last, and the fraction towards the next, in [0, 1].
@@ -265,7 +265,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn out_of_range_is_told() {
+    fn out_of_range_is_reported() {
         let error = |t: f64, a: f64, e: f64| SkyModel::new(t, a, e).expect_err("out of range").to_string();
         assert!(error(0.5, 0.2, 1.0).starts_with("turbidity 0.5 is outside 1 to 10"));
         assert!(error(f64::NAN, 0.2, 1.0).starts_with("turbidity NaN"));
@@ -305,11 +305,11 @@ mod tests {
     }
 
     #[test]
-    fn bands_are_met_exactly_and_lines_lie_between() {
+    fn bands_are_exact_and_lines_lie_between() {
         for mix in [sky, sun] {
-            assert_eq!(mix(320.0), Mix { band: 0, weights: [1.0, 0.0] });
-            assert_eq!(mix(410.0), Mix { band: 2, weights: [0.75, 0.25] });
-            assert_eq!(mix(720.0), Mix { band: 9, weights: [0.0, 1.0] });
+            assert_eq!(mix(320.0), BandWeights { band: 0, weights: [1.0, 0.0] });
+            assert_eq!(mix(410.0), BandWeights { band: 2, weights: [0.75, 0.25] });
+            assert_eq!(mix(720.0), BandWeights { band: 9, weights: [0.0, 1.0] });
         }
     }
 
@@ -334,13 +334,13 @@ mod tests {
         let solar = illuminant::solar();
         let sky_shape = |nm: f32| solar.global_tilt.at(nm) - solar.direct.at(nm);
         for (a, b, pick) in [(302.0f32, 315.5f32, 0), (760.0, 1050.0, 1), (730.0, 1100.0, 1)] {
-            let ratio = |mix: fn(f64) -> Mix| mix(f64::from(a)).weights[pick] / mix(f64::from(b)).weights[pick];
+            let ratio = |mix: fn(f64) -> BandWeights| mix(f64::from(a)).weights[pick] / mix(f64::from(b)).weights[pick];
             // Values and their difference are stored in single precision.
             assert!((ratio(sun) * f64::from(solar.direct.at(b) / solar.direct.at(a)) - 1.0).abs() < 1e-5);
             assert!((ratio(sky) * f64::from(sky_shape(b) / sky_shape(a)) - 1.0).abs() < 1e-4);
         }
         for nm in 300..=1100 {
-            let positive = |mix: Mix| mix.weights.iter().all(|w| (0.0..2.0).contains(w));
+            let positive = |mix: BandWeights| mix.weights.iter().all(|w| (0.0..2.0).contains(w));
             assert!(positive(sky(f64::from(nm))) && positive(sun(f64::from(nm))), "{nm} nm");
         }
     }

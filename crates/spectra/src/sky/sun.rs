@@ -110,13 +110,13 @@ mod tests {
 
     #[test]
     fn a_turbidity_and_elevation_of_the_table_give_the_tables_cubic() {
-        let got = band_radiances(3.0, FRAC_PI_2).expect("in range");
+        let actual = band_radiances(3.0, FRAC_PI_2).expect("in range");
         let low = 44.0 / 45.0;
         let x = FRAC_PI_2 * (1.0 - low * low * low);
-        for (band, got) in got.iter().enumerate() {
+        for (band, actual) in actual.iter().enumerate() {
             let [a, b, c, d] = core::array::from_fn(|k| SUN[(2 * PIECES + 44) * 4 + k][band]);
             let by_hand = a * x * x * x + b * x * x + c * x + d;
-            assert!((got / by_hand - 1.0).abs() < 1e-12);
+            assert!((actual / by_hand - 1.0).abs() < 1e-12);
         }
     }
 
@@ -167,9 +167,9 @@ mod tests {
     /// the disc.
     #[test]
     fn the_sun_is_near_the_standards() {
-        let got = normal_irradiance(2.0, 41.8f64.to_radians()).expect("in range").integral(360.0, 1100.0);
+        let actual = normal_irradiance(2.0, 41.8f64.to_radians()).expect("in range").integral(360.0, 1100.0);
         let standard = crate::illuminant::solar().direct.integral(360.0, 1100.0);
-        assert!((0.8..1.0).contains(&(got / standard)), "{got} W/m² against {standard}");
+        assert!((0.8..1.0).contains(&(actual / standard)), "{actual} W/m² against {standard}");
     }
 
     #[test]

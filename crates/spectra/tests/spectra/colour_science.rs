@@ -27,20 +27,20 @@ fn list(value: &Value) -> &[Value] {
 }
 
 #[track_caller]
-fn close(got: [f64; 3], expected: [f64; 3], tolerance: f64, what: &str) {
-    let worst = (0..3).map(|c| (got[c] - expected[c]).abs()).fold(0.0, f64::max);
-    assert!(worst <= tolerance, "{what}: {got:?} against {expected:?}");
+fn close(actual: [f64; 3], expected: [f64; 3], tolerance: f64, what: &str) {
+    let worst = (0..3).map(|c| (actual[c] - expected[c]).abs()).fold(0.0, f64::max);
+    assert!(worst <= tolerance, "{what}: {actual:?} against {expected:?}");
 }
 
 #[test]
 fn white_points_of_illuminants() {
     let figures = figures();
-    let found = figures["illuminants"].as_object().expect("an object");
-    assert_eq!(found.len(), 8);
-    for (name, xyz) in found {
-        let light = illuminant::named(name).expect("a known illuminant");
-        let got = observer::xyz_of_reflectance(&Spectrum::constant(1.0), light);
-        close(got, triple(xyz), 2.0 * SINGLE, name);
+    let illuminants = figures["illuminants"].as_object().expect("an object");
+    assert_eq!(illuminants.len(), 8);
+    for (name, xyz) in illuminants {
+        let light = illuminant::by_name(name).expect("a known illuminant");
+        let actual = observer::xyz_of_reflectance(&Spectrum::constant(1.0), light);
+        close(actual, triple(xyz), 2.0 * SINGLE, name);
     }
 }
 

@@ -34,10 +34,10 @@ fn the_sky_is_that_of_the_oracle() {
         let bands = sky.band_radiances(cos(z), cos_sun);
         let scale = expected.iter().fold(0.0, |top: f64, v| top.max(*v));
         for (nm, expected) in nm.iter().zip(&expected) {
-            let got = SkyModel::mix(*nm).of(&bands);
+            let actual = SkyModel::mix(*nm).apply(&bands);
             // The oracle's single precision: 6e-8, times up to 5e2 where its exponentials and their sums nearly cancel.
             // Where the fit is negative both are zero.
-            assert!((got - expected).abs() < 3e-5 * scale, "{value:?} at {nm} nm: {got}");
+            assert!((actual - expected).abs() < 3e-5 * scale, "{value:?} at {nm} nm: {actual}");
         }
     }
 }
@@ -53,10 +53,10 @@ fn the_sun_is_that_of_the_oracle() {
         let bands = sun::band_radiances(turbidity, elevation.to_radians()).expect("in range");
         let scale = expected.iter().fold(0.0, |top: f64, v| top.max(*v));
         for (nm, expected) in nm.iter().zip(&expected) {
-            let got = sky::sun(*nm).of(&bands) * sun::limb_darkening(*nm, mu);
+            let actual = sky::sun(*nm).apply(&bands) * sun::limb_darkening(*nm, mu);
             // At the limb the reference computes µ from sines of 0.005, to 1e-3 in single precision.
             let tolerance = if mu == 1.0 { 2e-5 } else { 2e-3 };
-            assert!((got - expected).abs() <= tolerance * scale, "{value:?} at {nm} nm: {got}");
+            assert!((actual - expected).abs() <= tolerance * scale, "{value:?} at {nm} nm: {actual}");
         }
     }
 }

@@ -5,9 +5,9 @@ use glam::Vec3;
 
 use super::build::over_triangles;
 use super::collapse::{WideTree, collapse};
-use super::lanes::{Job, Lanes, Visit};
+use super::lanes::{LaneTask, Lanes, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, Half, Names, Packet, RayLanes};
+use super::packet::{BestHit, HalfPacket, PrimitiveNames, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
@@ -20,7 +20,7 @@ const LEAF_SIZE: usize = 8;
 pub(crate) struct Blas {
     nodes: Vec<Node>,
     /// The leaves' triangles; a leaf's index is twice that of its first half, plus one if it has two halves.
-    halves: Vec<Half>,
+    halves: Vec<HalfPacket>,
     root: Option<Child>,
 }
 
@@ -40,7 +40,7 @@ impl Blas {
             if halves.capacity() < first + 2 {
                 halves.reserve_exact(count / 16 + 2);
             }
-            halves.extend(Half::of(leaf, &corners));
+            halves.extend(HalfPacket::from_primitives(leaf, &corners));
             2 * first + halves.len() - first - 1
         });
         halves.shrink_to_fit();
@@ -64,7 +64,7 @@ impl Blas {
         &self,
         l: L,
         ray: &LocalRay,
-        names: Names<'_>,
+        names: PrimitiveNames<'_>,
         best: &mut BestHit,
         limit: &mut f32,
     ) {
@@ -82,12 +82,12 @@ impl Blas {
 struct ClosestQuery<'a> {
     tree: &'a Blas,
     ray: &'a LocalRay,
-    names: Names<'a>,
+    names: PrimitiveNames<'a>,
     best: &'a mut BestHit,
     limit: &'a mut f32,
 }
 
-impl Job for ClosestQuery<'_> {
+impl LaneTask for ClosestQuery<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -105,7 +105,7 @@ struct OcclusionQuery<'a> {
     t_max: f32,
 }
 
-impl Job for OcclusionQuery<'_> {
+impl LaneTask for OcclusionQuery<'_> {
     type Output = bool;
 
     #[inline(always)]
@@ -128,18 +128,18 @@ struct ClosestLeaf<'a, L: Lanes> {
     l: L,
     tree: &'a Blas,
     ray: &'a LocalRay,
-    names: Names<'a>,
+    names: PrimitiveNames<'a>,
     best: &'a mut BestHit,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Leaf);
+        self.l.record_visit(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
-        if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &spread, self.ray, *limit) {
+        if let Some(meeting) = self.tree.packet(leaf).intersect(self.l, &spread, self.ray, *limit) {
             for hit in meeting {
-                self.best.offer(self.names, hit, limit);
+                self.best.accept(self.names, hit, limit);
             }
         }
         false
@@ -155,8 +155,8 @@ struct AnyLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Leaf);
+        self.l.record_visit(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
-        self.tree.packet(leaf).blocks(self.l, &spread, self.ray, *limit)
+        self.tree.packet(leaf).occludes(self.l, &spread, self.ray, *limit)
     }
 }

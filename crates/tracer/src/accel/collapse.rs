@@ -28,7 +28,7 @@ pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMu
         return WideTree { nodes: Vec::new(), root: None };
     }
     let plans = plan(binary, leaf_size as u32);
-    let mut writer = Writer {
+    let mut writer = WideTreeWriter {
         binary,
         plans: &plans,
         nodes: Vec::with_capacity(binary.len() / 56 + 1),
@@ -43,11 +43,11 @@ pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMu
 
 /// The best use of one to seven slots by a binary node, and of the eight of its own wide node, in 32 bits.
 #[derive(Clone, Copy, Debug)]
-struct Plan(u32);
+struct SlotPlan(u32);
 
 /// Use of one or more slots.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Slots {
+enum SlotUse {
     /// One slot, a leaf.
     Leaf,
     /// One slot, a wide node.
@@ -58,25 +58,25 @@ enum Slots {
     Fewer,
 }
 
-impl Plan {
+impl SlotPlan {
     /// A leaf, for any number of slots.
     const LEAF: Self = Self(1);
 
     /// A leaf or a wide node in one slot; in two to eight slots the number for the first child, 0 if it is cheaper to leave one empty.
     #[inline(always)]
     fn new(is_leaf: bool, first: [u8; 7]) -> Self {
-        let word = first.iter().rev().fold(0, |word, share| word << 3 | u32::from(*share));
+        let word = first.iter().rev().fold(0, |word, slots| word << 3 | u32::from(*slots));
         Self(word << 1 | u32::from(is_leaf))
     }
 
     #[inline(always)]
-    fn of(self, slots: u8) -> Slots {
+    fn slots(self, slots: u8) -> SlotUse {
         match (slots, self.0 & 1 == 1) {
-            (1, true) => Slots::Leaf,
-            (1, false) => Slots::Wide,
+            (1, true) => SlotUse::Leaf,
+            (1, false) => SlotUse::Wide,
             _ => match self.first(slots) {
-                0 => Slots::Fewer,
-                first => Slots::Split(first),
+                0 => SlotUse::Fewer,
+                first => SlotUse::Split(first),
             },
         }
     }
@@ -90,7 +90,7 @@ impl Plan {
 
 /// Cost of a binary node.
 #[derive(Clone, Copy, Debug)]
-struct Cost {
+struct NodeCost {
     /// By number of slots, minus one.
     slots: [f32; 7],
     /// Primitives below, capped.
@@ -99,9 +99,9 @@ struct Cost {
 
 /// Plans of a tree, from its last nodes to the first. The subtrees of a pair of children follow it, that of the first before that of the
 /// second: so the costs that are still needed form a stack.
-fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<Plan> {
-    let mut plans = vec![Plan::LEAF; binary.len()];
-    let mut pending: Vec<[Cost; 2]> = Vec::with_capacity(128);
+fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<SlotPlan> {
+    let mut plans = vec![SlotPlan::LEAF; binary.len()];
+    let mut pending: Vec<[NodeCost; 2]> = Vec::with_capacity(128);
     for first in (1..binary.len()).step_by(2).rev() {
         let children = [first, first + 1].map(|node| {
             let (plan, cost) = plan_node(&binary[node], leaf_size, &mut pending);
@@ -115,34 +115,34 @@ fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<Plan> {
 }
 
 #[inline(always)]
-fn plan_node(node: &BinaryNode, leaf_size: u32, pending: &mut Vec<[Cost; 2]>) -> (Plan, Cost) {
+fn plan_node(node: &BinaryNode, leaf_size: u32, pending: &mut Vec<[NodeCost; 2]>) -> (SlotPlan, NodeCost) {
     let area = node.bounds.half_area();
     match node.kind() {
-        BinaryKind::Leaf(_) => (Plan::LEAF, Cost { slots: [area * LEAF_COST; 7], primitives: 1 }),
+        BinaryKind::Leaf(_) => (SlotPlan::LEAF, NodeCost { slots: [area * LEAF_COST; 7], primitives: 1 }),
         BinaryKind::Inner(_) => plan_inner(area, &pending.pop().expect("children are planned first"), leaf_size),
     }
 }
 
-fn plan_inner(area: f32, children: &[Cost; 2], leaf_size: u32) -> (Plan, Cost) {
+fn plan_inner(area: f32, children: &[NodeCost; 2], leaf_size: u32) -> (SlotPlan, NodeCost) {
     let primitives = children[0].primitives.saturating_add(children[1].primitives);
     let (below, as_wide) = best_split(children, 8);
     let wide = area + below;
     let leaf = if primitives <= leaf_size { area * LEAF_COST } else { f32::INFINITY };
-    let mut cost = Cost { slots: [wide.min(leaf); 7], primitives };
+    let mut cost = NodeCost { slots: [wide.min(leaf); 7], primitives };
     let mut first = [0; 7];
     first[6] = as_wide;
     for slots in 2..=7 {
-        let (split, share) = best_split(children, slots);
+        let (split, first_slots) = best_split(children, slots);
         let fewer = cost.slots[slots - 2];
         cost.slots[slots - 1] = split.min(fewer);
-        first[slots - 2] = if split < fewer { share } else { 0 };
+        first[slots - 2] = if split < fewer { first_slots } else { 0 };
     }
-    (Plan::new(leaf <= wide, first), cost)
+    (SlotPlan::new(leaf <= wide, first), cost)
 }
 
 /// The minimum cost of two children that share `slots`, and the number for the first.
 #[inline(always)]
-fn best_split(children: &[Cost; 2], slots: usize) -> (f32, u8) {
+fn best_split(children: &[NodeCost; 2], slots: usize) -> (f32, u8) {
     let mut best = (f32::INFINITY, 1);
     for first in 1..slots {
         let cost = children[0].slots[first - 1] + children[1].slots[slots - first - 1];
@@ -161,21 +161,21 @@ struct Subtree {
     end: u32,
 }
 
-struct Writer<'a, F> {
+struct WideTreeWriter<'a, F> {
     binary: &'a [BinaryNode],
-    plans: &'a [Plan],
+    plans: &'a [SlotPlan],
     nodes: Vec<Node>,
     place: F,
     /// Primitives of the current leaf.
     primitives: Vec<u32>,
 }
 
-impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
+impl<F: FnMut(&[u32]) -> usize> WideTreeWriter<'_, F> {
     /// Writes the tree, parents before children and related nodes close together; returns its root.
     fn write(&mut self) -> Child {
-        let whole = Subtree { root: 0, end: self.binary.len() as u32 };
-        let root = self.child(whole.root);
-        let mut pending: Vec<_> = root.as_node().map(|node| (whole, node)).into_iter().collect();
+        let all_nodes = Subtree { root: 0, end: self.binary.len() as u32 };
+        let root = self.child(all_nodes.root);
+        let mut pending: Vec<_> = root.as_node().map(|node| (all_nodes, node)).into_iter().collect();
         let mut slots = Vec::with_capacity(8);
         while let Some((subtree, node)) = pending.pop() {
             slots.clear();
@@ -193,7 +193,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
 
     /// Reserves a place for a binary node that takes one slot.
     fn child(&mut self, binary: u32) -> Child {
-        if self.plans[binary as usize].of(1) == Slots::Leaf {
+        if self.plans[binary as usize].slots(1) == SlotUse::Leaf {
             self.gather(binary);
             Child::leaf((self.place)(&self.primitives))
         } else {
@@ -224,23 +224,23 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
 
     fn spread_wide(&self, subtree: Subtree, out: &mut Vec<Subtree>) {
         if let BinaryKind::Inner(first) = self.binary[subtree.root as usize].kind() {
-            let share = self.plans[subtree.root as usize].first(8);
+            let first_slots = self.plans[subtree.root as usize].first(8);
             let [a, b] = self.halves(first, subtree.end);
-            self.spread(a, share, out);
-            self.spread(b, 8 - share, out);
+            self.spread(a, first_slots, out);
+            self.spread(b, 8 - first_slots, out);
         }
     }
 
     /// The contents of the slots of a subtree. At most seven calls deep.
     fn spread(&self, subtree: Subtree, slots: u8, out: &mut Vec<Subtree>) {
         let root = subtree.root as usize;
-        match (self.plans[root].of(slots), self.binary[root].kind()) {
+        match (self.plans[root].slots(slots), self.binary[root].kind()) {
             (_, BinaryKind::Leaf(_)) => out.push(subtree),
-            (Slots::Fewer, _) => self.spread(subtree, slots - 1, out),
-            (Slots::Split(share), BinaryKind::Inner(first)) => {
+            (SlotUse::Fewer, _) => self.spread(subtree, slots - 1, out),
+            (SlotUse::Split(first_slots), BinaryKind::Inner(first)) => {
                 let [a, b] = self.halves(first, subtree.end);
-                self.spread(a, share, out);
-                self.spread(b, slots - share, out);
+                self.spread(a, first_slots, out);
+                self.spread(b, slots - first_slots, out);
             }
             _ => out.push(subtree),
         }

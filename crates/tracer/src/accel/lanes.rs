@@ -7,22 +7,22 @@
 /// Eight f32, aligned for one load.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(crate) struct Eight(pub(crate) [f32; 8]);
+pub(crate) struct F32x8(pub(crate) [f32; 8]);
 
 /// Four f32, aligned for one load.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
-pub(crate) struct Four(pub(crate) [f32; 4]);
+pub(crate) struct F32x4(pub(crate) [f32; 4]);
 
 /// Index of one of six times eight numbers, as a byte offset.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OfSix(usize);
+pub(crate) struct PlaneOffset(usize);
 
-impl OfSix {
+impl PlaneOffset {
     /// Index of a number below six.
     #[inline(always)]
     pub(crate) fn new(index: usize) -> Self {
-        Self(index.min(5) * size_of::<Eight>())
+        Self(index.min(5) * size_of::<F32x8>())
     }
 
     /// Byte offset from the first of the six: less than six times the size of [`Eight`], and a multiple of it.
@@ -40,11 +40,11 @@ pub(crate) trait Lanes: Copy {
     type M: Copy;
 
     /// Loads eight numbers of six times as many.
-    fn load_of(self, six: &[Eight; 6], at: OfSix) -> Self::V;
+    fn load_of(self, six: &[F32x8; 6], at: PlaneOffset) -> Self::V;
     /// Loads four numbers from one place and four from another.
-    fn load_halves(self, low: &Four, high: &Four) -> Self::V;
+    fn load_halves(self, low: &F32x4, high: &F32x4) -> Self::V;
     /// Stores eight numbers to memory.
-    fn store(self, v: Self::V) -> Eight;
+    fn store(self, v: Self::V) -> F32x8;
     /// The same number eight times.
     fn splat(self, x: f32) -> Self::V;
     /// a + b
@@ -75,9 +75,9 @@ pub(crate) trait Lanes: Copy {
     fn bits(self, m: Self::M) -> u32;
     /// Called at every visit of a traversal; only counting lanes use it.
     #[inline(always)]
-    fn note(self, _visit: Visit) {}
+    fn record_visit(self, _visit: Visit) {}
     /// Runs a task, compiled for these lanes.
-    fn run<J: Job>(self, job: J) -> J::Output;
+    fn run<J: LaneTask>(self, job: J) -> J::Output;
 }
 
 /// A visit of a ray.
@@ -92,7 +92,7 @@ pub(crate) enum Visit {
 }
 
 /// A task that can be compiled for any lanes.
-pub(crate) trait Job {
+pub(crate) trait LaneTask {
     type Output;
     /// Runs the task. Mark it `#[inline(always)]`, so that it is compiled with the lanes' instructions.
     fn work<L: Lanes>(self, lanes: L) -> Self::Output;
@@ -103,68 +103,68 @@ pub(crate) trait Job {
 pub(crate) struct Plain;
 
 #[inline(always)]
-fn zip(a: Eight, b: Eight, f: impl Fn(f32, f32) -> f32) -> Eight {
-    Eight(core::array::from_fn(|i| f(a.0[i], b.0[i])))
+fn zip(a: F32x8, b: F32x8, f: impl Fn(f32, f32) -> f32) -> F32x8 {
+    F32x8(core::array::from_fn(|i| f(a.0[i], b.0[i])))
 }
 
 impl Lanes for Plain {
-    type V = Eight;
+    type V = F32x8;
     type M = [bool; 8];
 
     #[inline(always)]
-    fn load_of(self, six: &[Eight; 6], at: OfSix) -> Eight {
-        six[at.bytes() / size_of::<Eight>()]
+    fn load_of(self, six: &[F32x8; 6], at: PlaneOffset) -> F32x8 {
+        six[at.bytes() / size_of::<F32x8>()]
     }
     #[inline(always)]
-    fn load_halves(self, low: &Four, high: &Four) -> Eight {
-        Eight(core::array::from_fn(|i| if i < 4 { low.0[i] } else { high.0[i - 4] }))
+    fn load_halves(self, low: &F32x4, high: &F32x4) -> F32x8 {
+        F32x8(core::array::from_fn(|i| if i < 4 { low.0[i] } else { high.0[i - 4] }))
     }
     #[inline(always)]
-    fn store(self, v: Eight) -> Eight {
+    fn store(self, v: F32x8) -> F32x8 {
         v
     }
     #[inline(always)]
-    fn splat(self, x: f32) -> Eight {
-        Eight([x; 8])
+    fn splat(self, x: f32) -> F32x8 {
+        F32x8([x; 8])
     }
     #[inline(always)]
-    fn add(self, a: Eight, b: Eight) -> Eight {
+    fn add(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| a + b)
     }
     #[inline(always)]
-    fn sub(self, a: Eight, b: Eight) -> Eight {
+    fn sub(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| a - b)
     }
     #[inline(always)]
-    fn mul(self, a: Eight, b: Eight) -> Eight {
+    fn mul(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| a * b)
     }
     #[inline(always)]
-    fn mul_sub(self, a: Eight, b: Eight, c: Eight) -> Eight {
+    fn mul_sub(self, a: F32x8, b: F32x8, c: F32x8) -> F32x8 {
         self.sub(self.mul(a, b), c)
     }
     #[inline(always)]
-    fn div(self, a: Eight, b: Eight) -> Eight {
+    fn div(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| a / b)
     }
     #[inline(always)]
-    fn min(self, a: Eight, b: Eight) -> Eight {
+    fn min(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| if a < b { a } else { b })
     }
     #[inline(always)]
-    fn max(self, a: Eight, b: Eight) -> Eight {
+    fn max(self, a: F32x8, b: F32x8) -> F32x8 {
         zip(a, b, |a, b| if a > b { a } else { b })
     }
     #[inline(always)]
-    fn abs(self, a: Eight) -> Eight {
-        Eight(a.0.map(f32::abs))
+    fn abs(self, a: F32x8) -> F32x8 {
+        F32x8(a.0.map(f32::abs))
     }
     #[inline(always)]
-    fn le(self, a: Eight, b: Eight) -> [bool; 8] {
+    fn le(self, a: F32x8, b: F32x8) -> [bool; 8] {
         core::array::from_fn(|i| a.0[i] <= b.0[i])
     }
     #[inline(always)]
-    fn lt(self, a: Eight, b: Eight) -> [bool; 8] {
+    fn lt(self, a: F32x8, b: F32x8) -> [bool; 8] {
         core::array::from_fn(|i| a.0[i] < b.0[i])
     }
     #[inline(always)]
@@ -180,7 +180,7 @@ impl Lanes for Plain {
         m.iter().enumerate().fold(0, |bits, (i, set)| bits | u32::from(*set) << i)
     }
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    fn run<J: LaneTask>(self, job: J) -> J::Output {
         job.work(self)
     }
 }

@@ -11,19 +11,19 @@
 use etendue_core::{PrimitiveId, TimeInterval};
 use glam::{DVec3, Vec3};
 
-use super::{blas::Blas, boxes::Box3, packet::Names, ray::NONE_LEFT, world::World};
+use super::{blas::Blas, boxes::Box3, packet::PrimitiveNames, ray::NO_PRIMITIVE, world::World};
 use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
 
 /// Maximum number of merged triangles: 32 MB of trees, and less than half a second of one thread to build them for a view.
-const MOST: usize = 1 << 19;
+const MAX_MERGED_TRIANGLES: usize = 1 << 19;
 /// Maximum number of triangles of an instance: rays that enter a larger one stay in it for long.
-const MOST_OF_ONE: usize = 1 << 16;
+const MAX_INSTANCE_TRIANGLES: usize = 1 << 16;
 /// Minimum height of a triangle, in roundings of its corners: the plane then tilts by a sixteenth at most.
-const STEEP: f64 = 32.0;
+const MIN_HEIGHT_ROUNDINGS: f64 = 32.0;
 /// Minimum height of a triangle, m: products of three lengths stay well within f32.
-const LEAST_HEIGHT_M: f64 = 1e-9;
+const MIN_HEIGHT_M: f64 = 1e-9;
 /// Maximum coordinate of an instance, m: rays that leave it are pushed off it by a tenth of a millimetre at most.
-const FARTHEST_M: f32 = 1000.0;
+const MAX_INSTANCE_COORDINATE_M: f32 = 1000.0;
 /// Half a unit in the last place of f32, of a coordinate.
 const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
 
@@ -43,15 +43,15 @@ impl MergedMesh {
     /// Merges instances of `world` as they are `placed`, and marks these as merged; `None` if there are none to merge.
     pub(super) fn new(world: &World, placed: &mut [Placement], interval: TimeInterval) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());
-        let mut first = vec![NONE_LEFT; placed.len()];
-        for instance in few(world, placed, interval) {
+        let mut first = vec![NO_PRIMITIVE; placed.len()];
+        for instance in mergeable_instances(world, placed, interval) {
             let Some(pose) = pose(world, instance, interval) else { continue };
             let Some(transform) = placed[instance].still_mut() else { continue };
             let begin = corners.len();
-            if let Some(greatest) = write_out(&pose, transform, &mut corners) {
+            if let Some(maximum) = append_corners(&pose, transform, &mut corners) {
                 names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
                 first[instance] = begin as u32;
-                transform.merge(greatest.as_dvec3());
+                transform.merge(maximum.as_dvec3());
             } else {
                 corners.truncate(begin);
             }
@@ -64,30 +64,30 @@ impl MergedMesh {
     /// The number in the tree of a triangle that a ray leaves; [`NONE_LEFT`] if it is not in it.
     #[inline(always)]
     pub(super) fn number(&self, left: Option<PrimitiveId>) -> u32 {
-        let first = |left: PrimitiveId| self.first.get(left.instance as usize).filter(|first| **first != NONE_LEFT);
-        left.and_then(|left| first(left)?.checked_add(left.primitive)).unwrap_or(NONE_LEFT)
+        let first = |left: PrimitiveId| self.first.get(left.instance as usize).filter(|first| **first != NO_PRIMITIVE);
+        left.and_then(|left| first(left)?.checked_add(left.primitive)).unwrap_or(NO_PRIMITIVE)
     }
 
     #[inline(always)]
-    pub(super) fn names(&self) -> Names<'_> {
-        Names::Merged(&self.names)
+    pub(super) fn names(&self) -> PrimitiveNames<'_> {
+        PrimitiveNames::Merged(&self.names)
     }
 }
 
 /// Static instances of meshes with [`MOST`] triangles together at most, those of few triangles chosen first, in ascending order; none if
 /// there is only one.
-fn few(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize> {
+fn mergeable_instances(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize> {
     let triangles = |instance: &usize| match world.instances()[*instance].shape {
         Shape::Mesh(id) => world.mesh(id).triangles().len(),
         Shape::Sphere { .. } => 0,
     };
-    let is_still = |i: &usize| placed[*i].still().is_some() && pose(world, *i, interval).is_some();
+    let is_still = |i: &usize| placed[*i].static_transform().is_some() && pose(world, *i, interval).is_some();
     let mut instances: Vec<usize> = (0..placed.len()).filter(|i| triangles(i) > 0 && is_still(i)).collect();
     instances.sort_by_key(triangles);
     let mut sum = 0;
     instances.retain(|instance| {
         sum += triangles(instance);
-        sum <= MOST && triangles(instance) <= MOST_OF_ONE
+        sum <= MAX_MERGED_TRIANGLES && triangles(instance) <= MAX_INSTANCE_TRIANGLES
     });
     if instances.len() < 2 {
         return Vec::new();
@@ -99,30 +99,30 @@ fn few(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize
 /// The mesh of an instance if it is constant during an interval; `None` if its vertices move, and for spheres.
 fn pose(world: &World, instance: usize, interval: TimeInterval) -> Option<MeshPose<'_>> {
     let Shape::Mesh(id) = world.instances()[instance].shape else { return None };
-    world.mesh(id).still_over(interval)
+    world.mesh(id).static_over(interval)
 }
 
 /// Adds the corners of an instance's triangles in the render frame. Returns their maximum coordinates by axis, m, or `None` if some are too
 /// far or some triangles too low.
-fn write_out(mesh: &MeshPose<'_>, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
-    let mut greatest = Vec3::ZERO;
+fn append_corners(mesh: &MeshPose<'_>, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
+    let mut maximum = Vec3::ZERO;
     for primitive in 0..mesh.mesh().triangles().len() as u32 {
         let exact = mesh.corners(primitive).map(|corner| placed.point_to_render(corner.as_dvec3()));
         let rounded = exact.map(DVec3::as_vec3);
-        greatest = rounded.iter().fold(greatest, |most, corner| most.max(corner.abs()));
-        if greatest.max_element() > FARTHEST_M || !is_steep(exact) {
+        maximum = rounded.iter().fold(maximum, |largest, corner| largest.max(corner.abs()));
+        if maximum.max_element() > MAX_INSTANCE_COORDINATE_M || !has_stable_plane(exact) {
             return None;
         }
         corners.push(rounded);
     }
-    Some(greatest)
+    Some(maximum)
 }
 
 /// True if the minimum height of a triangle is large compared with the rounding of its corners.
-fn is_steep([a, b, c]: [DVec3; 3]) -> bool {
+fn has_stable_plane([a, b, c]: [DVec3; 3]) -> bool {
     let edges = [b - a, c - b, a - c];
     let longest = edges.iter().map(|edge| edge.length_squared()).fold(0.0, f64::max).sqrt();
     let height = edges[0].cross(edges[1]).length() / longest;
     let rounding = a.abs().max(b.abs()).max(c.abs()).length() * HALF_ULP;
-    height > (STEEP * rounding).max(LEAST_HEIGHT_M)
+    height > (MIN_HEIGHT_ROUNDINGS * rounding).max(MIN_HEIGHT_M)
 }

@@ -1,6 +1,6 @@
 //! Eight-wide nodes.
 
-use super::{boxes::Box3, lanes::Eight};
+use super::{boxes::Box3, lanes::F32x8};
 
 /// Content of a node's slot: a node or a leaf, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,14 +45,14 @@ impl Child {
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// For each axis, the boxes' minimum coordinates, then their maximum.
-    pub(super) planes: [Eight; 6],
+    pub(super) planes: [F32x8; 6],
     pub(super) children: [Child; 8],
 }
 
 impl Node {
     /// A node without children.
     pub(super) const EMPTY: Self = {
-        let [low, high] = [Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])];
+        let [low, high] = [F32x8([f32::INFINITY; 8]), F32x8([f32::NEG_INFINITY; 8])];
         Self { planes: [low, high, low, high, low, high], children: [Child(LEAF); 8] }
     };
 

@@ -10,26 +10,26 @@
 
 use glam::{DVec3, Vec3};
 
-use super::lanes::{Eight, Four, Lanes};
+use super::lanes::{F32x8, F32x4, Lanes};
 use super::ray::LocalRay;
 use crate::geometry::Hit;
 
 /// Triangles per half.
-const HALF: usize = 4;
+const HALF_SIZE: usize = 4;
 
 /// Half of a packet: four triangles, corner by corner and axis by axis. Lanes without a triangle hold NaN, which no ray hits.
 #[derive(Clone, Debug)]
 #[repr(C, align(32))]
-pub(super) struct Half {
-    corners: [[Four; 3]; 3],
-    primitives: [u32; HALF],
+pub(super) struct HalfPacket {
+    corners: [[F32x4; 3]; 3],
+    primitives: [u32; HALF_SIZE],
 }
 
 /// Up to eight triangles: one half or two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet<'a> {
     /// The same half twice if there is only one.
-    halves: [&'a Half; 2],
+    halves: [&'a HalfPacket; 2],
     /// The lanes in use.
     lanes: u32,
 }
@@ -37,9 +37,9 @@ pub(super) struct Packet<'a> {
 /// Hits of a ray with the triangles of a packet, for the lanes it hits. Iterates over them.
 pub(super) struct LaneHits<'a> {
     lanes: u32,
-    t: Eight,
-    u: Eight,
-    v: Eight,
+    t: F32x8,
+    u: F32x8,
+    v: F32x8,
     packet: Packet<'a>,
 }
 
@@ -96,35 +96,35 @@ impl<L: Lanes> RayLanes<L> {
 
 /// A corner of each triangle, relative to the origin and sheared, or another triple of that kind.
 #[derive(Clone, Copy)]
-struct Triple<V> {
+struct VectorLanes<V> {
     x: V,
     y: V,
     z: V,
 }
 
 /// Result of the f32 test for a packet's triangles.
-struct Test<L: Lanes> {
+struct TriangleTest<L: Lanes> {
     /// Lanes hit with 0 < t ≤ limit.
     hit: u32,
     /// Lanes that f32 cannot decide.
     doubtful: u32,
-    edges: Triple<L::V>,
+    edges: VectorLanes<L::V>,
     sum: L::V,
     t: L::V,
 }
 
-impl Half {
+impl HalfPacket {
     /// Maximum number of triangles that it holds.
-    pub(super) const SIZE: usize = HALF;
+    pub(super) const SIZE: usize = HALF_SIZE;
 
     /// Halves, one or two, of at most eight triangles by their numbers.
-    pub(super) fn of(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> impl Iterator<Item = Self> {
-        primitives.chunks(HALF).map(move |chunk| Self::new(chunk, &corners))
+    pub(super) fn from_primitives(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> impl Iterator<Item = Self> {
+        primitives.chunks(HALF_SIZE).map(move |chunk| Self::new(chunk, &corners))
     }
 
     /// The half of at most [`Half::SIZE`] triangles by their numbers.
     pub(super) fn new(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
-        let mut half = Self { corners: [[Four([f32::NAN; HALF]); 3]; 3], primitives: [u32::MAX; HALF] };
+        let mut half = Self { corners: [[F32x4([f32::NAN; HALF_SIZE]); 3]; 3], primitives: [u32::MAX; HALF_SIZE] };
         for (lane, primitive) in primitives.iter().enumerate() {
             half.primitives[lane] = *primitive;
             for (corner, position) in corners(*primitive).iter().enumerate() {
@@ -140,53 +140,53 @@ impl Half {
 impl<'a> Packet<'a> {
     /// The packet of one half or two.
     #[inline(always)]
-    pub(super) fn new(halves: &'a [Half], first: usize, second: usize) -> Self {
+    pub(super) fn new(halves: &'a [HalfPacket], first: usize, second: usize) -> Self {
         let lanes = if first == second { 0x0f } else { 0xff };
         Self { halves: [&halves[first], &halves[second]], lanes }
     }
 
     #[inline(always)]
     fn primitive(&self, lane: usize) -> u32 {
-        self.halves[(lane / HALF) & 1].primitives[lane % HALF]
+        self.halves[(lane / HALF_SIZE) & 1].primitives[lane % HALF_SIZE]
     }
 
     /// Hits of the ray with triangles at 0 < t ≤ `limit`.
     #[inline(always)]
-    pub(super) fn meet<L: Lanes>(
+    pub(super) fn intersect<L: Lanes>(
         &self,
         l: L,
         spread: &RayLanes<L>,
         ray: &LocalRay,
         limit: f32,
     ) -> Option<LaneHits<'a>> {
-        let Test { hit, doubtful, edges, sum, t } = self.test(l, spread, ray, limit)?;
+        let TriangleTest { hit, doubtful, edges, sum, t } = self.test(l, spread, ray, limit)?;
         let (u, v) = (l.div(edges.y, sum), l.div(edges.z, sum));
         let mut meeting =
             LaneHits { lanes: hit & !doubtful, t: l.store(t), u: l.store(u), v: l.store(v), packet: *self };
         if doubtful != 0 {
-            self.settle(ray, limit, doubtful, &mut meeting);
+            self.resolve_in_f64(ray, limit, doubtful, &mut meeting);
         }
         Some(meeting)
     }
 
     /// True if the ray hits a triangle with 0 < t < `limit`.
     #[inline(always)]
-    pub(super) fn blocks<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> bool {
-        let Some(met) = self.test(l, spread, ray, limit) else { return false };
-        let certain = met.hit & !met.doubtful & l.bits(l.lt(met.t, l.splat(limit)));
-        certain != 0 || met.doubtful != 0 && self.any_settled(ray, limit, met.doubtful)
+    pub(super) fn occludes<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> bool {
+        let Some(test) = self.test(l, spread, ray, limit) else { return false };
+        let certain = test.hit & !test.doubtful & l.bits(l.lt(test.t, l.splat(limit)));
+        certain != 0 || test.doubtful != 0 && self.any_resolved(ray, limit, test.doubtful)
     }
 
     /// Result of the f32 test for a packet; `None` if no triangle is hit or may be.
     #[inline(always)]
-    fn test<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Test<L>> {
+    fn test<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<TriangleTest<L>> {
         let zero = l.splat(0.0);
         let corners = [self.corner(l, spread, 0), self.corner(l, spread, 1), self.corner(l, spread, 2)];
         let [a, b, c] = corners;
-        let edges = Triple { x: edge(l, b, c), y: edge(l, c, a), z: edge(l, a, b) };
-        let least = l.min(l.min(edges.x, edges.y), edges.z);
-        let most = l.max(l.max(edges.x, edges.y), edges.z);
-        let inside = l.or(l.le(zero, least), l.le(most, zero));
+        let edges = VectorLanes { x: edge(l, b, c), y: edge(l, c, a), z: edge(l, a, b) };
+        let minimum = l.min(l.min(edges.x, edges.y), edges.z);
+        let maximum = l.max(l.max(edges.x, edges.y), edges.z);
+        let inside = l.or(l.le(zero, minimum), l.le(maximum, zero));
         let mut candidates = self.lanes & l.bits(inside);
         if candidates == 0 {
             return None;
@@ -209,7 +209,7 @@ impl<'a> Packet<'a> {
         if candidates & astride != 0 {
             doubtful |= candidates & astride & l.bits(uncertain_depth(l, corners, depth));
         }
-        (hit | doubtful != 0).then_some(Test { hit, doubtful, edges, sum, t })
+        (hit | doubtful != 0).then_some(TriangleTest { hit, doubtful, edges, sum, t })
     }
 
     /// Those of `lanes` that the ray leaves, or whose planes are, in f64, not in front of the ray's origin.
@@ -234,10 +234,10 @@ impl<'a> Packet<'a> {
     }
 
     #[inline(always)]
-    fn corner<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize) -> Triple<L::V> {
+    fn corner<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize) -> VectorLanes<L::V> {
         let [x, y, z] =
             [self.relative(l, ray, corner, 0), self.relative(l, ray, corner, 1), self.relative(l, ray, corner, 2)];
-        Triple { x: l.sub(x, l.mul(ray.shear[0], z)), y: l.sub(y, l.mul(ray.shear[1], z)), z }
+        VectorLanes { x: l.sub(x, l.mul(ray.shear[0], z)), y: l.sub(y, l.mul(ray.shear[1], z)), z }
     }
 
     #[inline(always)]
@@ -249,7 +249,7 @@ impl<'a> Packet<'a> {
     /// Decides doubtful lanes in f64.
     #[cold]
     #[inline(never)]
-    fn settle(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut LaneHits<'_>) {
+    fn resolve_in_f64(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut LaneHits<'_>) {
         for lane in (0..8).filter(|lane| doubtful >> lane & 1 == 1) {
             if let Some((t, u, v)) = exact(self.triangle(lane), ray, limit) {
                 meeting.lanes |= 1 << lane;
@@ -261,27 +261,27 @@ impl<'a> Packet<'a> {
     /// True if one of the doubtful lanes is hit before `limit`, decided in f64.
     #[cold]
     #[inline(never)]
-    fn any_settled(&self, ray: &LocalRay, limit: f32, doubtful: u32) -> bool {
+    fn any_resolved(&self, ray: &LocalRay, limit: f32, doubtful: u32) -> bool {
         let lanes = (0..8).filter(|lane| doubtful >> lane & 1 == 1);
         lanes.filter_map(|lane| exact(self.triangle(lane), ray, limit)).any(|(t, ..)| t < limit)
     }
 
     #[inline(always)]
     fn triangle(&self, lane: usize) -> [Vec3; 3] {
-        let half = self.halves[(lane / HALF) & 1];
-        core::array::from_fn(|corner| Vec3::from_array(half.corners[corner].map(|axis| axis.0[lane % HALF])))
+        let half = self.halves[(lane / HALF_SIZE) & 1];
+        core::array::from_fn(|corner| Vec3::from_array(half.corners[corner].map(|axis| axis.0[lane % HALF_SIZE])))
     }
 }
 
 /// p × q of two sheared corners. Exchanging them only changes the sign.
 #[inline(always)]
-fn edge<L: Lanes>(l: L, p: Triple<L::V>, q: Triple<L::V>) -> L::V {
+fn edge<L: Lanes>(l: L, p: VectorLanes<L::V>, q: VectorLanes<L::V>) -> L::V {
     l.sub(l.mul(p.x, q.y), l.mul(p.y, q.x))
 }
 
 /// Lanes whose corners' depths are not of one sign.
 #[inline(always)]
-fn astride<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3]) -> L::M {
+fn astride<L: Lanes>(l: L, [a, b, c]: [VectorLanes<L::V>; 3]) -> L::M {
     let zero = l.splat(0.0);
     let low = l.min(l.min(a.z, b.z), c.z);
     let high = l.max(l.max(a.z, b.z), c.z);
@@ -293,9 +293,9 @@ fn astride<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3]) -> L::M {
 /// 5e(x + z)y + 5e(y + z)x) and is at most 2xy, the sum of the three products by 3z·(error of an edge function + 4e·2xy): less than
 /// e·z·(96·xy + 30·z(x + y)).
 #[inline(always)]
-fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3], depth: L::V) -> L::M {
+fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [VectorLanes<L::V>; 3], depth: L::V) -> L::M {
     const E: f32 = f32::EPSILON / 2.0;
-    let [x, y, z] = [greatest(l, a.x, b.x, c.x), greatest(l, a.y, b.y, c.y), greatest(l, a.z, b.z, c.z)];
+    let [x, y, z] = [max_magnitude(l, a.x, b.x, c.x), max_magnitude(l, a.y, b.y, c.y), max_magnitude(l, a.z, b.z, c.z)];
     let square = l.mul(l.splat(100.0 * E), l.mul(x, y));
     let cross = l.mul(l.splat(32.0 * E), l.mul(z, l.add(x, y)));
     l.le(l.abs(depth), l.mul(z, l.add(square, cross)))
@@ -303,7 +303,7 @@ fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3], depth: L::V) ->
 
 /// The maximum magnitude.
 #[inline(always)]
-fn greatest<L: Lanes>(l: L, p: L::V, q: L::V, r: L::V) -> L::V {
+fn max_magnitude<L: Lanes>(l: L, p: L::V, q: L::V, r: L::V) -> L::V {
     l.max(l.max(l.abs(p), l.abs(q)), l.abs(r))
 }
 
@@ -346,17 +346,17 @@ fn height_and_slope([a, b, c]: [DVec3; 3], ray: &LocalRay) -> (f64, f64) {
 
 /// Owner of the primitives of a tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Names<'a> {
+pub(super) enum PrimitiveNames<'a> {
     /// Those of one instance.
     Instance(u32),
     /// Those of several: instance and primitive by their number in the tree, in ascending order.
     Merged(&'a [(u32, u32)]),
 }
 
-impl Names<'_> {
+impl PrimitiveNames<'_> {
     /// Instance and primitive.
     #[inline(always)]
-    fn of(self, primitive: u32) -> (u32, u32) {
+    fn instance_and_primitive(self, primitive: u32) -> (u32, u32) {
         match self {
             Self::Instance(instance) => (instance, primitive),
             Self::Merged(names) => names[primitive as usize],
@@ -373,8 +373,8 @@ pub(super) struct BestHit {
 impl BestHit {
     /// Accepts a hit that is nearer than `limit`, or as near as the best and of lesser identity; lowers the limit.
     #[inline(always)]
-    pub(super) fn offer(&mut self, names: Names<'_>, hit: PrimitiveHit, limit: &mut f32) {
-        let (instance, primitive) = names.of(hit.primitive);
+    pub(super) fn accept(&mut self, names: PrimitiveNames<'_>, hit: PrimitiveHit, limit: &mut f32) {
+        let (instance, primitive) = names.instance_and_primitive(hit.primitive);
         let wins_tie = |best: &Hit| (instance, primitive) < (best.instance, best.primitive);
         let nearer = hit.t < *limit || hit.t == *limit && self.hit.as_ref().is_some_and(wins_tie);
         if hit.t > 0.0 && nearer {

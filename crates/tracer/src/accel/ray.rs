@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::lanes::{Eight, Lanes, OfSix};
+use super::lanes::{F32x8, Lanes, PlaneOffset};
 use super::node::Node;
 
 /// Minimum magnitude of a component of a direction; smaller ones are raised to it. Its reciprocal stays finite, and the ray deviates by
@@ -32,8 +32,8 @@ impl SlabRay {
     /// From an origin and the reciprocals of a direction's components; those of zeros, of either sign, become finite.
     #[inline(always)]
     pub(super) fn with_inverse(origin: Vec3, inverse: Vec3) -> Self {
-        const MOST: f32 = 1.0 / MIN_COMPONENT;
-        let inverse = inverse.to_array().map(|i| i.clamp(-MOST, MOST));
+        const MAX_INVERSE: f32 = 1.0 / MIN_COMPONENT;
+        let inverse = inverse.to_array().map(|i| i.clamp(-MAX_INVERSE, MAX_INVERSE));
         Self { origin: origin.to_array(), inverse, is_backward: inverse.map(|i| i < 0.0) }
     }
 }
@@ -48,8 +48,8 @@ pub(super) struct SlabLanes<L: Lanes> {
     entry_inverse: [L::V; 3],
     entry_start: [L::V; 3],
     /// The planes of a node that the ray hits first and last, by axis.
-    first: [OfSix; 3],
-    last: [OfSix; 3],
+    first: [PlaneOffset; 3],
+    last: [PlaneOffset; 3],
 }
 
 impl<L: Lanes> SlabLanes<L> {
@@ -69,7 +69,7 @@ impl<L: Lanes> SlabLanes<L> {
 
     /// The boxes of a node that the ray enters at or before `limits` or a little after, and the entries.
     #[inline(always)]
-    pub(super) fn enter(&self, l: L, node: &Node, limits: L::V) -> (u32, Eight) {
+    pub(super) fn enter(&self, l: L, node: &Node, limits: L::V) -> (u32, F32x8) {
         let [nx, ny, nz] = [self.entry(l, node, 0), self.entry(l, node, 1), self.entry(l, node, 2)];
         let [fx, fy, fz] = [self.exit(l, node, 0), self.exit(l, node, 1), self.exit(l, node, 2)];
         let near = l.max(l.max(nx, ny), l.max(nz, l.splat(0.0)));
@@ -92,9 +92,9 @@ impl<L: Lanes> SlabLanes<L> {
 
 /// The planes that the ray hits first, or last.
 #[inline(always)]
-fn planes(ray: &SlabRay, is_last: bool) -> [OfSix; 3] {
+fn planes(ray: &SlabRay, is_last: bool) -> [PlaneOffset; 3] {
     let [x, y, z] = ray.is_backward.map(|is_backward| usize::from(is_backward != is_last));
-    [OfSix::new(x), OfSix::new(2 + y), OfSix::new(4 + z)]
+    [PlaneOffset::new(x), PlaneOffset::new(2 + y), PlaneOffset::new(4 + z)]
 }
 
 /// Each of three numbers in all lanes.
@@ -130,7 +130,7 @@ pub(crate) struct LocalRay {
 }
 
 /// No triangle's number.
-pub(super) const NONE_LEFT: u32 = u32::MAX;
+pub(super) const NO_PRIMITIVE: u32 = u32::MAX;
 
 impl LocalRay {
     #[inline(always)]
@@ -147,13 +147,13 @@ impl LocalRay {
             start: [o[first], o[first + 1], o[first + 2]],
             shear: [d[first] / along, d[first + 1] / along],
             scale: 1.0 / along,
-            left: NONE_LEFT,
+            left: NO_PRIMITIVE,
         }
     }
 
     /// Sets the triangle that the ray leaves, by its number in the tree, or [`NONE_LEFT`].
     #[inline(always)]
-    pub(super) fn leaving(self, left: u32) -> Self {
+    pub(super) fn excluding(self, left: u32) -> Self {
         Self { left, ..self }
     }
 

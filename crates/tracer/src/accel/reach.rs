@@ -19,7 +19,7 @@ use super::world::{World, WorldError};
 use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
 
 /// R, in units of the mesh's frame; m for spheres.
-const FARTHEST: f64 = 1e12;
+const MAX_DISTANCE: f64 = 1e12;
 
 impl World {
     /// Checks that rays that start near `origin_m` (world, m) or on any surface can be tested against every mesh at any time of an
@@ -31,7 +31,7 @@ impl World {
     /// miss it.
     pub fn check_reach(&self, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
         let rotation = DMat3::IDENTITY;
-        check(self, &CameraPath::still(CameraPose { position_m: origin_m, rotation }), interval)
+        check(self, &CameraPath::constant(CameraPose { position_m: origin_m, rotation }), interval)
     }
 
     /// As [`World::check_reach`], for rays that start near a camera anywhere on its path during the interval. For a moving camera, rounding
@@ -45,7 +45,7 @@ impl World {
 }
 
 /// Times of an interval at which the conditions without a bound are checked for moving objects.
-const MOMENTS: u32 = 16;
+const TIME_STEPS: u32 = 16;
 
 /// Checks that every mesh can be hit from the camera, anywhere on its path, and from every surface.
 fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(), WorldError> {
@@ -61,11 +61,11 @@ fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(
     for (instance, placed) in placed.iter().enumerate() {
         match instances[instance].shape {
             Shape::Mesh(id) => {
-                let reach = placed.greatest_local(low, high);
-                if !(0.0..=FARTHEST).contains(&reach) {
+                let reach = placed.max_local_coordinate(low, high);
+                if !(0.0..=MAX_DISTANCE).contains(&reach) {
                     return Err(WorldError::Reach { instance, reach });
                 }
-                let still = placed.still().is_some() && camera.is_still();
+                let still = placed.static_transform().is_some() && camera.is_stationary();
                 for time_s in &moments[..if still { 1 } else { moments.len() }] {
                     let from = camera.at(*time_s).position_m - origin_m;
                     check_rounding(instance, &placed.at_moment(*time_s), world.mesh(id), from)?;
@@ -79,8 +79,8 @@ fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(
 
 /// Equidistant times of an interval, including both its ends.
 fn moments(interval: TimeInterval) -> Vec<f64> {
-    let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
-    (0..=MOMENTS).map(|i| interval.start_s() + interval.length_s() * part(i)).collect()
+    let part = |i: u32| f64::from(i) / f64::from(TIME_STEPS);
+    (0..=TIME_STEPS).map(|i| interval.start_s() + interval.length_s() * part(i)).collect()
 }
 
 /// Checks that the camera's position in the frame of a mesh stays in front of the box that holds the mesh when it is rounded to f32. The
@@ -104,5 +104,5 @@ fn check_sphere(index: usize, placed: &Placement, instance: &Instance, world: &W
     let reach = placed
         .rough_bounds(instance, world.meshes())
         .map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-    if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
+    if (0.0..=MAX_DISTANCE).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

@@ -5,7 +5,7 @@
 
 use core::arch::x86_64::*;
 
-use super::lanes::{Eight, Four, Job, Lanes, OfSix};
+use super::lanes::{F32x8, F32x4, LaneTask, Lanes, PlaneOffset};
 
 /// Proof that this machine has AVX2 with fused multiplication and bit-manipulation instructions.
 #[derive(Clone, Copy, Debug)]
@@ -29,18 +29,18 @@ impl Lanes for Avx2 {
     type M = __m256;
 
     #[inline(always)]
-    fn load_of(self, six: &[Eight; 6], at: OfSix) -> __m256 {
+    fn load_of(self, six: &[F32x8; 6], at: PlaneOffset) -> __m256 {
         // SAFETY: see above; an `OfSix` stays within the six and is a multiple of the size of one.
         unsafe { _mm256_load_ps(six.as_ptr().byte_add(at.bytes()).cast()) }
     }
     #[inline(always)]
-    fn load_halves(self, low: &Four, high: &Four) -> __m256 {
+    fn load_halves(self, low: &F32x4, high: &F32x4) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_set_m128(_mm_load_ps(high.0.as_ptr()), _mm_load_ps(low.0.as_ptr())) }
     }
     #[inline(always)]
-    fn store(self, v: __m256) -> Eight {
-        let mut to = Eight([0.0; 8]);
+    fn store(self, v: __m256) -> F32x8 {
+        let mut to = F32x8([0.0; 8]);
         // SAFETY: see above.
         unsafe { _mm256_store_ps(to.0.as_mut_ptr(), v) };
         to
@@ -116,9 +116,9 @@ impl Lanes for Avx2 {
         unsafe { _mm256_movemask_ps(m) as u32 }
     }
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    fn run<J: LaneTask>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-        fn with_avx2<J: Job>(lanes: Avx2, job: J) -> J::Output {
+        fn with_avx2<J: LaneTask>(lanes: Avx2, job: J) -> J::Output {
             job.work(lanes)
         }
         // SAFETY: see above.

@@ -5,7 +5,7 @@
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
-use super::lanes::{Job, Lanes};
+use super::lanes::{LaneTask, Lanes};
 use super::node::{Child, Node};
 use super::walk::{Leaves, walk};
 use super::{Simd, boxes::Box3, build::over_boxes, collapse::collapse, ray::SlabRay, tlas::InstructionSet};
@@ -99,13 +99,13 @@ struct ClosestQuery<'a> {
     end: f32,
 }
 
-impl Job for ClosestQuery<'_> {
+impl LaneTask for ClosestQuery<'_> {
     type Output = Option<(f32, u32)>;
 
     #[inline(always)]
     fn work<L: Lanes>(self, l: L) -> Self::Output {
         let root = self.all.root?;
-        let mut leaves = Leaf { all: self.all, ray: self.ray, best: None };
+        let mut leaves = StreakLeaf { all: self.all, ray: self.ray, best: None };
         if root.as_node().is_some() {
             let slab = SlabRay::new(self.ray.origin, self.ray.direction);
             walk::<L, true>(l, &self.all.nodes, root, &slab, &mut { self.end }, &mut leaves);
@@ -116,13 +116,13 @@ impl Job for ClosestQuery<'_> {
     }
 }
 
-struct Leaf<'a> {
+struct StreakLeaf<'a> {
     all: &'a Streaks,
     ray: &'a Ray,
     best: Option<(f32, u32)>,
 }
 
-impl Leaves for Leaf<'_> {
+impl Leaves for StreakLeaf<'_> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
         let index = self.all.leaves[leaf];

@@ -7,9 +7,9 @@
 use etendue_core::{Accelerator, TimeInterval};
 
 use super::collapse::{WideTree, collapse};
-use super::lanes::{Job, Lanes, Visit};
+use super::lanes::{LaneTask, Lanes, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, Half, Names, Packet, RayLanes};
+use super::packet::{BestHit, HalfPacket, PrimitiveNames, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use super::{blas::Blas, boxes::Box3, build::over_moving};
@@ -55,7 +55,7 @@ impl<'w> SweptTree<'w> {
         l: L,
         ray: &LocalRay,
         time_s: f32,
-        names: Names<'_>,
+        names: PrimitiveNames<'_>,
         best: &mut BestHit,
         limit: &mut f32,
     ) {
@@ -71,15 +71,15 @@ impl<'w> SweptTree<'w> {
 
     /// The triangles of a leaf in a pose; the second half is the first if there are four at most.
     #[inline(always)]
-    fn halves(&self, pose: &MeshPose<'_>, leaf: usize) -> ([Half; 2], usize) {
+    fn halves(&self, pose: &MeshPose<'_>, leaf: usize) -> ([HalfPacket; 2], usize) {
         let [begin, end] = self.leaves[leaf];
         let primitives = &self.primitives[begin as usize..end as usize];
-        let (first, second) = primitives.split_at(primitives.len().min(Half::SIZE));
-        let first = Half::new(first, |primitive| pose.corners(primitive));
+        let (first, second) = primitives.split_at(primitives.len().min(HalfPacket::SIZE));
+        let first = HalfPacket::new(first, |primitive| pose.corners(primitive));
         if second.is_empty() {
             return ([first.clone(), first], 0);
         }
-        ([first, Half::new(second, |primitive| pose.corners(primitive))], 1)
+        ([first, HalfPacket::new(second, |primitive| pose.corners(primitive))], 1)
     }
 }
 
@@ -87,12 +87,12 @@ struct ClosestQuery<'a> {
     tree: &'a SweptTree<'a>,
     pose: MeshPose<'a>,
     ray: &'a LocalRay,
-    names: Names<'a>,
+    names: PrimitiveNames<'a>,
     best: &'a mut BestHit,
     limit: &'a mut f32,
 }
 
-impl Job for ClosestQuery<'_> {
+impl LaneTask for ClosestQuery<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -109,19 +109,19 @@ struct ClosestLeaf<'a, L: Lanes> {
     tree: &'a SweptTree<'a>,
     pose: MeshPose<'a>,
     ray: &'a LocalRay,
-    names: Names<'a>,
+    names: PrimitiveNames<'a>,
     best: &'a mut BestHit,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Leaf);
+        self.l.record_visit(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         let (halves, second) = self.tree.halves(&self.pose, leaf);
-        if let Some(meeting) = Packet::new(&halves, 0, second).meet(self.l, &spread, self.ray, *limit) {
+        if let Some(meeting) = Packet::new(&halves, 0, second).intersect(self.l, &spread, self.ray, *limit) {
             for hit in meeting {
-                self.best.offer(self.names, hit, limit);
+                self.best.accept(self.names, hit, limit);
             }
         }
         false
@@ -135,7 +135,7 @@ struct OcclusionQuery<'a> {
     t_max: f32,
 }
 
-impl Job for OcclusionQuery<'_> {
+impl LaneTask for OcclusionQuery<'_> {
     type Output = bool;
 
     #[inline(always)]
@@ -157,10 +157,10 @@ struct AnyLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Leaf);
+        self.l.record_visit(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         let (halves, second) = self.tree.halves(&self.pose, leaf);
-        Packet::new(&halves, 0, second).blocks(self.l, &spread, self.ray, *limit)
+        Packet::new(&halves, 0, second).occludes(self.l, &spread, self.ray, *limit)
     }
 }
 
@@ -176,7 +176,7 @@ pub(super) enum AnimatedTree<'w> {
 impl<'w> AnimatedTree<'w> {
     /// Builds the tree for an interval.
     pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: Accelerator) -> Self {
-        match mesh.still_over(interval) {
+        match mesh.static_over(interval) {
             Some(pose) => Self::Posed(Blas::over(mesh.triangles().len(), |p| pose.corners(p), quality)),
             None => Self::Swept(SweptTree::new(mesh, interval, quality)),
         }
@@ -188,7 +188,7 @@ impl<'w> AnimatedTree<'w> {
         l: L,
         ray: &LocalRay,
         time_s: f32,
-        names: Names<'_>,
+        names: PrimitiveNames<'_>,
         best: &mut BestHit,
         limit: &mut f32,
     ) {

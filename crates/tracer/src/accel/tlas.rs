@@ -1,9 +1,9 @@
 //! The tree over the instances of a view.
 
-use super::lanes::{Job, Lanes, Plain, Visit};
+use super::lanes::{LaneTask, Lanes, Plain, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, Names, PrimitiveHit};
-use super::ray::{LocalRay, NONE_LEFT, SlabRay};
+use super::packet::{BestHit, PrimitiveNames, PrimitiveHit};
+use super::ray::{LocalRay, NO_PRIMITIVE, SlabRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::{Simd, blas::Blas, boxes::Box3, build::over_boxes, collapse::collapse, merged::MergedMesh};
@@ -27,7 +27,7 @@ enum Target<'w> {
     /// A mesh whose vertices move.
     Animated(Arc<AnimatedTree<'w>>),
     /// An instance that is merged.
-    Written,
+    Merged,
 }
 
 /// The lanes chosen when the view was built.
@@ -50,7 +50,7 @@ impl InstructionSet {
     }
 
     #[inline(always)]
-    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
+    pub(super) fn run<J: LaneTask>(self, job: J) -> J::Output {
         match self {
             Self::Plain => Plain.run(job),
             #[cfg(target_arch = "x86_64")]
@@ -77,7 +77,7 @@ pub(crate) struct Tlas<'w> {
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame; small ones are merged.
-    pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
+    pub(crate) fn with_merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
         let merged = MergedMesh::new(world, &mut placed, interval);
         Self::new(world, placed, merged, interval, simd)
     }
@@ -139,7 +139,7 @@ fn targets<'w>(world: &'w World, placed: &[Placement], interval: TimeInterval) -
     let target = |(instance, placed): (&Instance, &Placement)| match instance.shape {
         Shape::Sphere { radius_m } => Target::Sphere(radius_m),
         Shape::Mesh(id) if world.mesh(id).animation().is_none() => Target::Mesh(world.tree(id)),
-        Shape::Mesh(_) if placed.is_merged() => Target::Written,
+        Shape::Mesh(_) if placed.is_merged() => Target::Merged,
         Shape::Mesh(id) => {
             let tree = || Arc::new(AnimatedTree::new(world.mesh(id), interval, world.tree_quality()));
             Target::Animated(Arc::clone(animated.entry(id).or_insert_with(tree)))
@@ -161,7 +161,7 @@ struct ClosestQuery<'a, 'w> {
     ray: &'a Ray,
 }
 
-impl Job for ClosestQuery<'_, '_> {
+impl LaneTask for ClosestQuery<'_, '_> {
     type Output = Option<Hit>;
 
     #[inline(always)]
@@ -189,10 +189,10 @@ struct ClosestLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Instance);
+        self.l.record_visit(Visit::Instance);
         let instance = self.top.leaves[leaf];
         if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
-            let local = LocalRay::new(self.ray.origin, self.ray.direction).leaving(merged.number(self.ray.left));
+            let local = LocalRay::new(self.ray.origin, self.ray.direction).excluding(merged.number(self.ray.left));
             merged.tree.closest(self.l, &local, merged.names(), &mut self.best, limit);
             return false;
         }
@@ -200,26 +200,26 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
         let placed = &self.top.placed[instance as usize];
         match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
-                let Some(still) = placed.still() else {
+                let Some(still) = placed.static_transform() else {
                     let moving = MovingEntry { l: self.l, tree, placed, ray: self.ray };
                     (self.best.hit, *limit) = moving.closest(instance, self.best.hit, *limit);
                     return false;
                 };
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
-                let local = LocalRay::new(origin, direction).leaving(left_of(self.ray, instance));
-                tree.closest(self.l, &local, Names::Instance(instance), &mut self.best, limit);
+                let local = LocalRay::new(origin, direction).excluding(left_of(self.ray, instance));
+                tree.closest(self.l, &local, PrimitiveNames::Instance(instance), &mut self.best, limit);
             }
             Target::Sphere(radius) => {
                 if let Some(t) = meet_sphere(*radius, placed, self.ray) {
                     let hit = PrimitiveHit { t, u: 0.0, v: 0.0, primitive: 0 };
-                    self.best.offer(Names::Instance(instance), hit, limit);
+                    self.best.accept(PrimitiveNames::Instance(instance), hit, limit);
                 }
             }
             Target::Animated(tree) => {
                 let animated = AnimatedEntry { l: self.l, tree, placed, ray: self.ray };
                 (self.best.hit, *limit) = animated.closest(instance, self.best.hit, *limit);
             }
-            Target::Written => {}
+            Target::Merged => {}
         }
         false
     }
@@ -230,7 +230,7 @@ struct OcclusionQuery<'a, 'w> {
     ray: &'a Ray,
 }
 
-impl Job for OcclusionQuery<'_, '_> {
+impl LaneTask for OcclusionQuery<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
@@ -251,7 +251,7 @@ impl Job for OcclusionQuery<'_, '_> {
 fn left_of(ray: &Ray, instance: u32) -> u32 {
     match ray.left {
         Some(left) if left.instance == instance => left.primitive,
-        _ => NONE_LEFT,
+        _ => NO_PRIMITIVE,
     }
 }
 
@@ -264,26 +264,26 @@ struct AnyLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.l.note(Visit::Instance);
+        self.l.record_visit(Visit::Instance);
         let instance = self.top.leaves[leaf];
         if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
-            let local = LocalRay::new(self.ray.origin, self.ray.direction).leaving(merged.number(self.ray.left));
+            let local = LocalRay::new(self.ray.origin, self.ray.direction).excluding(merged.number(self.ray.left));
             return merged.tree.occluded(self.l, &local, *limit);
         }
         is_optional();
         let placed = &self.top.placed[instance as usize];
         match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
-                let Some(still) = placed.still() else {
+                let Some(still) = placed.static_transform() else {
                     return MovingEntry { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
                 };
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
-                let local = LocalRay::new(origin, direction).leaving(left_of(self.ray, instance));
+                let local = LocalRay::new(origin, direction).excluding(left_of(self.ray, instance));
                 tree.occluded(self.l, &local, *limit)
             }
             Target::Sphere(radius) => meet_sphere(*radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
             Target::Animated(tree) => AnimatedEntry { l: self.l, tree, placed, ray: self.ray }.occluded(*limit),
-            Target::Written => false,
+            Target::Merged => false,
         }
     }
 }
@@ -305,7 +305,7 @@ impl<L: Lanes> MovingEntry<'_, L> {
         let mut best = BestHit { hit };
         let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
         let local = LocalRay::new(origin, direction);
-        self.tree.closest(self.l, &local, Names::Instance(instance), &mut best, &mut limit);
+        self.tree.closest(self.l, &local, PrimitiveNames::Instance(instance), &mut best, &mut limit);
         (best.hit, limit)
     }
 
@@ -333,7 +333,7 @@ impl<L: Lanes> AnimatedEntry<'_, L> {
     fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
         let mut best = BestHit { hit };
         let local = self.local();
-        self.tree.closest(self.l, &local, self.ray.time_s, Names::Instance(instance), &mut best, &mut limit);
+        self.tree.closest(self.l, &local, self.ray.time_s, PrimitiveNames::Instance(instance), &mut best, &mut limit);
         (best.hit, limit)
     }
 
@@ -353,7 +353,7 @@ impl<L: Lanes> AnimatedEntry<'_, L> {
 /// The first intersection of a ray with a sphere.
 #[inline(always)]
 fn meet_sphere(radius: f64, placed: &Placement, ray: &Ray) -> Option<f32> {
-    let Some(still) = placed.still() else { return meet_moving_sphere(radius, placed, ray) };
+    let Some(still) = placed.static_transform() else { return meet_moving_sphere(radius, placed, ray) };
     let (origin, direction) = still.ray_to_local(ray);
     Some(sphere::nearest(radius, origin, direction)? as f32)
 }

@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use super::lanes::{Eight, Four, Job, Lanes, OfSix, Plain, Visit};
+use super::lanes::{F32x8, F32x4, LaneTask, Lanes, PlaneOffset, Plain, Visit};
 
 /// Number of visits of one or more rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,30 +30,30 @@ macro_rules! plain {
 }
 
 impl Lanes for VisitCounter<'_> {
-    type V = Eight;
+    type V = F32x8;
     type M = [bool; 8];
 
     plain! {
-        fn load_of(six: &[Eight; 6], at: OfSix) -> Eight;
-        fn load_halves(low: &Four, high: &Four) -> Eight;
-        fn store(v: Eight) -> Eight;
-        fn splat(x: f32) -> Eight;
-        fn add(a: Eight, b: Eight) -> Eight;
-        fn sub(a: Eight, b: Eight) -> Eight;
-        fn mul(a: Eight, b: Eight) -> Eight;
-        fn mul_sub(a: Eight, b: Eight, c: Eight) -> Eight;
-        fn div(a: Eight, b: Eight) -> Eight;
-        fn min(a: Eight, b: Eight) -> Eight;
-        fn max(a: Eight, b: Eight) -> Eight;
-        fn abs(a: Eight) -> Eight;
-        fn le(a: Eight, b: Eight) -> [bool; 8];
-        fn lt(a: Eight, b: Eight) -> [bool; 8];
+        fn load_of(six: &[F32x8; 6], at: PlaneOffset) -> F32x8;
+        fn load_halves(low: &F32x4, high: &F32x4) -> F32x8;
+        fn store(v: F32x8) -> F32x8;
+        fn splat(x: f32) -> F32x8;
+        fn add(a: F32x8, b: F32x8) -> F32x8;
+        fn sub(a: F32x8, b: F32x8) -> F32x8;
+        fn mul(a: F32x8, b: F32x8) -> F32x8;
+        fn mul_sub(a: F32x8, b: F32x8, c: F32x8) -> F32x8;
+        fn div(a: F32x8, b: F32x8) -> F32x8;
+        fn min(a: F32x8, b: F32x8) -> F32x8;
+        fn max(a: F32x8, b: F32x8) -> F32x8;
+        fn abs(a: F32x8) -> F32x8;
+        fn le(a: F32x8, b: F32x8) -> [bool; 8];
+        fn lt(a: F32x8, b: F32x8) -> [bool; 8];
         fn and(a: [bool; 8], b: [bool; 8]) -> [bool; 8];
         fn or(a: [bool; 8], b: [bool; 8]) -> [bool; 8];
         fn bits(m: [bool; 8]) -> u32;
     }
 
-    fn note(self, visit: Visit) {
+    fn record_visit(self, visit: Visit) {
         let mut visits = self.0.get();
         match visit {
             Visit::Node => visits.nodes += 1,
@@ -63,7 +63,7 @@ impl Lanes for VisitCounter<'_> {
         self.0.set(visits);
     }
 
-    fn run<J: Job>(self, job: J) -> J::Output {
+    fn run<J: LaneTask>(self, job: J) -> J::Output {
         job.work(self)
     }
 }

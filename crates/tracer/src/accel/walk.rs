@@ -1,6 +1,6 @@
 //! Traversal of an eight-wide tree.
 
-use super::lanes::{Eight, Lanes, Visit};
+use super::lanes::{F32x8, Lanes, Visit};
 use super::node::{Child, Node};
 use super::ray::{SlabLanes, SlabRay};
 
@@ -51,7 +51,7 @@ fn descend<L: Lanes, const SORTED: bool>(
     limits: L::V,
     pending: &mut PendingNodes,
 ) -> Option<Child> {
-    l.note(Visit::Node);
+    l.record_visit(Visit::Node);
     let (mut lanes, near) = ray.enter(l, node, limits);
     if lanes == 0 {
         return None;
@@ -70,7 +70,7 @@ fn descend<L: Lanes, const SORTED: bool>(
 struct PendingQueue<'a> {
     node: &'a Node,
     lanes: u32,
-    near: Eight,
+    near: F32x8,
 }
 
 impl PendingQueue<'_> {
@@ -104,21 +104,21 @@ impl PendingQueue<'_> {
 
 /// Removes the lowest lane from `lanes`: the ray's entry, if it matters, and the child.
 #[inline(always)]
-fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
+fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &F32x8) -> u64 {
     let lane = lanes.trailing_zeros() as usize & 7;
     *lanes &= *lanes - 1;
     entry(if SORTED { near.0[lane] } else { 0.0 }, node.children[lane])
 }
 
 /// Entries on the stack; those of unusually deep trees go to the heap.
-const AT_HAND: usize = 32;
+const INLINE_ENTRIES: usize = 32;
 /// Maximum number of entries that a node adds.
-const A_NODE: usize = 7;
+const MAX_NODE_ENTRIES: usize = 7;
 
 /// A stack of entries. An entry is the ray's entry into a child (as bits, which order like the numbers, none being negative) above the
 /// child's word.
 pub(super) struct PendingNodes {
-    at_hand: [u64; AT_HAND],
+    at_hand: [u64; INLINE_ENTRIES],
     count: usize,
     deep: Vec<u64>,
 }
@@ -126,7 +126,7 @@ pub(super) struct PendingNodes {
 impl Default for PendingNodes {
     #[inline(always)]
     fn default() -> Self {
-        Self { at_hand: [0; AT_HAND], count: 0, deep: Vec::new() }
+        Self { at_hand: [0; INLINE_ENTRIES], count: 0, deep: Vec::new() }
     }
 }
 
@@ -140,7 +140,7 @@ impl PendingNodes {
     /// Reserves space for a node's entries.
     #[inline(always)]
     pub(super) fn reserve(&mut self) {
-        if self.count > AT_HAND - A_NODE {
+        if self.count > INLINE_ENTRIES - MAX_NODE_ENTRIES {
             self.deepen();
         }
     }
@@ -155,7 +155,7 @@ impl PendingNodes {
     /// Adds an entry, for which there is space.
     #[inline(always)]
     pub(super) fn push(&mut self, entry: u64) {
-        self.at_hand[self.count % AT_HAND] = entry;
+        self.at_hand[self.count % INLINE_ENTRIES] = entry;
         self.count += 1;
     }
 
@@ -178,7 +178,7 @@ impl PendingNodes {
         loop {
             let entry = if self.count > 0 {
                 self.count -= 1;
-                self.at_hand[self.count % AT_HAND]
+                self.at_hand[self.count % INLINE_ENTRIES]
             } else {
                 self.deep.pop()?
             };

@@ -174,7 +174,7 @@ fn check(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<(), World
     if instance.materials.len() < expected {
         return Err(WorldError::MissingMaterials { instance: index, found: instance.materials.len(), expected });
     }
-    match (instance.to_world.is_invertible(), instance.to_world.as_still()) {
+    match (instance.to_world.is_invertible(), instance.to_world.as_constant()) {
         (true, _) => Ok(()),
         (false, Some(_)) => Err(WorldError::Transform { instance: index }),
         (false, None) => Err(WorldError::Flattened { instance: index }),
@@ -260,7 +260,7 @@ impl World {
     #[must_use]
     pub fn radius_at_start_m(&self) -> f64 {
         let ends = self.instances.iter().flat_map(|instance| self.corners_at_start_m(instance));
-        let bounds = ends.fold(None, |found: Option<(DVec3, DVec3)>, at| match found {
+        let bounds = ends.fold(None, |box_so_far: Option<(DVec3, DVec3)>, at| match box_so_far {
             None => Some((at, at)),
             Some((low, high)) => Some((low.min(at), high.max(at))),
         });

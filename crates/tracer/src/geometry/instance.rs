@@ -60,7 +60,7 @@ impl InstanceTransform {
         let scale = uniform_scale(&to_render.matrix3);
         // Not by the matrix itself: for very large and very small instances f32 could not hold it.
         let turned = to_local.matrix3.transpose();
-        let largest = turned.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+        let largest = turned.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |maximum, x| maximum.max(x.abs()));
         Self {
             to_render,
             to_local,
@@ -74,8 +74,8 @@ impl InstanceTransform {
 
     /// Records that the corners of its triangles, with coordinates up to `greatest` (by axis, m), are rounded to f32 in the render frame,
     /// where rays then hit them.
-    pub(crate) fn merge(&mut self, greatest: DVec3) {
-        self.merged = Some(greatest);
+    pub(crate) fn merge(&mut self, maximum: DVec3) {
+        self.merged = Some(maximum);
     }
 
     /// True if the corners of its triangles are rounded in the render frame.
@@ -171,10 +171,10 @@ impl InstanceTransform {
     }
 
     /// The maximum coordinate, in the instance's frame, of a box of the render frame.
-    pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
+    pub(crate) fn max_local_coordinate(&self, low: DVec3, high: DVec3) -> f64 {
         let corner = |i: u32| DVec3::select(glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
         let local = (0..8).map(|i| self.to_local.transform_point3(corner(i)).abs().max_element());
-        local.fold(0.0, |most: f64, x| if x > most || x.is_nan() { x } else { most })
+        local.fold(0.0, |maximum: f64, x| if x > maximum || x.is_nan() { x } else { maximum })
     }
 
     /// Maximum distance, per axis of the render frame (m), by which rounding may move a surface point or a ray's origin computed from it

@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::{MeshError, VertexAnimation, repeats::repeats};
+use super::{MeshError, VertexAnimation, repeats::duplicates};
 
 /// Maximum coordinate of a mesh: products of three coordinates must stay finite in f32.
 const MAX_COORDINATE_M: f32 = 1e12;
@@ -22,7 +22,7 @@ pub struct Mesh {
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
     slots: Vec<u16>,
-    facets: Vec<Facet>,
+    facets: Vec<TriangleFacet>,
     /// Needed for every instance, so computed once.
     bounds: Option<(Vec3, Vec3)>,
     slot_count: usize,
@@ -159,13 +159,13 @@ impl Mesh {
         &self.slots
     }
 
-    fn new_facet(&self, i: usize) -> Facet {
+    fn new_facet(&self, i: usize) -> TriangleFacet {
         let normals = (!self.normals.is_empty()).then(|| self.triangles[i].map(|v| self.normals[v as usize]));
-        Facet::new(self.corners(i as u32), normals, self.slots[i])
+        TriangleFacet::new(self.corners(i as u32), normals, self.slots[i])
     }
 
     /// Precomputed data of a triangle.
-    pub(crate) fn facet(&self, primitive: u32) -> &Facet {
+    pub(crate) fn facet(&self, primitive: u32) -> &TriangleFacet {
         &self.facets[primitive as usize]
     }
 
@@ -209,16 +209,16 @@ impl Mesh {
             let vertices = self.triangles[triangle as usize];
             frames.iter().any(|positions| !is_flat(vertices.map(|v| positions[v as usize])))
         };
-        let mut kept: Vec<bool> = (0..count as u32).into_par_iter().map(has_area).collect();
-        let usable = kept.iter().filter(|kept| **kept).count();
-        let repeated = repeats(&kept, |triangle| match self.animation {
+        let mut is_kept: Vec<bool> = (0..count as u32).into_par_iter().map(has_area).collect();
+        let usable = is_kept.iter().filter(|is_kept| **is_kept).count();
+        let repeated = duplicates(&is_kept, |triangle| match self.animation {
             None => unordered_bits(self.corners(triangle)),
             Some(_) => unordered_vertices(self.triangles[triangle as usize]),
         });
-        repeated.iter().for_each(|triangle| kept[*triangle as usize] = false);
-        let mut keep = kept.iter();
+        repeated.iter().for_each(|triangle| is_kept[*triangle as usize] = false);
+        let mut keep = is_kept.iter();
         self.triangles.retain(|_| *keep.next().unwrap_or(&true));
-        let mut keep = kept.iter();
+        let mut keep = is_kept.iter();
         self.slots.retain(|_| *keep.next().unwrap_or(&true));
         DroppedTriangles { zero_area: count - usable, duplicate: repeated.len() }
     }
@@ -240,9 +240,9 @@ fn check_counts(
     Ok(())
 }
 
-fn check_count(what: &'static str, found: usize, expected: usize) -> Result<(), MeshError> {
-    if found != 0 && found != expected {
-        return Err(MeshError::Count { what, found, expected });
+fn check_count(what: &'static str, actual: usize, expected: usize) -> Result<(), MeshError> {
+    if actual != 0 && actual != expected {
+        return Err(MeshError::Count { what, found: actual, expected });
     }
     Ok(())
 }
@@ -291,11 +291,11 @@ fn unordered_vertices(mut vertices: [u32; 3]) -> [[u32; 3]; 3] {
 
 /// Maximum angle, rad, of the vertices' normals to their triangle for it to count as flat: files give positions and normals in some six
 /// digits.
-const FLAT_RAD: f64 = 1e-5;
+const MAX_FLAT_ANGLE_RAD: f64 = 1e-5;
 
 /// A triangle's own normal and material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Facet {
+pub(crate) struct TriangleFacet {
     /// Unit normal in the mesh's frame, by the winding.
     pub(crate) normal: Vec3,
     pub(crate) slot: u16,
@@ -303,7 +303,7 @@ pub(crate) struct Facet {
     pub(crate) is_flat: bool,
 }
 
-impl Facet {
+impl TriangleFacet {
     /// From a triangle's corners, its vertices' normals if they have any, and its material slot.
     pub(super) fn new([a, b, c]: [Vec3; 3], normals: Option<[Vec3; 3]>, slot: u16) -> Self {
         let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
@@ -317,7 +317,7 @@ fn are_along(normals: [Vec3; 3], normal: DVec3) -> bool {
     let along = normals.map(|own| {
         let own = own.as_dvec3().normalize_or_zero();
         let along = own.dot(normal);
-        if own.cross(normal).length() <= FLAT_RAD { along } else { 0.0 }
+        if own.cross(normal).length() <= MAX_FLAT_ANGLE_RAD { along } else { 0.0 }
     });
     along.iter().all(|x| *x > 0.5) || along.iter().all(|x| *x < -0.5)
 }

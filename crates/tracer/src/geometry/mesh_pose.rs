@@ -3,13 +3,13 @@
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::{Mesh, VertexAnimation, mesh::Facet, vertex_animation::Span};
+use super::{Mesh, VertexAnimation, mesh::TriangleFacet, vertex_animation::FrameBlend};
 
 /// A mesh at one time: its own vertices, or those of its animation.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshPose<'m> {
     mesh: &'m Mesh,
-    moved: Option<(&'m VertexAnimation, Span)>,
+    moved: Option<(&'m VertexAnimation, FrameBlend)>,
 }
 
 impl Mesh {
@@ -17,20 +17,20 @@ impl Mesh {
     #[must_use]
     pub fn at(&self, time_s: f64) -> MeshPose<'_> {
         match self.animation() {
-            None => MeshPose::still(self),
+            None => MeshPose::from_mesh(self),
             Some(animation) => MeshPose::moved(self, animation, animation.span(time_s)),
         }
     }
 
     /// The mesh during a whole interval; `None` if some vertex moves.
-    pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
-        let Some(animation) = self.animation() else { return Some(MeshPose::still(self)) };
-        animation.still_over(interval).map(|span| MeshPose::moved(self, animation, span))
+    pub(crate) fn static_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
+        let Some(animation) = self.animation() else { return Some(MeshPose::from_mesh(self)) };
+        animation.static_span(interval).map(|span| MeshPose::moved(self, animation, span))
     }
 
     /// Poses between which all vertices move straight during an interval, in no order.
     pub(crate) fn poses_of(&self, interval: TimeInterval) -> Vec<MeshPose<'_>> {
-        let Some(animation) = self.animation() else { return vec![MeshPose::still(self)] };
+        let Some(animation) = self.animation() else { return vec![MeshPose::from_mesh(self)] };
         let spans = animation.corners_of(interval).into_iter();
         spans.map(|span| MeshPose::moved(self, animation, span)).collect()
     }
@@ -39,11 +39,11 @@ impl Mesh {
 impl<'m> MeshPose<'m> {
     /// A mesh whose vertices do not move.
     #[inline(always)]
-    pub(crate) fn still(mesh: &'m Mesh) -> Self {
+    pub(crate) fn from_mesh(mesh: &'m Mesh) -> Self {
         Self { mesh, moved: None }
     }
 
-    fn moved(mesh: &'m Mesh, animation: &'m VertexAnimation, span: Span) -> Self {
+    fn moved(mesh: &'m Mesh, animation: &'m VertexAnimation, span: FrameBlend) -> Self {
         Self { mesh, moved: Some((animation, span)) }
     }
 
@@ -72,11 +72,11 @@ impl<'m> MeshPose<'m> {
 
     /// Data of a triangle that every hit needs.
     #[inline(always)]
-    pub(crate) fn facet(&self, primitive: u32) -> Facet {
+    pub(crate) fn facet(&self, primitive: u32) -> TriangleFacet {
         match self.moved {
             None => *self.mesh.facet(primitive),
             Some(_) => {
-                Facet::new(self.corners(primitive), self.normals(primitive), self.mesh.slots()[primitive as usize])
+                TriangleFacet::new(self.corners(primitive), self.normals(primitive), self.mesh.slots()[primitive as usize])
             }
         }
     }

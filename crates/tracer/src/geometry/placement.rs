@@ -16,7 +16,7 @@ use super::{Instance, InstanceTransform, Mesh, Shape, instance::about};
 #[expect(clippy::large_enum_variant, reason = "rays come to what stands still without another step in memory")]
 pub(crate) enum Placement {
     /// At rest during the interval.
-    Still(InstanceTransform),
+    Static(InstanceTransform),
     /// In motion.
     Moving(Box<MovingPlacement>),
 }
@@ -32,8 +32,8 @@ pub(crate) struct MovingPlacement {
 impl Placement {
     /// Places an instance relative to a camera at `origin_m` during an interval.
     pub(crate) fn new(instance: &Instance, origin_m: DVec3, interval: TimeInterval) -> Self {
-        match instance.to_world.still_over(interval) {
-            Some(to_world) => Self::Still(InstanceTransform::new(to_world, origin_m)),
+        match instance.to_world.constant_over(interval) {
+            Some(to_world) => Self::Static(InstanceTransform::new(to_world, origin_m)),
             None => Self::Moving(Box::new(MovingPlacement { to_world: instance.to_world.clone(), origin_m, interval })),
         }
     }
@@ -42,16 +42,16 @@ impl Placement {
     #[inline]
     pub(crate) fn at(&self, time_s: f32) -> Cow<'_, InstanceTransform> {
         match self {
-            Self::Still(transform) => Cow::Borrowed(transform),
+            Self::Static(transform) => Cow::Borrowed(transform),
             Self::Moving(moving) => Cow::Owned(moving.at(moving.interval.moment(time_s))),
         }
     }
 
     /// The transforms of a static instance.
     #[inline(always)]
-    pub(crate) fn still(&self) -> Option<&InstanceTransform> {
+    pub(crate) fn static_transform(&self) -> Option<&InstanceTransform> {
         match self {
-            Self::Still(transform) => Some(transform),
+            Self::Static(transform) => Some(transform),
             Self::Moving(_) => None,
         }
     }
@@ -59,14 +59,14 @@ impl Placement {
     /// As [`Placement::still`], mutable.
     pub(crate) fn still_mut(&mut self) -> Option<&mut InstanceTransform> {
         match self {
-            Self::Still(transform) => Some(transform),
+            Self::Static(transform) => Some(transform),
             Self::Moving(_) => None,
         }
     }
 
     /// True if the corners of its triangles are rounded in the render frame.
     pub(crate) fn is_merged(&self) -> bool {
-        self.still().is_some_and(InstanceTransform::is_merged)
+        self.static_transform().is_some_and(InstanceTransform::is_merged)
     }
 
     /// A ray's origin and direction in the instance's frame at the ray's time. The direction keeps its stretch, so t keeps its
@@ -74,7 +74,7 @@ impl Placement {
     #[inline]
     pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
         match self {
-            Self::Still(transform) => transform.ray_to_local(ray),
+            Self::Static(transform) => transform.ray_to_local(ray),
             Self::Moving(moving) => moving.ray_to_local(ray),
         }
     }
@@ -89,7 +89,7 @@ impl Placement {
     /// interval; `None` for a mesh without triangles.
     pub(crate) fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         match self {
-            Self::Still(transform) => transform.bounds(instance, meshes),
+            Self::Static(transform) => transform.bounds(instance, meshes),
             Self::Moving(moving) => moving.bounds(instance, meshes),
         }
     }
@@ -97,15 +97,15 @@ impl Placement {
     /// As [`Placement::bounds`]; for moving instances looser, and fast for intervals of many keys.
     pub(crate) fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         match self {
-            Self::Still(transform) => transform.bounds(instance, meshes),
+            Self::Static(transform) => transform.bounds(instance, meshes),
             Self::Moving(moving) => moving.rough_bounds(instance, meshes),
         }
     }
 
     /// The maximum coordinate, in the instance's frame, of a box of the render frame, or an upper bound of it.
-    pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
+    pub(crate) fn max_local_coordinate(&self, low: DVec3, high: DVec3) -> f64 {
         match self {
-            Self::Still(transform) => transform.greatest_local(low, high),
+            Self::Static(transform) => transform.max_local_coordinate(low, high),
             Self::Moving(moving) => {
                 moving.to_world.local_reach(moving.interval, (low + moving.origin_m, high + moving.origin_m))
             }
@@ -115,7 +115,7 @@ impl Placement {
     /// The transforms at a simulated time of the interval, s.
     pub(crate) fn at_moment(&self, time_s: f64) -> Cow<'_, InstanceTransform> {
         match self {
-            Self::Still(transform) => Cow::Borrowed(transform),
+            Self::Static(transform) => Cow::Borrowed(transform),
             Self::Moving(moving) => Cow::Owned(moving.at(time_s)),
         }
     }

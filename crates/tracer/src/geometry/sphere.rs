@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_small_sphere_far_away_is_met_where_it_is() {
+    fn a_small_sphere_far_away_is_hit_where_it_is() {
         let (distance, radius) = (1e6, 1e-3);
         let [near, far] = roots(radius, DVec3::new(-distance, 0.0, 0.0), DVec3::X).expect("a hit");
         // One rounding of the distance is 1.2e-10 m.
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_huge_sphere_just_below_is_met_at_its_height() {
+    fn a_huge_sphere_just_below_is_hit_at_its_height() {
         let radius = 6.371e6;
         let height = 0.5;
         let t = nearest(radius, DVec3::new(0.0, 0.0, radius + height), DVec3::NEG_Z).expect("a hit");

@@ -38,7 +38,7 @@ pub struct VertexAnimation {
 
 /// A time between two frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Span {
+pub(crate) struct FrameBlend {
     from: u32,
     to: u32,
     /// Weight of the frame `to`, 0 … 1.
@@ -76,13 +76,13 @@ impl VertexAnimation {
 
     /// From the first frame to the last, or to the recurrence of the first.
     #[must_use]
-    pub fn moves_during(&self) -> TimeInterval {
+    pub fn motion_interval(&self) -> TimeInterval {
         TimeInterval::new(self.times_s[0], self.end_s()).expect("rising times")
     }
 
     /// True if the vertices are the same at all times.
     #[must_use]
-    pub fn is_still(&self) -> bool {
+    pub fn is_static(&self) -> bool {
         self.frames.windows(2).all(|pair| pair[0] == pair[1])
     }
 
@@ -95,7 +95,7 @@ impl VertexAnimation {
     }
 
     /// The span of a simulated time (s).
-    pub(crate) fn span(&self, time_s: f64) -> Span {
+    pub(crate) fn span(&self, time_s: f64) -> FrameBlend {
         let (start_s, count) = (self.times_s[0], self.frames.len() as u32);
         let time_s = match self.repeat {
             Repeat::Hold => time_s.max(start_s).min(self.end_s()),
@@ -104,14 +104,14 @@ impl VertexAnimation {
         let after = self.times_s.partition_point(|t| *t <= time_s).clamp(1, self.times_s.len() - 1);
         let (before_s, after_s) = (self.times_s[after - 1], self.times_s[after]);
         let weight = ((time_s - before_s) / (after_s - before_s)).clamp(0.0, 1.0);
-        Span { from: after as u32 - 1, to: after as u32 % count, weight }
+        FrameBlend { from: after as u32 - 1, to: after as u32 % count, weight }
     }
 
     /// Times between which all vertices move straight, from the interval's start to its end: both and the frames inside, these in no order.
-    pub(crate) fn corners_of(&self, interval: TimeInterval) -> Vec<Span> {
+    pub(crate) fn corners_of(&self, interval: TimeInterval) -> Vec<FrameBlend> {
         let mut spans = vec![self.span(interval.start_s()), self.span(interval.end_s())];
         let inside = (0..self.frames.len()).filter(|frame| self.has_frame(interval, *frame));
-        spans.extend(inside.map(|frame| Span { from: frame as u32, to: frame as u32, weight: 0.0 }));
+        spans.extend(inside.map(|frame| FrameBlend { from: frame as u32, to: frame as u32, weight: 0.0 }));
         spans
     }
 
@@ -131,7 +131,7 @@ impl VertexAnimation {
     }
 
     /// Its pose during a whole interval; `None` if some vertex moves.
-    pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<Span> {
+    pub(crate) fn static_span(&self, interval: TimeInterval) -> Option<FrameBlend> {
         let start = self.span(interval.start_s());
         let holds =
             self.repeat == Repeat::Hold && (interval.end_s() <= self.times_s[0] || interval.start_s() >= self.end_s());
@@ -145,19 +145,19 @@ impl VertexAnimation {
 
     /// A vertex at a time.
     #[inline]
-    pub(crate) fn position(&self, span: Span, vertex: u32) -> Vec3 {
+    pub(crate) fn position(&self, span: FrameBlend, vertex: u32) -> Vec3 {
         self.exact_position(span, vertex).as_vec3()
     }
 
     /// As [`VertexAnimation::position`], not rounded to f32.
     #[inline]
-    pub(crate) fn exact_position(&self, span: Span, vertex: u32) -> DVec3 {
+    pub(crate) fn exact_position(&self, span: FrameBlend, vertex: u32) -> DVec3 {
         let place = |frame: u32| self.frames[frame as usize].positions[vertex as usize].as_dvec3();
         between(place(span.from), place(span.to), span.weight)
     }
 
     /// A vertex's normal at a time, of any length; `None` without normals.
-    pub(crate) fn normal(&self, span: Span, vertex: u32) -> Option<Vec3> {
+    pub(crate) fn normal(&self, span: FrameBlend, vertex: u32) -> Option<Vec3> {
         let normal = |frame: u32| self.frames[frame as usize].normals.get(vertex as usize).map(|n| n.as_dvec3());
         Some(between(normal(span.from)?, normal(span.to)?, span.weight).as_vec3())
     }
@@ -189,8 +189,8 @@ mod tests {
     #[test]
     fn between_two_frames_vertices_go_straight_and_beyond_they_hold() {
         let held = at(&[1.0, 2.0, 4.0], Repeat::Hold);
-        let found = [-5.0, 1.0, 1.25, 2.0, 3.0, 4.0, 9.0].map(|time_s| x(&held, time_s));
-        assert_eq!(found, [0.0, 0.0, 0.25, 1.0, 2.5, 4.0, 4.0]);
+        let actual = [-5.0, 1.0, 1.25, 2.0, 3.0, 4.0, 9.0].map(|time_s| x(&held, time_s));
+        assert_eq!(actual, [0.0, 0.0, 0.25, 1.0, 2.5, 4.0, 4.0]);
     }
 
     #[test]
@@ -226,11 +226,11 @@ mod tests {
     #[test]
     fn nothing_moves_at_a_moment_beyond_the_ends_and_between_equal_frames() {
         let held = at(&[1.0, 2.0, 4.0], Repeat::Hold);
-        assert!(held.still_over(interval(-1.0, 1.0)).is_some() && held.still_over(interval(4.0, 6.0)).is_some());
-        assert!(held.still_over(interval(1.5, 1.5)).is_some() && held.still_over(interval(0.5, 1.1)).is_none());
+        assert!(held.static_span(interval(-1.0, 1.0)).is_some() && held.static_span(interval(4.0, 6.0)).is_some());
+        assert!(held.static_span(interval(1.5, 1.5)).is_some() && held.static_span(interval(0.5, 1.1)).is_none());
         let same = vec![held.frames[0].clone(); 2];
         let parked = VertexAnimation::new(same, vec![0.0, 1.0], Repeat::Hold).expect("legal");
-        assert!(parked.still_over(interval(0.2, 0.7)).is_some() && parked.is_still());
+        assert!(parked.static_span(interval(0.2, 0.7)).is_some() && parked.is_static());
     }
 
     #[test]

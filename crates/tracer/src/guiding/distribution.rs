@@ -48,10 +48,10 @@ fn in_first_quarter(x: f32, y: f32) -> (usize, f32, f32) {
 /// Neighbouring bins: two in its ring, one or two in its sector.
 pub(super) fn neighbours(bin: usize) -> impl Iterator<Item = usize> {
     let (sector, ring) = (bin / RINGS, bin % RINGS);
-    let beside = [(sector + 1) % SECTORS, (sector + SECTORS - 1) % SECTORS].map(|s| s * RINGS + ring);
+    let side_bins = [(sector + 1) % SECTORS, (sector + SECTORS - 1) % SECTORS].map(|s| s * RINGS + ring);
     let within = (ring > 0).then(|| bin - 1);
     let beyond = (ring + 1 < RINGS).then_some(bin + 1);
-    beside.into_iter().chain(within).chain(beyond)
+    side_bins.into_iter().chain(within).chain(beyond)
 }
 
 /// A density of directions above a diffuse surface, in integers: a path reads one cache line to choose a sector and one for the ring.
@@ -67,10 +67,10 @@ pub(crate) struct DirectionDistribution {
 impl DirectionDistribution {
     /// The density proportional to positive `weights` of bins; weights below 1/65 535 of the maximum are raised to it.
     pub(super) fn new(weights: &[f64; BINS]) -> Self {
-        let most = weights.iter().copied().fold(0.0, f64::max);
-        let whole = weights.map(|weight| (weight / most * f64::from(u16::MAX)).round().max(1.0) as u16);
+        let maximum = weights.iter().copied().fold(0.0, f64::max);
+        let scaled = weights.map(|weight| (weight / maximum * f64::from(u16::MAX)).round().max(1.0) as u16);
         let weights: [[u16; RINGS]; SECTORS] =
-            core::array::from_fn(|sector| core::array::from_fn(|ring| whole[sector * RINGS + ring]));
+            core::array::from_fn(|sector| core::array::from_fn(|ring| scaled[sector * RINGS + ring]));
         let mut sum = 0;
         let ends = core::array::from_fn(|sector| {
             sum += sum_of(&weights[sector]);
@@ -107,8 +107,8 @@ impl DirectionDistribution {
     #[inline(always)]
     fn sector(&self, u: f32) -> (usize, f32) {
         let at = f64::from(u) * f64::from(self.ends[SECTORS - 1]);
-        let whole = at as u32;
-        let sector = self.ends.iter().map(|end| usize::from(*end <= whole)).sum::<usize>().min(SECTORS - 1);
+        let integer = at as u32;
+        let sector = self.ends.iter().map(|end| usize::from(*end <= integer)).sum::<usize>().min(SECTORS - 1);
         let begin = if sector == 0 { 0 } else { self.ends[sector - 1] };
         let part = (at - f64::from(begin)) / f64::from(self.ends[sector] - begin);
         (sector, (part as f32).clamp(0.0, BELOW_ONE))
@@ -169,7 +169,7 @@ mod tests {
 
     /// Every direction is sampled by the stated density, except those that rounding moves over a bin's edge.
     #[test]
-    fn drawn_directions_are_unit_and_have_the_density_that_is_told_of_them() {
+    fn sampled_directions_are_unit_and_have_the_density_that_is_reported_of_them() {
         let density = uneven();
         let mut over_an_edge = 0;
         for u in points(1 << 16) {
@@ -183,17 +183,17 @@ mod tests {
     /// χ² of 2¹⁶ stratified samples, so that it is less than that of independent ones: below its 99.9th percentile of 127 degrees of
     /// freedom.
     #[test]
-    fn bins_are_drawn_as_often_as_their_density_says() {
+    fn bins_are_sampled_as_often_as_their_density_says() {
         let (density, count) = (uneven(), 1 << 16);
-        let mut met = [0.0_f64; BINS];
-        points(count).for_each(|u| met[bin_of(density.sample(u).0)] += 1.0);
+        let mut counts = [0.0_f64; BINS];
+        points(count).for_each(|u| counts[bin_of(density.sample(u).0)] += 1.0);
         let weights = density.weights.as_flattened();
         let all = f64::from(density.ends[SECTORS - 1]);
-        let squared = |(met, weight): (&f64, &u16)| {
+        let squared = |(observed, weight): (&f64, &u16)| {
             let expected = f64::from(*weight) / all * f64::from(count);
-            (met - expected) * (met - expected) / expected
+            (observed - expected) * (observed - expected) / expected
         };
-        let squares: f64 = met.iter().zip(weights).map(squared).sum();
+        let squares: f64 = counts.iter().zip(weights).map(squared).sum();
         assert!(squares < 181.0, "{squares}");
     }
 
@@ -211,11 +211,11 @@ mod tests {
     /// Bins have equal parts of cosine-weighted solid angle: directions sampled by the cosine hit all equally.
     #[test]
     fn bins_are_of_equal_cosine_weighted_solid_angle() {
-        let mut met = [0_u32; BINS];
+        let mut counts = [0_u32; BINS];
         let count = 1 << 17;
-        points(count).for_each(|u| met[bin_of(etendue_core::warp::cosine_hemisphere(u))] += 1);
+        points(count).for_each(|u| counts[bin_of(etendue_core::warp::cosine_hemisphere(u))] += 1);
         // Independent samples would scatter by 32 about 1024.
-        assert!(met.iter().all(|met| met.abs_diff(count / BINS as u32) < 100), "{met:?}");
+        assert!(counts.iter().all(|bin_count| bin_count.abs_diff(count / BINS as u32) < 100), "{counts:?}");
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod guide;
 pub use guide::{Guide, Training};
 
 pub(crate) use distribution::{DirectionDistribution, bin_of};
-pub(crate) use guide::Place;
+pub(crate) use guide::GuideCell;
 
 /// Scattering events up to which surfaces guide.
 pub(crate) const GUIDED_BOUNCES: u32 = 2;

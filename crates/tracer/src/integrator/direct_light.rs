@@ -4,7 +4,7 @@ use etendue_core::{Integrator, Ray, Spectral, random::Draw};
 use glam::Vec3;
 
 use super::path::{MAX_VERTICES, Path, Vertex};
-use super::{path_state::Medium, path_tracer::Effects};
+use super::{path_state::PathMedium, path_tracer::Effects};
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext};
 use crate::media::{ForwardPeak, MediaRay, RandomCounter};
@@ -14,12 +14,12 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     #[inline(always)]
     pub(super) fn sample_direct_light(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
         let lights = self.tracer.lights;
-        if !lights.can_be_drawn() || (E::SURFACES && vertex.bsdf.is_delta()) {
+        if !lights.can_sample() || (E::SURFACES && vertex.bsdf.is_delta()) {
             return;
         }
         let sampler = lights.sampler_for(receiver);
-        for k in 0..receiver.draws {
-            let stream = self.camera_ray.stream.branch(k, receiver.draws);
+        for k in 0..receiver.samples {
+            let stream = self.camera_ray.stream.branch(k, receiver.samples);
             let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.vertex_index) } else { 0.0 };
             let u = stream.two(Draw::LightPoint, self.vertex_index);
             let (spread_rad, table) = (self.cone.spread_rad, self.tracer.material_table);
@@ -40,10 +40,10 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     ) -> Option<Spectral<N>> {
         let wi = vertex.frame.inward(light.direction)?;
         let value = self.evaluate(vertex, wi);
-        if !(light.surrounds || self.includes(self.history.would_be_caustic(value.pdf))) {
+        if !(light.is_environment || self.includes(self.history.would_be_caustic(value.pdf))) {
             return None;
         }
-        let direction_pdf = vertex.density(wi, value.pdf) * receiver.draws as f32;
+        let direction_pdf = vertex.density(wi, value.pdf) * receiver.samples as f32;
         let arriving = self.throughput * value.value_cos * light.radiance * self.light_weight(light, direction_pdf);
         let peak = self.forward_peak(self.history.would_have_diffuse(value.pdf));
         if arriving.is_zero() {
@@ -70,7 +70,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         &self,
         vertex: &Vertex<'_, N>,
         light: &LightSample<N>,
-        medium: Medium<'_>,
+        medium: PathMedium<'_>,
         peak: ForwardPeak,
     ) -> Option<Spectral<N>> {
         let ray = self.ray_from_surface(&vertex.point, light);
@@ -85,7 +85,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         &self,
         ray: Ray,
         light: &LightSample<N>,
-        medium: Medium<'_>,
+        medium: PathMedium<'_>,
         peak: ForwardPeak,
     ) -> Option<Spectral<N>> {
         let fraction = if self.tracer.settings.integrator == Integrator::Flat {

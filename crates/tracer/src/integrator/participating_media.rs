@@ -15,7 +15,7 @@ use crate::media::{FlightRandom, ForwardPeak, Media, MediaRay, Phase, RandomCoun
 use crate::precipitation::{NearParticles, ParticleHit};
 
 /// Random numbers of a drop.
-const DRAWS_PER_DROP: u32 = 16;
+const NUMBERS_PER_DROP: u32 = 16;
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Moves the ray through media and precipitation to `end`, or to the point where it is scattered; `None` if it reaches the end.
@@ -72,7 +72,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.add_in_scattered_lamp(media, end);
         }
         let media_ray = MediaRay { ray: &self.ray, peak };
-        let random = FlightRandom { stream: &self.camera_ray.stream, draws: &mut self.flight_draws };
+        let random = FlightRandom { stream: &self.camera_ray.stream, counter: &mut self.flight_draws };
         let collision = media.collide(media_ray, f64::from(end), random, self.wavelengths, &mut self.throughput)?;
         self.cone.travel(collision.t);
         self.travelled_m += collision.t;
@@ -94,7 +94,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
         let position = self.ray.at(t);
         let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
-        let Some(light) = lights.of_lamp(&lamp, &receiver, self.emission_query()) else { return };
+        let Some(light) = lights.sampled_lamp_light(&lamp, &receiver, self.emission_query()) else { return };
         let mut to_camera = self.ray;
         to_camera.t_max = t;
         let random = RandomCounter { stream, counter: 2 * self.vertex_index + 1 };
@@ -134,7 +134,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         // However narrow its forward peak, fog is no mirror.
         self.history.scatter(Some(0.0));
         self.cone.scatter(density);
-        self.leave(Ray::new(position, direction, self.ray.time_s))
+        self.continue_along(Ray::new(position, direction, self.ray.time_s))
     }
 
     /// Direct light at a point between surfaces. Lamps that only sampling can find are left out if they were sampled along the ray.
@@ -145,7 +145,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         lamps_were_sampled: bool,
     ) {
         let lights = self.tracer.lights;
-        if !lights.can_be_drawn() {
+        if !lights.can_sample() {
             return;
         }
         let stream = &self.camera_ray.stream;
@@ -175,7 +175,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let stream = &self.camera_ray.stream;
         let chosen = stream.one(Draw::PhaseDirection, 2 * self.vertex_index) * N as f32;
         let wavelength_nm = self.wavelengths.nm[(chosen as usize).min(N - 1)];
-        let uniform = |k: u32| f64::from(stream.one(Draw::DropInterface, DRAWS_PER_DROP * self.vertex_index + k));
+        let uniform = |k: u32| f64::from(stream.one(Draw::DropInterface, NUMBERS_PER_DROP * self.vertex_index + k));
         match near.refracted(&self.ray, hit, wavelength_nm, uniform) {
             None if self.is_at_max_bounces() => PathStep::End,
             None => self.scatter_at_flake(self.ray.at(hit.t), near.phase()),

@@ -20,7 +20,7 @@ use core::marker::PhantomData;
 use etendue_core::{FieldRay, Integrator, Ray, Spectral, TimeInterval, Wavelengths, random::Draw};
 use glam::Vec3;
 
-use super::path_state::{Cone, Medium, RouletteState, ScatteringHistory};
+use super::path_state::{PathCone, PathMedium, RouletteState, ScatteringHistory};
 use super::{PathTracer, path_tracer::Effects};
 use crate::lights::{LightHit, LightSampleContext};
 use crate::materials::{Bsdf, BsdfSample, EmissionQuery, Event, ShadingFrame};
@@ -41,7 +41,7 @@ pub(super) struct Path<'a, const N: usize, E> {
     /// Camera ray: its random stream, and the interval over which lights are averaged.
     pub(super) camera_ray: &'a FieldRay,
     pub(super) ray: Ray,
-    pub(super) cone: Cone,
+    pub(super) cone: PathCone,
     /// True if it branches at the first surface that is no mirror.
     pub(super) branches: bool,
     /// Scattering events so far.
@@ -55,7 +55,7 @@ pub(super) struct Path<'a, const N: usize, E> {
     pub(super) direction_pdf: Option<f32>,
     /// Point of the last scattering; `None` if the ray came from the camera or a mirror.
     pub(super) receiver: Option<LightSampleContext>,
-    pub(super) medium: Medium<'a>,
+    pub(super) medium: PathMedium<'a>,
     pub(super) history: ScatteringHistory,
     /// True if the path has hit a drop or flake. It hits one at most.
     pub(super) has_hit_particle: bool,
@@ -107,7 +107,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             wavelengths,
             camera_ray,
             ray: camera_ray.ray,
-            cone: Cone::new(tracer.settings.cone_spread_rad),
+            cone: PathCone::new(tracer.settings.cone_spread_rad),
             branches: tracer.settings.branches > 1,
             bounces: 0,
             vertex_index: 0,
@@ -174,7 +174,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     fn add_distant_light(&mut self) {
         let strategies = self.tracer.settings.strategies;
         for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
-            if (light.surrounds || self.includes(self.history.is_caustic())) && !self.sees_only_air() {
+            if (light.is_environment || self.includes(self.history.is_caustic())) && !self.sees_only_air() {
                 self.radiance +=
                     self.throughput * light.radiance * strategies.hit_weight(self.direction_pdf, light.pdf);
             }
@@ -199,8 +199,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
         let material_table = self.tracer.material_table;
         match material_table.emission(point.material) {
-            None => self.tracer.lights.of_opening(point, self.ray.direction, self.emission_query()),
-            Some(emission) if emission.leaves(point.geometric_normal, -self.ray.direction) => {
+            None => self.tracer.lights.opening_radiance(point, self.ray.direction, self.emission_query()),
+            Some(emission) if emission.emits_towards(point.geometric_normal, -self.ray.direction) => {
                 Some(material_table.radiance(point.material, emission, lookup, self.emission_query()))
             }
             Some(_) => None,
@@ -250,7 +250,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
         let vertex = self.vertex(point, lookup);
         match self.sample_bsdf(&vertex) {
-            Some(sample) if sample.event == Event::Null => self.go_through(&vertex, &sample),
+            Some(sample) if sample.event == Event::Null => self.pass_through(&vertex, &sample),
             _ => PathStep::End,
         }
     }
@@ -266,23 +266,23 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
         let (position, time_s) = (vertex.point.position, vertex.point.time_s);
-        let draws = self.branch_count(vertex);
-        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_seen(), draws, time_s };
+        let samples = self.branch_count(vertex);
+        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_directly_visible(), samples, time_s };
         self.sample_direct_light(vertex, &receiver);
-        if draws > 1 { self.branch(vertex, &receiver) } else { self.continue_from(vertex, &receiver) }
+        if samples > 1 { self.branch(vertex, &receiver) } else { self.continue_from(vertex, &receiver) }
     }
 
     /// Number of paths that continue from a surface that the path has hit.
     #[inline(always)]
     fn branch_count(&self, vertex: &Vertex<'a, N>) -> u32 {
-        let here = self.branches && self.history.is_seen() && !(E::SURFACES && vertex.bsdf.is_delta());
+        let here = self.branches && self.history.is_directly_visible() && !(E::SURFACES && vertex.bsdf.is_delta());
         if here { self.tracer.settings.branches } else { 1 }
     }
 
     /// Traces all branches to their ends.
     #[inline(never)]
     fn branch(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
-        let count = receiver.draws;
+        let count = receiver.samples;
         for k in 0..count {
             let camera_ray = FieldRay { stream: self.camera_ray.stream.branch(k, count), ..*self.camera_ray };
             let (throughput, radiance) = (self.throughput / count as f32, Spectral::ZERO);
@@ -304,7 +304,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     fn continue_from(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
         match self.sample_bsdf(vertex) {
             None => PathStep::End,
-            Some(sample) if E::SURFACES && sample.event == Event::Null => self.go_through(vertex, &sample),
+            Some(sample) if E::SURFACES && sample.event == Event::Null => self.pass_through(vertex, &sample),
             Some(sample) => self.follow_sample(vertex, &sample, receiver),
         }
     }
@@ -326,7 +326,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     }
 
     /// Passes straight through a surface that attenuates the path.
-    fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> PathStep {
+    fn pass_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> PathStep {
         self.throughput *= sample.weight;
         self.pass(&vertex.point);
         self.end_if_dark()
@@ -351,11 +351,11 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.cone.scatter(pdf);
         }
         let relative_density = vertex.relative_density(sample.wi);
-        self.direction_pdf = bsdf_pdf.map(|pdf| pdf * relative_density * receiver.draws as f32);
+        self.direction_pdf = bsdf_pdf.map(|pdf| pdf * relative_density * receiver.samples as f32);
         self.roulette.scale(relative_density);
         self.receiver = self.direction_pdf.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
-        self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
+        self.continue_along(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
     }
 
     /// Direction along the surface, if the shading normal sends light to the wrong side of the true surface: mirrors and glass absorb
@@ -369,7 +369,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Leaves the point that has scattered the path.
     #[inline(always)]
-    pub(super) fn leave(&mut self, ray: Ray) -> PathStep {
+    pub(super) fn continue_along(&mut self, ray: Ray) -> PathStep {
         self.ray = ray;
         self.travelled_m = 0.0;
         self.bounces += 1;
@@ -390,7 +390,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Samples whether the path continues; if so it is weighted for those that ended. Paths that only mirrors have scattered all continue.
     fn russian_roulette(&mut self) -> bool {
-        if self.history.is_seen() {
+        if self.history.is_directly_visible() {
             return true;
         }
         let probability = self.roulette.survival_probability(self.throughput.max_value());
@@ -409,11 +409,11 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Arguments for the evaluation of lights.
     pub(super) fn emission_query(&self) -> EmissionQuery<'a, N> {
-        EmissionQuery { wavelengths: self.wavelengths, interval: self.lit() }
+        EmissionQuery { wavelengths: self.wavelengths, interval: self.light_interval() }
     }
 
     /// The interval over which lights are averaged.
-    pub(super) fn lit(&self) -> &'a TimeInterval {
-        &self.camera_ray.lit
+    pub(super) fn light_interval(&self) -> &'a TimeInterval {
+        &self.camera_ray.light_interval
     }
 }

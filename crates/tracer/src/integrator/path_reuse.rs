@@ -61,7 +61,7 @@ impl<const N: usize> TailContribution<N> {
 
 impl PathTracer<'_> {
     /// Radiance along rays whose paths share their tails.
-    pub(super) fn radiance_shared<const N: usize, E: Effects>(
+    pub(super) fn shared_radiance<const N: usize, E: Effects>(
         &self,
         rays: &[FieldRay],
         wavelengths: &Wavelengths<N>,
@@ -83,7 +83,7 @@ impl PathTracer<'_> {
     }
 
     /// True if paths of a group share tails.
-    pub(super) fn shares(&self) -> bool {
+    pub(super) fn shares_tails(&self) -> bool {
         let settings = &self.settings;
         // Between surfaces, no path can use what another has found there.
         self.effects != SceneEffects::All
@@ -141,7 +141,7 @@ fn share_tail<'a, const N: usize, E: Effects>(
     let contributions: Vec<_> = (0..prefixes.len())
         .filter_map(|index| match index == owner {
             true => prefixes[index].contribution_of_own_tail(index, second),
-            false => prefixes[index].contribution_of_tail(index, second, prefixes[owner].path.lit()),
+            false => prefixes[index].contribution_of_tail(index, second, prefixes[owner].path.light_interval()),
         })
         .collect();
     let density = fraction * contributions.iter().map(|contribution| contribution.density).sum::<f32>();
@@ -216,10 +216,10 @@ impl<'a, const N: usize, E: Effects> PathPrefix<'a, N, E> {
         &self,
         index: usize,
         second: &Vertex<'_, N>,
-        lit: &TimeInterval,
+        light_interval: &TimeInterval,
     ) -> Option<TailContribution<N>> {
         let first = self.first.as_ref()?;
-        if first.vertex.point.time_s != second.point.time_s || !self.is_lit_over(lit) {
+        if first.vertex.point.time_s != second.point.time_s || !self.is_lit_over(light_interval) {
             return None;
         }
         let between = second.point.position - first.vertex.point.position;
@@ -237,8 +237,8 @@ impl<'a, const N: usize, E: Effects> PathPrefix<'a, N, E> {
     }
 
     /// True if the strengths of lights for this path equal their averages over `lit`.
-    fn is_lit_over(&self, lit: &TimeInterval) -> bool {
-        !self.path.tracer.is_modulated || self.path.lit() == lit
+    fn is_lit_over(&self, light_interval: &TimeInterval) -> bool {
+        !self.path.tracer.is_modulated || self.path.light_interval() == light_interval
     }
 
     /// True if nothing stands between two surfaces.
@@ -287,7 +287,7 @@ mod tests {
             let mut turns = [0; PARTS];
             for sample in 0..64 {
                 let stream = PathStream::new(&address, sample);
-                let ray = FieldRay { ray: Ray::new(Vec3::ZERO, Vec3::Z, 0.0), stream, lit: TimeInterval::default() };
+                let ray = FieldRay { ray: Ray::new(Vec3::ZERO, Vec3::Z, 0.0), stream, light_interval: TimeInterval::default() };
                 turns[TailSelection::new(&[ray; 16], samples).part] += 1;
             }
             assert_eq!(turns, [64 / PARTS; PARTS], "{samples}");

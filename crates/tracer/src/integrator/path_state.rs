@@ -23,12 +23,12 @@ const MAX_ELONGATION: f32 = 1000.0;
 /// widens it to 0.25 rad, a mirror not at all. The quarter is a choice: it keeps texture visible in light between diffuse surfaces.
 /// Curvature of mirrors is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cone {
+pub(super) struct PathCone {
     pub(super) width_m: f32,
     pub(super) spread_rad: f32,
 }
 
-impl Cone {
+impl PathCone {
     pub(super) fn new(spread_rad: f32) -> Self {
         Self { width_m: 0.0, spread_rad }
     }
@@ -102,7 +102,7 @@ impl ScatteringHistory {
     }
 
     /// True if the path comes straight from the camera, or by mirrors alone.
-    pub(super) fn is_seen(self) -> bool {
+    pub(super) fn is_directly_visible(self) -> bool {
         self.min_density == f32::INFINITY
     }
 
@@ -168,14 +168,14 @@ impl RouletteState {
 /// was refracted in, or from a camera inside ([`super::Surroundings`]), until it is refracted out. Fog and other media (`crate::media`) are
 /// not in solids. Left out: scattering inside, and solids within solids (a path that leaves the inner one is in air).
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Medium<'a> {
+pub(super) struct PathMedium<'a> {
     /// Absorption coefficient, 1/m; `None` if nothing absorbs.
     absorption: Option<&'a Spectrum>,
     /// True for the inside of a solid.
     solid: bool,
 }
 
-impl<'a> Medium<'a> {
+impl<'a> PathMedium<'a> {
     /// The medium beyond a surface whose inside has this `absorption`, for a path that comes from its front or its back.
     pub(super) fn beyond(front: bool, solid: bool, absorption: Option<&'a Spectrum>) -> Self {
         Self { absorption: if front { absorption } else { None }, solid: solid && front }
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     fn after(spread_rad: f32, pdf: f32) -> f32 {
-        let mut cone = Cone::new(spread_rad);
+        let mut cone = PathCone::new(spread_rad);
         cone.scatter(pdf);
         cone.spread_rad
     }
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn grazing_cones_cut_long_ellipses() {
-        let cone = Cone { width_m: 0.1, spread_rad: 1e-3 };
+        let cone = PathCone { width_m: 0.1, spread_rad: 1e-3 };
         let direction = Vec3::new(0.6, 0.0, -0.8);
         assert_eq!(cone.long_side(Vec3::Z, direction), None);
         // Seen at a cosine of 0.28: 0.1 / 0.28 along x, from either side.
@@ -242,13 +242,13 @@ mod tests {
             let long = cone.long_side(normal, grazing).expect("long");
             assert!((long - Vec3::X * (0.1 / 0.28)).length() < 1e-6, "{long}");
         }
-        assert_eq!(Cone { spread_rad: 0.25, ..cone }.long_side(Vec3::Z, grazing), None);
+        assert_eq!(PathCone { spread_rad: 0.25, ..cone }.long_side(Vec3::Z, grazing), None);
         assert!(cone.long_side(Vec3::Z, Vec3::X).expect("long").is_finite());
     }
 
     #[test]
     fn width_grows_with_the_way() {
-        let mut cone = Cone::new(0.5);
+        let mut cone = PathCone::new(0.5);
         cone.travel(2.0);
         cone.scatter(1e12);
         cone.travel(4.0);
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_caustic_is_smooth_after_matt() {
+    fn a_caustic_is_smooth_after_diffuse() {
         let after = |events: &[Option<f32>]| {
             let mut history = ScatteringHistory::default();
             events.iter().for_each(|pdf| history.scatter(*pdf));
@@ -278,11 +278,11 @@ mod tests {
     fn the_law_of_beer_and_lambert() {
         let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
         let absorption = Spectrum::constant(50.0);
-        let left = |medium: Medium<'_>, d: f32| medium.attenuate(Spectral::splat(2.0), d, &wavelengths)[1];
+        let left = |medium: PathMedium<'_>, d: f32| medium.attenuate(Spectral::splat(2.0), d, &wavelengths)[1];
         // exp(−0.5) = 0.606 531; two roundings.
-        assert!((left(Medium::beyond(true, true, Some(&absorption)), 0.01) - 2.0 * 0.606_530_7).abs() < 3e-7);
-        assert_eq!(left(Medium::beyond(true, true, Some(&absorption)), 1e9), 0.0, "no light is left, and no NaN");
-        assert_eq!(left(Medium::beyond(false, true, Some(&absorption)), 7.0), 2.0, "outside");
-        assert_eq!(left(Medium::beyond(true, true, None), 7.0), 2.0, "perfectly clear");
+        assert!((left(PathMedium::beyond(true, true, Some(&absorption)), 0.01) - 2.0 * 0.606_530_7).abs() < 3e-7);
+        assert_eq!(left(PathMedium::beyond(true, true, Some(&absorption)), 1e9), 0.0, "no light is left, and no NaN");
+        assert_eq!(left(PathMedium::beyond(false, true, Some(&absorption)), 7.0), 2.0, "outside");
+        assert_eq!(left(PathMedium::beyond(true, true, None), 7.0), 2.0, "perfectly clear");
     }
 }

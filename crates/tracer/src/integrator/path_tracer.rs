@@ -5,7 +5,7 @@ use core::f32::consts::TAU;
 use etendue_core::{Integrator, Ray, maths::f32::sin_cos};
 use glam::Vec3;
 
-use super::{path_state::Medium, settings::PathSettings};
+use super::{path_state::PathMedium, settings::PathSettings};
 use crate::{
     ALL_EFFECTS, MaterialId, guiding::Guide, lights::Lights, materials::MaterialTable, media::Media,
     precipitation::NearParticles, render_space::RenderSpace,
@@ -19,7 +19,7 @@ pub struct PathTracer<'a> {
     pub(super) lights: &'a Lights,
     pub(super) settings: PathSettings,
     /// The medium around the entrance pupil: paths begin there.
-    pub(super) medium: Medium<'a>,
+    pub(super) medium: PathMedium<'a>,
     /// Media that scatter light between surfaces; `None` if there are none.
     pub(super) media: Option<&'a Media<'a>>,
     /// Drops or flakes that rays from the camera hit; `None` where none fall.
@@ -42,8 +42,8 @@ impl<'a> PathTracer<'a> {
         lights: &'a Lights,
         settings: PathSettings,
     ) -> Self {
-        let solid = Surroundings::of(view, material_table).solid;
-        let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
+        let solid = Surroundings::from_view(view, material_table).solid;
+        let medium = solid.map_or_else(PathMedium::default, |id| PathMedium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
         let effects = SceneEffects::All;
         let (media, near, guide) = (None, None, None);
@@ -172,13 +172,13 @@ pub struct Surroundings {
     /// The material of the solid that most rays leave; `None` for air.
     pub solid: Option<MaterialId>,
     /// A solid that only some rays leave: its surface is not closed.
-    pub open: Option<MaterialId>,
+    pub open_solid: Option<MaterialId>,
 }
 
 impl Surroundings {
     /// The surroundings of a view's camera.
     #[must_use]
-    pub fn of(view: &RenderSpace<'_>, material_table: &MaterialTable) -> Self {
+    pub fn from_view(view: &RenderSpace<'_>, material_table: &MaterialTable) -> Self {
         if !material_table.has_solids() {
             return Self::default();
         }
@@ -186,7 +186,7 @@ impl Surroundings {
         let votes = |id: Option<MaterialId>| solids.iter().filter(|solid| **solid == id).count();
         let solid = solids.iter().flatten().copied().find(|id| 2 * votes(Some(*id)) > solids.len());
         let open = solids.iter().flatten().copied().find(|id| votes(Some(*id)) < solids.len());
-        Self { solid, open }
+        Self { solid, open_solid: open }
     }
 }
 

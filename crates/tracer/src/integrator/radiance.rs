@@ -5,7 +5,7 @@ use etendue_core::{FieldRay, RadianceField, Spectral, Wavelengths};
 
 use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
 use super::path_tracer::{AllEffects, DiffuseOnly, Effects, NoMedia, PathTracer, SceneEffects};
-use crate::guiding::{GUIDED_BOUNCES, Place, Training, bin_of};
+use crate::guiding::{GUIDED_BOUNCES, GuideCell, Training, bin_of};
 use crate::{ALL_EFFECTS, materials::Bsdf};
 
 /// Paths of `N` wavelengths, where `N` is 1, 4 or 8.
@@ -66,15 +66,15 @@ impl PathTracer<'_> {
         wavelengths: &Wavelengths<N>,
         radiance: &mut Vec<Spectral<N>>,
     ) {
-        if rays.len() < 2 || !self.shares() {
+        if rays.len() < 2 || !self.shares_tails() {
             radiance.extend(rays.iter().map(|camera_ray| self.radiance_along(camera_ray, wavelengths)));
             return;
         }
         match self.effects {
-            SceneEffects::DiffuseOnly => self.radiance_shared::<N, DiffuseOnly>(rays, wavelengths, radiance),
+            SceneEffects::DiffuseOnly => self.shared_radiance::<N, DiffuseOnly>(rays, wavelengths, radiance),
             // With media, paths share nothing.
             SceneEffects::NoMedia | SceneEffects::All => {
-                self.radiance_shared::<N, NoMedia>(rays, wavelengths, radiance);
+                self.shared_radiance::<N, NoMedia>(rays, wavelengths, radiance);
             }
         }
     }
@@ -92,7 +92,7 @@ impl PathTracer<'_> {
 /// The direction in which a training path has left a diffuse surface.
 #[derive(Clone, Copy)]
 struct TrainingVertex {
-    place: Place,
+    place: GuideCell,
     bin: usize,
     /// Radiance at the camera before, summed over wavelengths.
     radiance_before: f32,
@@ -140,7 +140,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let wi = vertex.frame.inward(self.ray.direction)?;
         let sum = |values: &[f32; N]| values.iter().sum::<f32>();
         Some(TrainingVertex {
-            place: Place::of(vertex.point.position, vertex.frame.normal()),
+            place: GuideCell::new(vertex.point.position, vertex.frame.normal()),
             bin: bin_of(wi),
             radiance_before: sum(&self.radiance.0),
             throughput: sum(&self.throughput.0),

@@ -54,10 +54,10 @@ impl PathSettings {
     pub fn stated(&self) -> Vec<Setting> {
         vec![
             Setting::new("integrator", SettingValue::Word(self.integrator.word())),
-            Setting::of_paths("max_bounces", self.max_bounces.into()),
-            Setting::of_paths("caustics", (self.caustics && self.integrator == Integrator::Path).into()),
-            Setting::of_paths("regularize", self.regularize.into()),
-            Setting::of_paths("branches", self.branches.into()),
+            Setting::path_only("max_bounces", self.max_bounces.into()),
+            Setting::path_only("caustics", (self.caustics && self.integrator == Integrator::Path).into()),
+            Setting::path_only("regularize", self.regularize.into()),
+            Setting::path_only("branches", self.branches.into()),
             Setting::new("light_sampling", SettingValue::Word(self.light_sampling.word())),
         ]
     }
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn light_that_cannot_be_drawn_counts_in_full() {
+    fn light_that_cannot_be_sampled_counts_in_full() {
         for strategies in [Strategies::Both, Strategies::Scattering, Strategies::Lights] {
             assert_eq!(strategies.hit_weight(None, 3.0), 1.0);
             assert_eq!(strategies.hit_weight(Some(3.0), 0.0), 1.0);

@@ -18,7 +18,7 @@ use etendue_core::{LightSampling, maths::f32::cbrt, random::Draw};
 use glam::{Vec2, Vec3};
 
 use super::path::{Path, Vertex};
-use super::path_state::{Cone, Medium};
+use super::path_state::{PathCone, PathMedium};
 use super::path_tracer::Effects;
 use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES};
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, DiffuseBsdf, Event, GlossLobe, ShadingFrame};
@@ -37,7 +37,7 @@ const _: () = assert!(MAX_DENSITY_RATIO / PI < MIN_DENSITY_PER_SR);
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Place of texture look-ups at a point that a ray of unit `direction` has hit; `cone` is its cone there.
     #[inline(always)]
-    pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
+    pub(super) fn lookup(&self, point: &SurfacePoint, cone: PathCone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
         if !(E::SURFACES && self.tracer.material_table.needs_footprint(point.material)) {
             return at;
@@ -126,7 +126,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             return None;
         }
         let counts = |lobe: &GlossLobe| self.includes(self.history.would_be_caustic(lobe.density_at_axis()));
-        ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo).keeping(counts), &vertex.frame)
+        ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo).retain_lobes(counts), &vertex.frame)
     }
 
     /// Value and density of light that arrives at a surface from `wi`.
@@ -139,10 +139,10 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     }
 
     /// The medium on the side of `wi`, which light crosses before it arrives at a surface.
-    pub(super) fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
+    pub(super) fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> PathMedium<'a> {
         if E::SURFACES && wi.z < 0.0 {
             let table = self.tracer.material_table;
-            Medium::beyond(
+            PathMedium::beyond(
                 vertex.frame.front,
                 table.solid(vertex.material).is_some(),
                 table.absorption(vertex.material),
@@ -193,7 +193,7 @@ mod tests {
         for density in [0.4_f32, 1.3, 4.0, 30.0, 1000.0, 1e6] {
             for cos in [1.0_f32, 0.7, 0.2, 0.03, 1e-3] {
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-                let peak = |alpha| Ggx::of(alpha).map_or(f32::INFINITY, |facets| facets.reflect_pdf(wo, Vec3::Z));
+                let peak = |alpha| Ggx::from_alpha(alpha).map_or(f32::INFINITY, |facets| facets.reflect_pdf(wo, Vec3::Z));
                 let alpha = alpha_of_density(density, cos);
                 assert!(alpha == 1.0 || peak(alpha) <= density * 1.001, "{density} {cos}: {}", peak(alpha));
                 assert!(peak(0.6 * alpha) > density || alpha < 1e-4, "{density} {cos}: {alpha}");

@@ -5,7 +5,7 @@ use glam::DAffine3;
 
 use super::lamp::{Lamp, LampLight};
 use super::moving::{LightMotion, MovingLamp, MovingLight};
-use super::triangle::{Facets, TriangleLight};
+use super::triangle::{FlatShape, TriangleLight};
 use super::{
     Light, light::Primitives, opening::Opening, opening_light::OpeningLight, sphere::SphereLight, tree::LightBounds,
 };
@@ -67,7 +67,7 @@ struct MeanEmission {
 
 impl<'a> EmissionWeights<'a> {
     fn new(material_table: &'a MaterialTable, range: WavelengthRange, interval: TimeInterval) -> Self {
-        let counts = |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.choice_level(interval));
+        let counts = |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.selection_level(interval));
         let weigh = |e: &Emission| MeanEmission {
             radiance: e.mean_radiance(material_table.textures(), range.low_nm, range.high_nm) * counts(e),
             is_two_sided: e.sides == EmissionSides::Both,
@@ -81,7 +81,7 @@ impl<'a> EmissionWeights<'a> {
     }
 }
 
-pub(super) fn of_surfaces(
+pub(super) fn collect_surface_lights(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
     range: WavelengthRange,
@@ -95,7 +95,7 @@ pub(super) fn of_surfaces(
             scene_lights.primitives.push([]);
             continue;
         }
-        let place = Place::of(&instance.to_world, view);
+        let place = LightPlacement::new(&instance.to_world, view);
         match instance.shape {
             Shape::Mesh(id) => scene_lights.add_mesh(world.mesh(id), instance, &place, &weights),
             Shape::Sphere { radius_m } => scene_lights.add_sphere(radius_m, instance.materials[0], place, &weights),
@@ -113,19 +113,19 @@ fn check_materials(index: usize, instance: &Instance, weights: &EmissionWeights<
 }
 
 /// Placement of an object during the view's interval.
-enum Place {
+enum LightPlacement {
     /// Static: transform to the render frame.
-    Still(DAffine3),
+    Static(DAffine3),
     Moving(LightMotion),
 }
 
-impl Place {
-    fn of(to_world: &Motion, view: &RenderSpace<'_>) -> Self {
+impl LightPlacement {
+    fn new(to_world: &Motion, view: &RenderSpace<'_>) -> Self {
         let (origin_m, interval) = (view.origin_m(), view.interval());
-        match to_world.still_over(interval) {
+        match to_world.constant_over(interval) {
             Some(mut to_render) => {
                 to_render.translation -= origin_m;
-                Self::Still(to_render)
+                Self::Static(to_render)
             }
             None => Self::Moving(LightMotion { to_world: to_world.clone(), origin_m, interval }),
         }
@@ -134,7 +134,7 @@ impl Place {
     /// Transform to the render frame at the start of the interval.
     fn at_start(&self) -> DAffine3 {
         match self {
-            Self::Still(to_render) => *to_render,
+            Self::Static(to_render) => *to_render,
             Self::Moving(motion) => motion.at(motion.interval.start_s()),
         }
     }
@@ -151,9 +151,9 @@ impl Place {
         let MeanEmission { radiance, is_two_sided } = emission;
         let pair = is_pair.then_some([first, first + 1]);
         match self {
-            Self::Still(to_render) => {
+            Self::Static(to_render) => {
                 let parallelogram = match pair {
-                    Some(pair) => TriangleLight::of_two(mesh, pair, to_render, material),
+                    Some(pair) => TriangleLight::from_parallelogram(mesh, pair, to_render, material),
                     None => None,
                 };
                 let light = match parallelogram {
@@ -165,14 +165,14 @@ impl Place {
             }
             Self::Moving(motion) => {
                 let parallelogram = match pair {
-                    Some(pair) => Facets::two(mesh, pair),
+                    Some(pair) => FlatShape::two(mesh, pair),
                     None => None,
                 };
                 let facets = match parallelogram {
                     Some(facets) => facets,
-                    None => Facets::one(mesh, first),
+                    None => FlatShape::one(mesh, first),
                 };
-                let light = MovingLight::of_facets(facets, motion.clone(), material);
+                let light = MovingLight::from_facets(facets, motion.clone(), material);
                 let bounds = light.bounds(radiance, is_two_sided)?;
                 Some((Light::Moving(Box::new(light)), bounds))
             }
@@ -187,13 +187,13 @@ impl Place {
         radiance: f64,
     ) -> Option<(Light, LightBounds)> {
         match self {
-            Self::Still(to_render) => {
+            Self::Static(to_render) => {
                 let light = SphereLight::new(radius_m, &to_render, material, material_table);
                 let bounds = light.bounds(radiance);
                 Some((Light::Sphere(light), bounds))
             }
             Self::Moving(motion) => {
-                let light = MovingLight::of_sphere(radius_m, motion, material, material_table);
+                let light = MovingLight::from_sphere(radius_m, motion, material, material_table);
                 let bounds = light.bounds(radiance, true)?;
                 Some((Light::Moving(Box::new(light)), bounds))
             }
@@ -202,7 +202,7 @@ impl Place {
 }
 
 impl SceneLights {
-    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, place: &Place, weights: &EmissionWeights<'_>) {
+    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, place: &LightPlacement, weights: &EmissionWeights<'_>) {
         let material = |primitive: usize| instance.materials[usize::from(mesh.slots()[primitive])];
         let count = mesh.triangles().len();
         let mut lights: Vec<Option<u32>> = Vec::with_capacity(count);
@@ -219,7 +219,7 @@ impl SceneLights {
         self.primitives.push(lights);
     }
 
-    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: Place, weights: &EmissionWeights<'_>) {
+    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: LightPlacement, weights: &EmissionWeights<'_>) {
         let light = weights.emission(material).and_then(|emission| {
             let (light, bounds) = place.sphere(radius_m, material, weights.material_table, emission.radiance)?;
             Some(self.add(bounds, light))
@@ -236,20 +236,20 @@ impl SceneLights {
         range: WavelengthRange,
     ) -> Result<(), LightError> {
         let opening = lamp.opening();
-        let place = Place::of(lamp.to_world(), view);
+        let place = LightPlacement::new(lamp.to_world(), view);
         let light = LampLight::new(lamp, &place.at_start(), view.interval(), range);
         let Some((opening, instance)) = opening else {
             match place {
-                Place::Still(_) => self.add(light.bounds(), Light::Lamp(light)),
-                Place::Moving(motion) => self.add_moving_lamp(MovingLamp::of_point(motion, light)),
+                LightPlacement::Static(_) => self.add(light.bounds(), Light::Lamp(light)),
+                LightPlacement::Moving(motion) => self.add_moving_lamp(MovingLamp::from_point(motion, light)),
             };
             return Ok(());
         };
         let light = opening_light(light, opening, instance, view, material_table)?;
         let primitives = light.primitives();
         let added = match place {
-            Place::Still(_) => self.add(light.bounds(), Light::Opening(light)),
-            Place::Moving(motion) => self.add_moving_lamp(MovingLamp::of_opening(motion, light)),
+            LightPlacement::Static(_) => self.add(light.bounds(), Light::Opening(light)),
+            LightPlacement::Moving(motion) => self.add_moving_lamp(MovingLamp::from_opening(motion, light)),
         };
         self.primitives.assign(instance, primitives, added);
         Ok(())
@@ -274,19 +274,19 @@ fn opening_light(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
 ) -> Result<OpeningLight, LightError> {
-    let fault = LightError::Opening { instance };
-    let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
-    let [material] = placed.materials[..] else { return Err(fault) };
-    let to_render = Place::of(&placed.to_world, view).at_start();
+    let error = LightError::Opening { instance };
+    let placed = view.world().instances().get(instance as usize).ok_or(error)?;
+    let [material] = placed.materials[..] else { return Err(error) };
+    let to_render = LightPlacement::new(&placed.to_world, view).at_start();
     let light = match placed.shape {
-        Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, view.world().mesh(id), &to_render, material),
+        Shape::Mesh(id) => OpeningLight::from_mesh(lamp, opening, view.world().mesh(id), &to_render, material),
         Shape::Sphere { radius_m } => {
             let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
-            Some(OpeningLight::of_sphere(lamp, opening, sphere))
+            Some(OpeningLight::from_sphere(lamp, opening, sphere))
         }
     };
     match light {
         Some(light) if material_table.emission(material).is_none() => Ok(light),
-        _ => Err(fault),
+        _ => Err(error),
     }
 }

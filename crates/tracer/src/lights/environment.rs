@@ -13,7 +13,7 @@ use etendue_spectra::{Spectrum, upsample};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::patches::{EnvironmentCell, patches};
-use super::{BRIGHTEST, LightSample, sky::SkyEnvironment};
+use super::{MAX_LIGHT_VALUE, LightSample, sky::SkyEnvironment};
 
 /// Surroundings of the scene.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Environment {
     /// Irradiance that determines how often the surroundings are sampled next to suns of irradiance `of_suns`, W·m⁻²·nm⁻¹; 0 if they are
     /// not sampled. It is the irradiance of their bright patches, and the part of the remaining irradiance that exceeds that of the suns.
     /// Scattered rays hit uniform surroundings as well as light samples do.
-    pub(super) fn drawn_irradiance(&self, range: WavelengthRange, of_suns: f64) -> f64 {
+    pub(super) fn sampled_irradiance(&self, range: WavelengthRange, of_suns: f64) -> f64 {
         let (mean, patches) = match self {
             Self::Uniform(_) => return 0.0,
             Self::Image(image) => (image.mean_irradiance(range.low_nm, range.high_nm), image.patches),
@@ -44,17 +44,17 @@ impl Environment {
     pub(super) fn radiance_and_pdf<const N: usize>(
         &self,
         direction: Vec3,
-        wanted: bool,
+        is_wanted: bool,
         wavelengths: &Wavelengths<N>,
     ) -> (Spectral<N>, f32) {
         match self {
             Self::Uniform(radiance) => (radiance.sample(wavelengths), 0.0),
             Self::Image(image) => {
                 let place = image.place(direction);
-                let pdf = if wanted { image.pdf_at(place, direction) } else { 0.0 };
+                let pdf = if is_wanted { image.pdf_at(place, direction) } else { 0.0 };
                 (image.radiance_at(place, wavelengths), pdf)
             }
-            Self::Sky(sky) => (sky.radiance(direction, wavelengths), if wanted { sky.pdf(direction) } else { 0.0 }),
+            Self::Sky(sky) => (sky.radiance(direction, wavelengths), if is_wanted { sky.pdf(direction) } else { 0.0 }),
         }
     }
 
@@ -154,8 +154,8 @@ impl ImageEnvironment {
         if !(luminance_scale > 0.0 && luminance_scale.is_finite() && rotation_rad.is_finite()) {
             return Err(EnvironmentError::Placement);
         }
-        let brightest = texels.iter().flatten().fold(0.0_f32, |most, v| most.max(*v));
-        if f64::from(brightest) * luminance_scale > f64::from(BRIGHTEST) {
+        let brightest = texels.iter().flatten().fold(0.0_f32, |maximum, v| maximum.max(*v));
+        if f64::from(brightest) * luminance_scale > f64::from(MAX_LIGHT_VALUE) {
             return Err(EnvironmentError::Bright { texel: brightest, scale: luminance_scale });
         }
         let weights = weights(width, height, &texels);
@@ -226,7 +226,7 @@ impl ImageEnvironment {
         let (place, by_area) = self.distribution.sample(u);
         let (direction, sin) = self.direction(place);
         let pdf = by_area / (2.0 * PI * PI * sin);
-        LightSample::of_surroundings(direction, self.radiance_at(place, wavelengths), pdf)
+        LightSample::from_environment(direction, self.radiance_at(place, wavelengths), pdf)
     }
 
     /// Spectral irradiance of a surface under the mean colour of all directions, W·m⁻²·nm⁻¹.
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn the_picture_lies_as_stated() {
+    fn the_image_lies_as_stated() {
         let e = gradient(8, 4, 0.0);
         for (direction, place) in [
             (Vec3::X, Vec2::new(0.5, 0.5)),
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn densities_integrate_to_one_and_are_those_of_the_draws() {
+    fn densities_integrate_to_one_and_are_those_of_the_samples() {
         let e = gradient(16, 8, 0.7);
         let (n, mut sum, mut apart) = (1 << 16, 0.0, 0);
         for i in 0..n {
@@ -311,8 +311,8 @@ mod tests {
             let u = Vec2::new((i as f32 + 0.5) / n as f32, (0.618_034 * (f64::from(i) + 0.5)).fract() as f32);
             sum += f64::from(e.pdf(etendue_core::warp::uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
             let sample = e.sample(u, &Wavelengths::<1>::uniform(400.0, 700.0, 0.5)).expect("light");
-            let told = e.pdf(sample.direction);
-            apart += usize::from((told - sample.pdf).abs() > 1e-3 * sample.pdf);
+            let pdf = e.pdf(sample.direction);
+            apart += usize::from((pdf - sample.pdf).abs() > 1e-3 * sample.pdf);
         }
         assert!((sum / f64::from(n) - 1.0).abs() < 2e-3, "{}", sum / f64::from(n));
         // Only on the borders of texels may rounding give the neighbour's density.
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_shines_can_be_drawn() {
+    fn whatever_shines_can_be_sampled() {
         let mut texels = vec![[0.0; 3]; 32];
         texels[12] = [0.0, 0.0, 3.0];
         let e = ImageEnvironment::new(8, 4, texels, 1.0, 0.0).expect("one star");

@@ -35,7 +35,7 @@ pub fn low_beam(traffic: Traffic) -> PhotometricGrid {
 /// A high beam, cd.
 #[must_use]
 pub fn high_beam() -> PhotometricGrid {
-    grid(|v, h| 52_000.0 * bell(h, 3.5) * bell(v, 1.5) + 6_000.0 * bell(h, 12.0) * bell(v + 0.5, 3.5))
+    grid(|v, h| 52_000.0 * gaussian(h, 3.5) * gaussian(v, 1.5) + 6_000.0 * gaussian(h, 12.0) * gaussian(v + 0.5, 3.5))
 }
 
 fn mirrored(horizontal_deg: f64, traffic: Traffic) -> f64 {
@@ -49,8 +49,8 @@ fn low(v: f64, h: f64) -> f64 {
     let above = (v - cut_off(h)) / CUT_OFF_WIDTH_DEG;
     let passed = 1.0 / (1.0 + maths::f64::exp(above.min(700.0)));
     let side = if h < 1.0 { 3.5 } else { 5.0 };
-    let beam = 24_000.0 * bell(h - 1.0, side) * bell(v + 1.2, 2.0) + 3_500.0 * bell(h, 20.0) * bell(v + 3.0, 5.0);
-    160.0 * bell(h, 15.0) * bell(v, 5.0) + passed * beam
+    let beam = 24_000.0 * gaussian(h - 1.0, side) * gaussian(v + 1.2, 2.0) + 3_500.0 * gaussian(h, 20.0) * gaussian(v + 3.0, 5.0);
+    160.0 * gaussian(h, 15.0) * gaussian(v, 5.0) + passed * beam
 }
 
 /// Elevation of the cut-off above the horizon, degrees.
@@ -59,16 +59,16 @@ fn cut_off(h: f64) -> f64 {
     (SLOPE * h.max(0.0) - 0.57).min(1.0)
 }
 
-fn bell(x: f64, sigma: f64) -> f64 {
+fn gaussian(x: f64, sigma: f64) -> f64 {
     maths::f64::exp(-0.5 * x * x / (sigma * sigma))
 }
 
 /// Angles from −`most` to `most`: steps of `fine` up to `near`, then of a sixth of the angle.
-fn angles(fine: f64, near: f64, most: f64) -> Vec<f64> {
+fn angles(fine: f64, near: f64, maximum: f64) -> Vec<f64> {
     let mut right: Vec<f64> = (0..=(near / fine).round() as u32).map(|i| f64::from(i) * fine).collect();
-    while let Some(last) = right.last().copied().filter(|last| *last < most) {
+    while let Some(last) = right.last().copied().filter(|last| *last < maximum) {
         let next = last + (last / 6.0).max(fine);
-        right.push(if next > most - 0.5 * fine { most } else { next });
+        right.push(if next > maximum - 0.5 * fine { maximum } else { next });
     }
     right.iter().skip(1).rev().map(|a| -a).chain(right.iter().copied()).collect()
 }

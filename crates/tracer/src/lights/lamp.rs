@@ -14,10 +14,10 @@ use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
 use super::{
-    BRIGHTEST, LightSample, LightSampleContext, light_sample::LampIrradiance, opening::Opening, profile::Profile,
+    MAX_LIGHT_VALUE, LightSample, LightSampleContext, light_sample::LampIrradiance, opening::Opening, profile::Profile,
     tree::LightBounds,
 };
-use crate::materials::{EmissionQuery, choice_level};
+use crate::materials::{EmissionQuery, selection_level};
 
 /// Error of a lamp.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -80,7 +80,7 @@ impl Lamp {
         intensity: impl Into<Arc<Spectrum>>,
         profile: impl Into<Arc<Profile>>,
     ) -> Result<Self, LampError> {
-        Self::moving(Motion::still(DAffine3::from_mat3_translation(axes, position_m)), intensity, profile)
+        Self::moving(Motion::constant(DAffine3::from_mat3_translation(axes, position_m)), intensity, profile)
     }
 
     /// A lamp that moves by `to_world`, a transform from its frame to the world without scaling.
@@ -99,7 +99,7 @@ impl Lamp {
         if !to_world.is_rigid() {
             return Err(LampError::Axes);
         }
-        if !(intensity.min_value() >= 0.0 && intensity.max_value() <= BRIGHTEST) {
+        if !(intensity.min_value() >= 0.0 && intensity.max_value() <= MAX_LIGHT_VALUE) {
             return Err(LampError::Intensity);
         }
         Ok(Self { to_world, intensity, profile, attenuation_per_m: 0.0, modulation: None, opening: None })
@@ -127,8 +127,8 @@ impl Lamp {
     /// If the lamp would be brighter than can be traced, or already has an opening.
     pub fn modulated(self, modulation: impl Into<Arc<Waveform>>) -> Result<Self, LampError> {
         let modulation = modulation.into();
-        let brightest = f64::from(self.intensity.max_value()) * modulation.greatest_level();
-        if brightest > f64::from(BRIGHTEST) || self.opening.is_some() {
+        let brightest = f64::from(self.intensity.max_value()) * modulation.max_level();
+        if brightest > f64::from(MAX_LIGHT_VALUE) || self.opening.is_some() {
             return Err(LampError::Intensity);
         }
         Ok(Self { modulation: Some(modulation), ..self })
@@ -143,9 +143,9 @@ impl Lamp {
         if self.attenuation_per_m > 0.0 {
             return Err(LampError::AttenuatedOpening { per_m: self.attenuation_per_m });
         }
-        let level = self.modulation.as_ref().map_or(1.0, |modulation| modulation.greatest_level() as f32);
-        let radiance = self.intensity.max_value() * level * self.profile.peak() as f32 / opening.least_area_m2();
-        if radiance <= BRIGHTEST {
+        let level = self.modulation.as_ref().map_or(1.0, |modulation| modulation.max_level() as f32);
+        let radiance = self.intensity.max_value() * level * self.profile.peak() as f32 / opening.min_projected_area_m2();
+        if radiance <= MAX_LIGHT_VALUE {
             Ok(Self { opening: Some((opening, instance)), ..self })
         } else {
             Err(LampError::OpeningRadiance { radiance })
@@ -207,7 +207,7 @@ pub(super) struct LampLight {
 impl LampLight {
     /// The lamp placed by `to_render`, from its frame to the render frame, in a view of an `interval`.
     pub(super) fn new(lamp: Lamp, to_render: &DAffine3, interval: TimeInterval, range: WavelengthRange) -> Self {
-        let counts = lamp.modulation().map_or(1.0, |modulation| choice_level(modulation, interval));
+        let counts = lamp.modulation().map_or(1.0, |modulation| selection_level(modulation, interval));
         Self {
             position: to_render.translation.as_vec3(),
             to_lamp: to_render.matrix3.transpose().as_mat3(),
@@ -225,7 +225,7 @@ impl LampLight {
     }
 
     /// Mean intensity over the wavelengths of the camera in its brightest direction, W·sr⁻¹·nm⁻¹.
-    pub(super) fn greatest(&self) -> f32 {
+    pub(super) fn max_intensity(&self) -> f32 {
         self.mean_intensity * self.profile.peak() as f32
     }
 
@@ -251,14 +251,14 @@ impl LampLight {
         let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
         let raised = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
         let faced = self.mean_intensity * factor;
-        LampIrradiance { plain: faced * cos, raised: faced * raised }
+        LampIrradiance { diffuse: faced * cos, with_gloss: faced * raised }
     }
 
     /// Mean irradiance of a lamp whose light starts within `extent_m` of its position.
     pub(super) fn irradiance_of_extent(&self, receiver: &LightSampleContext, extent_m: f32) -> LampIrradiance {
-        let way = self.position - receiver.position;
-        let distance = way.length();
-        let Some(direction) = (distance > 0.0).then(|| way / distance) else {
+        let to_lamp = self.position - receiver.position;
+        let distance = to_lamp.length();
+        let Some(direction) = (distance > 0.0).then(|| to_lamp / distance) else {
             return LampIrradiance::default();
         };
         let sin = (extent_m / distance).min(1.0);
@@ -267,7 +267,7 @@ impl LampLight {
         let raised = if cos > 0.0 { cos + receiver.glossy(direction, sin) } else { 0.0 };
         let near = distance.max(0.5 * extent_m);
         let faced = self.mean_intensity * self.profile.value(self.to_lamp(-direction)) / (near * near);
-        LampIrradiance { plain: faced * cos, raised: faced * raised }
+        LampIrradiance { diffuse: faced * cos, with_gloss: faced * raised }
     }
 
     /// Transforms a direction of the render frame to the lamp's.
@@ -291,9 +291,9 @@ impl LampLight {
 
     /// Direction to the lamp, and the irradiance of a surface that faces it per unit of intensity; `None` if there is none.
     fn reach(&self, from: Vec3) -> Option<(Vec3, f32)> {
-        let way = self.position - from;
-        let distance = way.length();
-        let direction = way / distance;
+        let to_lamp = self.position - from;
+        let distance = to_lamp.length();
+        let direction = to_lamp / distance;
         let value = self.profile.value(self.to_lamp * -direction);
         let factor = value / (distance * distance) / (1.0 + self.attenuation * distance);
         (factor > 0.0 && factor.is_finite()).then_some((direction, factor))
@@ -303,6 +303,6 @@ impl LampLight {
         let (direction, factor) = self.reach(from)?;
         let radiance = self.intensity(query) * factor;
         let target = Some(self.position);
-        Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, surrounds: false })
+        Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, is_environment: false })
     }
 }

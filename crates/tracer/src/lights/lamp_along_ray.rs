@@ -23,7 +23,7 @@ const MIN_DISTANCE_M: f32 = 1e-4;
 const FLOOR: f32 = 0.02;
 
 /// Fractions of the angle at which a lamp is evaluated, with their weights.
-const PLACES: [(f32, f32); 3] = [(0.04, 0.25), (0.5, 0.5), (0.96, 0.25)];
+const EVALUATION_FRACTIONS: [(f32, f32); 3] = [(0.04, 0.25), (0.5, 0.5), (0.96, 0.25)];
 
 /// Number of cells of the angle.
 const CELLS: usize = 16;
@@ -64,25 +64,25 @@ impl SegmentAngles {
         Self { nearest_m, away_m, ends: [angle(segment.from), angle(segment.to)] }
     }
 
-    fn whole(&self) -> f32 {
+    fn extent_rad(&self) -> f32 {
         self.ends[1] - self.ends[0]
     }
 
     /// The place at a fraction of the angle, m.
-    fn place(&self, share: f32) -> f32 {
-        let (sin, cos) = sin_cos(self.ends[0] + share * self.whole());
+    fn place(&self, fraction: f32) -> f32 {
+        let (sin, cos) = sin_cos(self.ends[0] + fraction * self.extent_rad());
         self.nearest_m + self.away_m * sin / cos.max(f32::MIN_POSITIVE)
     }
 
     /// The fraction of the angle up to a place, m.
-    fn share(&self, t: f32) -> f32 {
-        (atan((t - self.nearest_m) / self.away_m) - self.ends[0]) / self.whole()
+    fn fraction_at(&self, t: f32) -> f32 {
+        (atan((t - self.nearest_m) / self.away_m) - self.ends[0]) / self.extent_rad()
     }
 
     /// Density of places by the angle, 1/m.
     fn density(&self, t: f32) -> f32 {
         let aside = t - self.nearest_m;
-        self.away_m / (self.whole() * (self.away_m * self.away_m + aside * aside))
+        self.away_m / (self.extent_rad() * (self.away_m * self.away_m + aside * aside))
     }
 }
 
@@ -105,13 +105,13 @@ impl AngleCells {
         }))
     }
 
-    fn whole(&self) -> f32 {
+    fn total(&self) -> f32 {
         self.0.iter().sum()
     }
 
     /// Samples a fraction of the angle.
-    fn share(&self, u: f32) -> f32 {
-        let mut rest = u * self.whole();
+    fn sample_fraction(&self, u: f32) -> f32 {
+        let mut rest = u * self.total();
         let last = self.0.iter().rposition(|light| *light > 0.0).unwrap_or(0);
         for (i, light) in self.0.iter().enumerate() {
             if rest < *light || i == last {
@@ -124,21 +124,21 @@ impl AngleCells {
     }
 
     /// Density of fractions.
-    fn density(&self, share: f32) -> f32 {
-        let i = (1..CELLS).take_while(|i| Self::edge(*i) <= share).count();
-        self.0[i] / (self.whole() * (Self::edge(i + 1) - Self::edge(i)))
+    fn density(&self, fraction: f32) -> f32 {
+        let i = (1..CELLS).take_while(|i| Self::edge(*i) <= fraction).count();
+        self.0[i] / (self.total() * (Self::edge(i + 1) - Self::edge(i)))
     }
 }
 
 impl SampledLamp {
     /// Samples a place of the ray, m, by the light that comes from there.
     pub(crate) fn place(&self, u: f32) -> f32 {
-        self.angles.place(self.cells.share(u))
+        self.angles.place(self.cells.sample_fraction(u))
     }
 
     /// Density of [`SampledLamp::place`], 1/m.
     pub(crate) fn density(&self, t: f32) -> f32 {
-        self.angles.density(t) * self.cells.density(self.angles.share(t))
+        self.angles.density(t) * self.cells.density(self.angles.fraction_at(t))
     }
 }
 
@@ -157,15 +157,15 @@ impl Lights {
         u: f32,
         visibility: impl Fn(f32, Vec3) -> f32,
     ) -> Option<SampledLamp> {
-        let (mut whole, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
+        let (mut total, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
         for light in &self.points {
-            let along = self.lamp_beside(*light, ray, segment);
-            let places = PLACES.map(|(share, weight)| weight * self.visible_light(&along, ray, share, &visibility));
-            let counts = places.iter().sum::<f32>() * along.angles.whole() / along.angles.away_m;
+            let along = self.lamp_near_ray(*light, ray, segment);
+            let places = EVALUATION_FRACTIONS.map(|(fraction, weight)| weight * self.visible_light(&along, ray, fraction, &visibility));
+            let counts = places.iter().sum::<f32>() * along.angles.extent_rad() / along.angles.away_m;
             if counts > 0.0 && counts.is_finite() {
                 // Each lamp replaces the one before with the probability of its fraction so far. The remainder of the number stays uniform.
-                whole += counts;
-                let share = f64::from(counts / whole);
+                total += counts;
+                let share = f64::from(counts / total);
                 if rest < share {
                     chosen = Some((along, counts));
                     rest /= share;
@@ -174,13 +174,13 @@ impl Lights {
                 }
             }
         }
-        let (along, counts) = chosen.filter(|_| whole.is_finite())?;
-        let cells = AngleCells::new(|share| self.visible_light(&along, ray, share, &visibility));
-        Some(SampledLamp { light: along.light, probability: counts / whole, angles: along.angles, cells })
+        let (along, counts) = chosen.filter(|_| total.is_finite())?;
+        let cells = AngleCells::new(|fraction| self.visible_light(&along, ray, fraction, &visibility));
+        Some(SampledLamp { light: along.light, probability: counts / total, angles: along.angles, cells })
     }
 
     /// The light of a sampled lamp at a place.
-    pub(crate) fn of_lamp<const N: usize>(
+    pub(crate) fn sampled_lamp_light<const N: usize>(
         &self,
         lamp: &SampledLamp,
         receiver: &LightSampleContext,
@@ -193,38 +193,38 @@ impl Lights {
         }
     }
 
-    fn lamp_beside(&self, light: usize, ray: &Ray, segment: RaySegment) -> LampBesideRay {
-        let (position, greatest) = match &self.lights[light] {
-            Light::Lamp(lamp) => (lamp.position(), lamp.greatest()),
+    fn lamp_near_ray(&self, light: usize, ray: &Ray, segment: RaySegment) -> LampNearRay {
+        let (position, maximum) = match &self.lights[light] {
+            Light::Lamp(lamp) => (lamp.position(), lamp.max_intensity()),
             Light::MovingLamp(lamp) => lamp.point(ray.time_s),
             _ => (Vec3::ZERO, 0.0),
         };
-        LampBesideRay { light, position, greatest, angles: SegmentAngles::new(position, ray, segment) }
+        LampNearRay { light, position, max_intensity: greatest: maximum, angles: SegmentAngles::new(position, ray, segment) }
     }
 
     /// Approximate visible light of a lamp per angle at the lamp, at a fraction of that angle.
-    fn visible_light(&self, lamp: &LampBesideRay, ray: &Ray, share: f32, visibility: impl Fn(f32, Vec3) -> f32) -> f32 {
-        let t = lamp.angles.place(share);
+    fn visible_light(&self, lamp: &LampNearRay, ray: &Ray, fraction: f32, visibility: impl Fn(f32, Vec3) -> f32) -> f32 {
+        let t = lamp.angles.place(fraction);
         let place = ray.at(t);
         let receiver = LightSampleContext::in_medium(place, ray.time_s);
         let irradiance = match &self.lights[lamp.light] {
-            Light::Lamp(lamp) => lamp.irradiance(&receiver).plain,
-            Light::MovingLamp(lamp) => lamp.irradiance(&receiver).plain,
+            Light::Lamp(lamp) => lamp.irradiance(&receiver).diffuse,
+            Light::MovingLamp(lamp) => lamp.irradiance(&receiver).diffuse,
             _ => 0.0,
         };
-        let way = lamp.position - place;
-        let intensity = irradiance * way.length_squared() + FLOOR * lamp.greatest;
-        intensity * visibility(t, way.normalize_or_zero())
+        let to_lamp = lamp.position - place;
+        let intensity = irradiance * to_lamp.length_squared() + FLOOR * lamp.max_intensity;
+        intensity * visibility(t, to_lamp.normalize_or_zero())
     }
 }
 
 /// A lamp next to a segment of a ray.
 #[derive(Clone, Copy, Debug)]
-struct LampBesideRay {
+struct LampNearRay {
     light: usize,
     position: Vec3,
     /// Maximum intensity.
-    greatest: f32,
+    max_intensity: f32,
     angles: SegmentAngles,
 }
 
@@ -234,10 +234,10 @@ mod tests {
 
     /// Sampled places have the stated density: the mean of 1/density over places is the length of the part.
     #[test]
-    fn places_are_drawn_by_their_density() {
+    fn places_are_sampled_by_their_density() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0);
         let angles = SegmentAngles::new(Vec3::new(2.0, 0.5, 0.0), &ray, RaySegment { from: 0.0, to: 9.0 });
-        let cells = AngleCells::new(|share| 0.1 + if share > 0.4 && share < 0.6 { 5.0 } else { share });
+        let cells = AngleCells::new(|fraction| 0.1 + if fraction > 0.4 && fraction < 0.6 { 5.0 } else { fraction });
         let lamp = SampledLamp { light: 0, probability: 1.0, angles, cells };
         let n = 100_000;
         let (mut sum, mut places) = (0.0_f64, [0_u32; 2]);

@@ -21,14 +21,14 @@ pub struct LightSample<const N: usize> {
     /// True for a lamp without an opening: only light sampling can find it.
     pub delta: bool,
     /// True for light of the surroundings, but not of a sun or a surface.
-    pub surrounds: bool,
+    pub is_environment: bool,
 }
 
 impl<const N: usize> LightSample<N> {
     /// Light of the surroundings; `None` if it has no usable density.
-    pub(super) fn of_surroundings(direction: Vec3, radiance: Spectral<N>, pdf: f32) -> Option<Self> {
-        let drawn = Self { direction, target: None, radiance, pdf, delta: false, surrounds: true };
-        (pdf > 0.0 && pdf.is_finite()).then_some(drawn)
+    pub(super) fn from_environment(direction: Vec3, radiance: Spectral<N>, pdf: f32) -> Option<Self> {
+        let sample = Self { direction, target: None, radiance, pdf, delta: false, is_environment: true };
+        (pdf > 0.0 && pdf.is_finite()).then_some(sample)
     }
 }
 
@@ -36,9 +36,9 @@ impl<const N: usize> LightSample<N> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LampIrradiance {
     /// Irradiance of the receiver's surface, or of one facing the lamp if light counts from every side.
-    pub(super) plain: f32,
+    pub(super) diffuse: f32,
     /// The same, increased by the receiver's gloss.
-    pub(super) raised: f32,
+    pub(super) with_gloss: f32,
 }
 
 /// Light from infinity, hit by chance.
@@ -49,7 +49,7 @@ pub struct DistantLight<const N: usize> {
     /// Density with which the receiver's light samples would have given this direction, 1/sr.
     pub pdf: f32,
     /// True for light of the surroundings, but not of a sun.
-    pub surrounds: bool,
+    pub is_environment: bool,
 }
 
 /// The light that a surface point belongs to, as seen along a ray that hit it.
@@ -80,7 +80,7 @@ pub struct LightSampleContext {
     /// more care, at a higher cost. Without effect if there is `gloss`.
     pub in_view: bool,
     /// Number of lights that it samples, 1 or more. Densities of samples are those of all of them together.
-    pub draws: u32,
+    pub samples: u32,
     /// Time at which light is evaluated, s: as [`etendue_core::Ray::time_s`].
     pub time_s: f32,
 }
@@ -88,14 +88,14 @@ pub struct LightSampleContext {
 impl LightSampleContext {
     /// A diffuse receiver out of view, at the start of the view's interval.
     #[must_use]
-    pub fn matt(position: Vec3, normal: Vec3) -> Self {
-        Self { position, normal, gloss: None, in_view: false, draws: 1, time_s: 0.0 }
+    pub fn diffuse(position: Vec3, normal: Vec3) -> Self {
+        Self { position, normal, gloss: None, in_view: false, samples: 1, time_s: 0.0 }
     }
 
     /// A point in a medium, for which light counts from every side.
     #[must_use]
     pub(crate) fn in_medium(position: Vec3, time_s: f32) -> Self {
-        Self { time_s, ..Self::matt(position, Vec3::ZERO) }
+        Self { time_s, ..Self::diffuse(position, Vec3::ZERO) }
     }
 
     /// Light that the lobes reflect from a cone about a unit direction whose half angle has the sine `sin`, relative to the diffuse part

@@ -9,7 +9,7 @@
 //! often enough. A sample that falls on a sun behind the receiver's surface evaluates nothing, so that surfaces in shade do not sample the
 //! surroundings more often either. Figures are in `docs/decisions/surroundings.md`.
 
-use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
+use super::tree::{LightBounds, LightTree, DIFFUSE_FRACTION, TreeStart, TreeQuery};
 use super::{LightSampleContext, light_sample::LampIrradiance, sun::Sun};
 use crate::ALL_EFFECTS;
 
@@ -65,7 +65,7 @@ impl LightSampler {
     }
 
     /// True if there is more than one light to choose from.
-    pub(super) fn is_open(&self) -> bool {
+    pub(super) fn has_choice(&self) -> bool {
         let near = self.tree.as_ref().map_or(0, LightTree::len);
         near + self.suns.len() + usize::from(self.environment > 0.0) > 1
     }
@@ -74,19 +74,19 @@ impl LightSampler {
     /// ([`LightSampler::start`], [`LightSampler::local_share`]) serves all its samples.
     pub(super) fn sample<F: Fn(u32) -> LampIrradiance>(
         &self,
-        question: &TreeQuery<'_, F>,
-        start: &Start,
+        query: &TreeQuery<'_, F>,
+        start: &TreeStart,
         local: f32,
         u: f64,
     ) -> Option<SampledLight> {
         match &self.tree {
             Some(tree) if u < f64::from(local) => {
-                let (light, probability) = tree.pick(question, start, u / f64::from(local))?;
+                let (light, probability) = tree.sample(query, start, u / f64::from(local))?;
                 Some(SampledLight { id: LightId::Local(light), probability: local * probability })
             }
             _ => {
                 let rest = (u - f64::from(local)) / (1.0 - f64::from(local));
-                let light = self.sample_distant(question.receiver, rest as f32)?;
+                let light = self.sample_distant(query.receiver, rest as f32)?;
                 Some(SampledLight { probability: (1.0 - local) * light.probability, ..light })
             }
         }
@@ -98,7 +98,7 @@ impl LightSampler {
         let lights = suns.chain((self.environment > 0.0).then_some(LightId::Environment));
         let (mut rest, mut sampled) = (u, None);
         for id in lights {
-            let probability = self.share_of_distant(id, receiver);
+            let probability = self.distant_probability(id, receiver);
             if probability > 0.0 {
                 sampled = Some(SampledLight { id, probability });
                 if rest < probability {
@@ -112,65 +112,65 @@ impl LightSampler {
 
     /// The probability of a light at infinity among those at infinity: by its weight, and to [`MATT_SHARE`] by its weight for a diffuse
     /// receiver. Suns that the receiver faces away from keep their probabilities.
-    fn share_of_distant(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
-        let raised = self.plain_share_of_distant(light, receiver);
+    fn distant_probability(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
+        let raised = self.weighted_distant_probability(light, receiver);
         if receiver.gloss.is_none() {
             return raised;
         }
-        let matt = LightSampleContext { gloss: None, ..*receiver };
-        (1.0 - MATT_SHARE) * raised + MATT_SHARE * self.plain_share_of_distant(light, &matt)
+        let diffuse = LightSampleContext { gloss: None, ..*receiver };
+        (1.0 - DIFFUSE_FRACTION) * raised + DIFFUSE_FRACTION * self.weighted_distant_probability(light, &diffuse)
     }
 
-    fn plain_share_of_distant(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
+    fn weighted_distant_probability(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
         let counts = match light {
-            LightId::Sun(i) => self.of_sun(i, receiver),
+            LightId::Sun(i) => self.sun_weight(i, receiver),
             LightId::Environment => self.environment,
             LightId::Local(_) => 0.0,
         };
-        let total = (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment;
+        let total = (0..self.suns.len()).map(|i| self.sun_weight(i, receiver)).sum::<f32>() + self.environment;
         if counts > 0.0 { counts / total } else { 0.0 }
     }
 
     /// The probability with which [`LightSampler::sample`] returns a light.
-    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: LightId) -> f32 {
-        let start = self.start(question);
-        let local = self.local_share(question, &start);
+    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, light: LightId) -> f32 {
+        let start = self.start(query);
+        let local = self.local_fraction(query, &start);
         match (light, &self.tree) {
             (LightId::Local(_), None) => 0.0,
-            (LightId::Local(i), Some(tree)) => local * tree.probability(question, &start, i),
-            _ if !self.reaches(light, question.receiver) => 0.0,
-            _ => (1.0 - local) * self.share_of_distant(light, question.receiver),
+            (LightId::Local(i), Some(tree)) => local * tree.probability(query, &start, i),
+            _ if !self.reaches(light, query.receiver) => 0.0,
+            _ => (1.0 - local) * self.distant_probability(light, query.receiver),
         }
     }
 
     /// The receiver's start in the tree. It is large, so it is built in its final place.
     #[inline(always)]
-    pub(super) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
+    pub(super) fn start<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>) -> TreeStart {
         match &self.tree {
-            Some(tree) => tree.start(question),
-            None => Start::Only,
+            Some(tree) => tree.start(query),
+            None => TreeStart::Only,
         }
     }
 
     /// The fraction of the samples for lights in the scene.
     #[inline(always)]
-    pub(super) fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f32 {
+    pub(super) fn local_fraction<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, start: &TreeStart) -> f32 {
         let Some(tree) = &self.tree else { return 0.0 };
         if !(ALL_EFFECTS && self.has_distant) {
             return 1.0;
         }
-        let distant = self.distant_irradiance(question.receiver);
+        let distant = self.distant_irradiance(query.receiver);
         if distant <= 0.0 {
             return 1.0;
         }
-        let local = tree.irradiance(question, start) as f32;
+        let local = tree.irradiance(query, start) as f32;
         if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
     }
 
     /// Irradiance of the lights at infinity that may reach the receiver.
     fn distant_irradiance(&self, receiver: &LightSampleContext) -> f32 {
         let reaching = (0..self.suns.len()).filter(|i| self.reaches(LightId::Sun(*i), receiver));
-        reaching.map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
+        reaching.map(|i| self.sun_weight(i, receiver)).sum::<f32>() + self.environment
     }
 
     /// True if the receiver faces a light at infinity.
@@ -182,7 +182,7 @@ impl LightSampler {
     }
 
     /// The weight of a sun for a receiver that faces it.
-    fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
+    fn sun_weight(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let WeightedSun { sun, irradiance } = &self.suns[i];
         *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
     }
@@ -196,17 +196,17 @@ mod tests {
 
     /// Fractions of samples that fall on a sun and on surroundings of a third of its irradiance, and their probabilities, at a receiver.
     #[test]
-    fn a_sun_behind_the_surface_keeps_its_share_of_the_draws() {
-        let sun = Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");
+    fn a_sun_behind_the_surface_keeps_its_share_of_the_samples() {
+        let sun = Sun::from_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");
         let sampler = LightSampler::new(&[], vec![WeightedSun { sun, irradiance: 3.0 }], 1.0);
         for (normal, of_sun) in [(Vec3::Z, 0.75), (Vec3::ZERO, 0.75), (Vec3::NEG_Z, 0.0)] {
-            let receiver = LightSampleContext::matt(Vec3::ZERO, normal);
-            let question = TreeQuery { receiver: &receiver, lamp: |_| LampIrradiance::default() };
-            let start = sampler.start(&question);
-            let local = sampler.local_share(&question, &start);
+            let receiver = LightSampleContext::diffuse(Vec3::ZERO, normal);
+            let query = TreeQuery { receiver: &receiver, lamp: |_| LampIrradiance::default() };
+            let start = sampler.start(&query);
+            let local = sampler.local_fraction(&query, &start);
             let mut counts = [0; 3];
             for i in 0..1000 {
-                match sampler.sample(&question, &start, local, (f64::from(i) + 0.5) / 1000.0) {
+                match sampler.sample(&query, &start, local, (f64::from(i) + 0.5) / 1000.0) {
                     Some(SampledLight { id: LightId::Sun(0), probability }) => {
                         counts[0] += usize::from(probability == 0.75);
                     }
@@ -218,8 +218,8 @@ mod tests {
             }
             let sun_draws = (of_sun * 1000.0) as usize;
             assert_eq!(counts, [sun_draws, 250, 750 - sun_draws], "{normal}");
-            assert_eq!(sampler.probability(&question, LightId::Sun(0)), of_sun);
-            assert_eq!(sampler.probability(&question, LightId::Environment), 0.25);
+            assert_eq!(sampler.probability(&query, LightId::Sun(0)), of_sun);
+            assert_eq!(sampler.probability(&query, LightId::Environment), 0.25);
         }
     }
 }

@@ -42,7 +42,7 @@ mod triangle;
 use light::Light;
 use surface::{ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
 
-pub use crate::BRIGHTEST;
+pub use crate::MAX_LIGHT_VALUE;
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use gloss::ReceiverGloss;

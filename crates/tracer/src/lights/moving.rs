@@ -9,8 +9,8 @@ use etendue_core::{Motion, Spectral, TimeInterval};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::light_sample::{LampIrradiance, LightHit, LightSample, LightSampleContext};
-use super::sphere::{SphereLight, SphereLook};
-use super::triangle::{Facets, TriangleLight};
+use super::sphere::{SphereLight, SphereSurface};
+use super::triangle::{FlatShape, TriangleLight};
 use super::{lamp::LampLight, opening_light::OpeningLight, tree::LightBounds};
 use crate::materials::{EmissionQuery, MaterialTable};
 use crate::{MaterialId, geometry::SurfacePoint};
@@ -18,36 +18,36 @@ use crate::{MaterialId, geometry::SurfacePoint};
 /// A triangle, a parallelogram or a sphere in motion.
 #[derive(Clone, Debug)]
 pub(super) struct MovingLight {
-    shape: Shape,
+    shape: MovingShape,
     motion: LightMotion,
     material: MaterialId,
 }
 
 #[derive(Clone, Debug)]
-enum Shape {
-    Facets(Facets),
-    Sphere { radius_m: f64, look: SphereLook },
+enum MovingShape {
+    Facets(FlatShape),
+    Sphere { radius_m: f64, surface: SphereSurface },
 }
 
 impl MovingLight {
-    pub(super) fn of_facets(facets: Facets, motion: LightMotion, material: MaterialId) -> Self {
-        Self { shape: Shape::Facets(facets), motion, material }
+    pub(super) fn from_facets(facets: FlatShape, motion: LightMotion, material: MaterialId) -> Self {
+        Self { shape: MovingShape::Facets(facets), motion, material }
     }
 
-    pub(super) fn of_sphere(
+    pub(super) fn from_sphere(
         radius_m: f64,
         motion: LightMotion,
         material: MaterialId,
         material_table: &MaterialTable,
     ) -> Self {
-        Self { shape: Shape::Sphere { radius_m, look: SphereLook::of(material, material_table) }, motion, material }
+        Self { shape: MovingShape::Sphere { radius_m, surface: SphereSurface::new(material, material_table) }, motion, material }
     }
 
     /// Number of its triangles.
     pub(super) fn triangles(&self) -> usize {
         match &self.shape {
-            Shape::Facets(facets) => facets.triangles(),
-            Shape::Sphere { .. } => 0,
+            MovingShape::Facets(facets) => facets.triangles(),
+            MovingShape::Sphere { .. } => 0,
         }
     }
 
@@ -56,15 +56,15 @@ impl MovingLight {
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> Option<LightBounds> {
         let LightMotion { to_world, interval, .. } = &self.motion;
         match &self.shape {
-            Shape::Facets(facets) => {
+            MovingShape::Facets(facets) => {
                 let moments = self.motion.moments().filter_map(|place| facets.light(&place, self.material));
                 let bounds = moments.map(|light| light.bounds(radiance, both)).collect();
                 let (low, high) = to_world.bounds_over(*interval, facets.own_box());
                 self.motion.bounds(bounds, low, high)
             }
-            Shape::Sphere { radius_m, look } => {
+            MovingShape::Sphere { radius_m, surface } => {
                 let moments =
-                    self.motion.moments().map(|place| SphereLight::with_look(*radius_m, &place, self.material, *look));
+                    self.motion.moments().map(|place| SphereLight::with_surface(*radius_m, &place, self.material, *surface));
                 let bounds = moments.map(|light| light.bounds(radiance)).collect();
                 let (low, high) = to_world.bounds_of_ball(*interval, DVec3::ZERO, *radius_m);
                 self.motion.bounds(bounds, low, high)
@@ -83,8 +83,8 @@ impl MovingLight {
     ) -> Option<LightSample<N>> {
         let from = receiver.position;
         let (emission, sample) = match self.at(receiver.time_s)? {
-            Moment::Triangle(light) => (light.glowing(material_table), light.sample(from, u)?),
-            Moment::Sphere(light) => (light.glowing(material_table), light.sample(from, u)?),
+            FrozenLight::Triangle(light) => (light.glowing(material_table), light.sample(from, u)?),
+            FrozenLight::Sphere(light) => (light.glowing(material_table), light.sample(from, u)?),
         };
         emission.towards(&sample, from, spread_rad, query)
     }
@@ -92,25 +92,25 @@ impl MovingLight {
     /// Density of the point hit, without the probability of the choice, 1/sr.
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match self.at(hit.point.time_s) {
-            Some(Moment::Triangle(light)) => light.pdf(hit),
-            Some(Moment::Sphere(light)) => light.pdf(hit),
+            Some(FrozenLight::Triangle(light)) => light.pdf(hit),
+            Some(FrozenLight::Sphere(light)) => light.pdf(hit),
             None => 0.0,
         }
     }
 
-    fn at(&self, time_s: f32) -> Option<Moment> {
+    fn at(&self, time_s: f32) -> Option<FrozenLight> {
         let place = self.motion.at(self.motion.interval.moment(time_s));
         match &self.shape {
-            Shape::Facets(facets) => Some(Moment::Triangle(facets.light(&place, self.material)?)),
-            Shape::Sphere { radius_m, look } => {
-                Some(Moment::Sphere(SphereLight::with_look(*radius_m, &place, self.material, *look)))
+            MovingShape::Facets(facets) => Some(FrozenLight::Triangle(facets.light(&place, self.material)?)),
+            MovingShape::Sphere { radius_m, surface } => {
+                Some(FrozenLight::Sphere(SphereLight::with_surface(*radius_m, &place, self.material, *surface)))
             }
         }
     }
 }
 
 /// The light at one time.
-enum Moment {
+enum FrozenLight {
     Triangle(TriangleLight),
     Sphere(SphereLight),
 }
@@ -145,19 +145,19 @@ struct RigidMotion {
 
 impl MovingLamp {
     /// A point lamp built for the interval's start.
-    pub(super) fn of_point(motion: LightMotion, lamp: LampLight) -> Self {
+    pub(super) fn from_point(motion: LightMotion, lamp: LampLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         Self { motion, start, lamp: LampAtStart::Point(lamp) }
     }
 
     /// A lamp with an opening built for the interval's start.
-    pub(super) fn of_opening(motion: LightMotion, opening: OpeningLight) -> Self {
+    pub(super) fn from_opening(motion: LightMotion, opening: OpeningLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         let reach = DVec3::splat(f64::from(opening.bounds().radius));
         let (low, high) = motion.to_world.bounds_over(motion.interval, (-reach, reach));
         let [low, high] = motion.render_box(low, high);
         let farthest_m = low.abs().max(high.abs()).max_element();
-        Self { motion, start, lamp: LampAtStart::Opening(opening.carried_within(farthest_m)) }
+        Self { motion, start, lamp: LampAtStart::Opening(opening.moved_within(farthest_m)) }
     }
 
     /// True if it has an opening.
@@ -170,7 +170,7 @@ impl MovingLamp {
     pub(super) fn point(&self, time_s: f32) -> (Vec3, f32) {
         let at = self.motion.at(self.motion.interval.moment(time_s)).translation.as_vec3();
         match &self.lamp {
-            LampAtStart::Point(lamp) => (at, lamp.greatest()),
+            LampAtStart::Point(lamp) => (at, lamp.max_intensity()),
             LampAtStart::Opening(_) => (at, 0.0),
         }
     }
@@ -207,14 +207,14 @@ impl MovingLamp {
     ) -> Option<LightSample<N>> {
         let motion = self.motion_since_start(receiver.time_s);
         let from = motion.point_back(receiver.position);
-        let drawn = match &self.lamp {
+        let lamp_sample = match &self.lamp {
             LampAtStart::Point(lamp) => lamp.sample(from, query),
             LampAtStart::Opening(opening) => opening.sample(from, u, query),
         }?;
-        let direction = motion.direction_forward(drawn.direction);
+        let direction = motion.direction_forward(lamp_sample.direction);
         // By the vector to it, which is the same in both frames, so that it is rounded only once.
         let target = |target: Vec3| receiver.position + motion.vector_forward(target - from);
-        Some(LightSample { direction, target: drawn.target.map(target), ..drawn })
+        Some(LightSample { direction, target: lamp_sample.target.map(target), ..lamp_sample })
     }
 
     /// Density of the point hit, without the probability of the choice, 1/sr.
@@ -284,7 +284,7 @@ impl RigidMotion {
 }
 
 /// Times of an interval at which a light's intensity is evaluated.
-const MOMENTS: u32 = 16;
+const TIME_STEPS: u32 = 16;
 
 /// The motion of a light during a view's interval.
 #[derive(Clone, Debug)]
@@ -307,8 +307,8 @@ impl LightMotion {
 
     /// Transforms to the render frame at equidistant times of the interval, including both its ends.
     pub(super) fn moments(&self) -> impl Iterator<Item = DAffine3> {
-        let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
-        (0..=MOMENTS).map(move |i| self.at(self.interval.start_s() + self.interval.length_s() * part(i)))
+        let part = |i: u32| f64::from(i) / f64::from(TIME_STEPS);
+        (0..=TIME_STEPS).map(move |i| self.at(self.interval.start_s() + self.interval.length_s() * part(i)))
     }
 
     /// Bounds from those at some times, and the box of the whole motion. The intensity is the maximum. The cone is that of the start
@@ -316,12 +316,12 @@ impl LightMotion {
     pub(super) fn bounds(&self, moments: Vec<LightBounds>, low: DVec3, high: DVec3) -> Option<LightBounds> {
         let first = *moments.first()?;
         let intensity = moments.iter().map(|bounds| bounds.intensity).fold(0.0, f64::max);
-        let whole = LightBounds::of_surface(&self.render_box(low, high), intensity, None);
+        let over_interval = LightBounds::from_surface(&self.render_box(low, high), intensity, None);
         let theta_o = first.theta_o + self.turning();
-        if theta_o >= PI || moments.len() <= MOMENTS as usize {
-            return Some(whole);
+        if theta_o >= PI || moments.len() <= TIME_STEPS as usize {
+            return Some(over_interval);
         }
-        Some(LightBounds { axis: first.axis, theta_o, theta_e: first.theta_e, ..whole })
+        Some(LightBounds { axis: first.axis, theta_o, theta_e: first.theta_e, ..over_interval })
     }
 
     /// Minimum and maximum coordinates, render frame, m, of a box of the world, with a margin for rounding to f32.
@@ -355,16 +355,16 @@ mod tests {
             let rotation = DQuat::from_xyzw(sin * 0.6, sin * 0.8, 0.0, cos);
             Key { time_s: i, position_m: DVec3::new(3.0 * i, i * i, -i), rotation, scale: DVec3::splat(2.0) }
         };
-        for how in [Interpolation::Linear, Interpolation::Smooth] {
-            let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), how).expect("legal").into();
+        for interpolation in [Interpolation::Linear, Interpolation::Smooth] {
+            let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), interpolation).expect("legal").into();
             let interval = TimeInterval::new(0.4, 1.3).expect("in order");
             let motion = LightMotion { to_world, origin_m: DVec3::new(0.5, 0.2, 0.1), interval };
-            let light = MovingLight::of_facets(Facets::one(&mesh, 0), motion, MaterialId(0));
+            let light = MovingLight::from_facets(FlatShape::one(&mesh, 0), motion, MaterialId(0));
             let bounds = light.bounds(3.0, false).expect("an area");
             assert!(bounds.theta_o > 0.2 && bounds.theta_o < 2.0, "{bounds:?}");
             let mut widest: f32 = 0.0;
             for i in 0..=1000_u16 {
-                let Some(Moment::Triangle(moment)) = light.at(0.0009 * f32::from(i)) else { panic!("a triangle") };
+                let Some(FrozenLight::Triangle(moment)) = light.at(0.0009 * f32::from(i)) else { panic!("a triangle") };
                 let own = moment.bounds(3.0, false);
                 assert!(bounds.low.cmple(own.low).all() && own.high.cmple(bounds.high).all());
                 let angle = maths::f32::atan2(own.axis.cross(bounds.axis).length(), own.axis.dot(bounds.axis));

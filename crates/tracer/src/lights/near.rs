@@ -11,10 +11,10 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 const MIN_SR: f64 = 1e-5;
 
 /// Maximum distance of a near point, in radii of the light (from its middle to its farthest corner).
-const NEAR: f32 = 2.0;
+const NEAR_RADII: f32 = 2.0;
 
 /// Four roundings of f32.
-const EARLY: f32 = 4.0 * 0.5 * f32::EPSILON;
+const EARLY_HIT_ERROR: f32 = 4.0 * 0.5 * f32::EPSILON;
 
 /// A flat light: a corner and the two edges from it. If `doubled`, the same triangle lies again beyond the side that the edges leave open.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +26,8 @@ pub(super) struct FlatLight {
 
 impl FlatLight {
     /// A point, in fractions of the edges.
-    pub(super) fn at(&self, shares: Vec2) -> Vec3 {
-        self.corner + self.edges[0] * shares.x + self.edges[1] * shares.y
+    pub(super) fn at(&self, fractions: Vec2) -> Vec3 {
+        self.corner + self.edges[0] * fractions.x + self.edges[1] * fractions.y
     }
 
     /// Distance before a point of the light at which the accelerator may hit it, along the ray to it: some roundings of f32 of its length.
@@ -35,13 +35,13 @@ impl FlatLight {
     pub(super) fn early_m(&self) -> f32 {
         let [along, across] = self.edges;
         let length2 = along.length_squared().max(across.length_squared());
-        EARLY * length2 * length2.sqrt() / along.cross(across).length()
+        EARLY_HIT_ERROR * length2 * length2.sqrt() / along.cross(across).length()
     }
 
     /// The corners; of a triangle the last one twice.
     pub(super) fn corners(&self) -> [Vec3; 4] {
         let far = if self.doubled { Vec2::ONE } else { Vec2::Y };
-        [Vec2::ZERO, Vec2::X, Vec2::Y, far].map(|shares| self.at(shares))
+        [Vec2::ZERO, Vec2::X, Vec2::Y, far].map(|fractions| self.at(fractions))
     }
 }
 
@@ -53,10 +53,10 @@ pub(super) struct NearRegion {
 }
 
 impl NearRegion {
-    pub(super) fn of(flat: &FlatLight) -> Self {
+    pub(super) fn new(flat: &FlatLight) -> Self {
         let centre = flat.at(Vec2::splat(if flat.doubled { 0.5 } else { 1.0 / 3.0 }));
         let extent2 = flat.corners().map(|corner| corner.distance_squared(centre)).into_iter().fold(0.0, f32::max);
-        Self { centre, radius2: NEAR * NEAR * extent2 }
+        Self { centre, radius2: NEAR_RADII * NEAR_RADII * extent2 }
     }
 
     pub(super) fn holds(&self, from: Vec3) -> bool {
@@ -93,10 +93,10 @@ impl NearView {
     /// A point of the light, in fractions of its edges; `None` if rounding leaves no number.
     pub(super) fn place(&self, u: Vec2) -> Option<Vec2> {
         let u = u.as_dvec2();
-        let share = self.triangle.solid_angle_sr() / self.solid_angle_sr;
+        let fraction = self.triangle.solid_angle_sr() / self.solid_angle_sr;
         let direction = match &self.far {
-            Some(far) if u.x >= share => far.sample(DVec2::new((u.x - share) / (1.0 - share), u.y)),
-            _ => self.triangle.sample(DVec2::new((u.x / share).min(1.0), u.y)),
+            Some(far) if u.x >= fraction => far.sample(DVec2::new((u.x - fraction) / (1.0 - fraction), u.y)),
+            _ => self.triangle.sample(DVec2::new((u.x / fraction).min(1.0), u.y)),
         };
         let place = self.plane_coordinates(direction);
         let place = if self.far.is_some() { place } else { place / place.element_sum().max(1.0) };
@@ -179,7 +179,7 @@ mod tests {
     /// Cells along each edge.
     const CELLS: usize = 6;
     /// Samples along each dimension.
-    const DRAWS: usize = 300;
+    const SAMPLES: usize = 300;
 
     fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> FlatLight {
         FlatLight { corner, edges: [along, across], doubled }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     /// Solid angle of the part between fractions of the edges, cut along the light's own diagonal.
-    fn of_part(flat: &FlatLight, [i, j]: [usize; 2]) -> f64 {
+    fn part_solid_angle_sr(flat: &FlatLight, [i, j]: [usize; 2]) -> f64 {
         let at = |i: usize, j: usize| flat.at(Vec2::new(i as f32, j as f32) / CELLS as f32).as_dvec3();
         let solid_angle_sr = |corners: [DVec3; 3]| SphericalTriangle::new(corners).solid_angle_sr();
         let within = flat.doubled || i + j + 1 < CELLS;
@@ -210,11 +210,11 @@ mod tests {
     }
 
     #[test]
-    fn points_are_drawn_by_solid_angle() {
+    fn points_are_sampled_by_solid_angle() {
         for flat in flats() {
             let near = NearView::new(&flat, Vec3::ZERO).expect("it fills some of the directions");
             let mut counts = vec![0; CELLS * CELLS];
-            for k in 0..DRAWS * DRAWS {
+            for k in 0..SAMPLES * SAMPLES {
                 // A lattice of rank one: uniform, but not aligned with any cell.
                 let u = Vec2::new(
                     ((k as f64 * 0.754_877_666_246_69) % 1.0) as f32,
@@ -223,18 +223,18 @@ mod tests {
                 let place = near.place(u).expect("a point") * CELLS as f32;
                 counts[(place.x as usize).min(CELLS - 1) * CELLS + (place.y as usize).min(CELLS - 1)] += 1;
             }
-            let parts: Vec<f64> = (0..CELLS * CELLS).map(|k| of_part(&flat, [k / CELLS, k % CELLS])).collect();
-            let whole: f64 = parts.iter().sum();
-            assert!((whole / near.solid_angle_sr - 1.0).abs() < 1e-5, "{flat:?}: {whole} {}", near.solid_angle_sr);
-            assert!((f64::from(near.per_sr) * whole - 1.0).abs() < 1e-5);
-            let expected: Vec<f64> = parts.iter().map(|part| part / whole * (DRAWS * DRAWS) as f64).collect();
+            let parts: Vec<f64> = (0..CELLS * CELLS).map(|k| part_solid_angle_sr(&flat, [k / CELLS, k % CELLS])).collect();
+            let total: f64 = parts.iter().sum();
+            assert!((total / near.solid_angle_sr - 1.0).abs() < 1e-5, "{flat:?}: {total} {}", near.solid_angle_sr);
+            assert!((f64::from(near.per_sr) * total - 1.0).abs() < 1e-5);
+            let expected: Vec<f64> = parts.iter().map(|part| part / total * (SAMPLES * SAMPLES) as f64).collect();
             let test = chi_square::goodness_of_fit(&counts, &expected).expect("cells");
             assert!(test.p > 1e-3, "{flat:?}: {test:?}");
         }
     }
 
     #[test]
-    fn what_is_seen_edge_on_or_from_its_corner_is_not_drawn_by_solid_angle() {
+    fn what_is_seen_edge_on_or_from_its_corner_is_not_sampled_by_solid_angle() {
         let square = flat(Vec3::new(1.0, 0.0, 0.0), Vec3::X, Vec3::Y, true);
         assert!(NearView::new(&square, Vec3::ZERO).is_none());
         assert!(NearView::new(&square, Vec3::X).is_none());

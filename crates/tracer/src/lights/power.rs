@@ -16,21 +16,21 @@ use crate::materials::{Emission, EmissionSides, MaterialTable, Modulation};
 use crate::{MaterialId, accel::World};
 
 /// Minimum radius of the ball about a scene, m: surroundings emit even into an empty scene.
-const LEAST_RADIUS_M: f64 = 1e-3;
+const MIN_SCENE_RADIUS_M: f64 = 1e-3;
 
 /// Spectral flux of each source, W·nm⁻¹: emitting materials, lamps, suns, surroundings.
 #[must_use]
 pub fn spectral_fluxes(world: &World, material_table: &MaterialTable, sources: &Sources) -> Vec<Spectrum> {
-    let radius_m = world.radius_at_start_m().max(LEAST_RADIUS_M);
+    let radius_m = world.radius_at_start_m().max(MIN_SCENE_RADIUS_M);
     let of_distant = |irradiance: Spectrum| irradiance.scaled(PI * radius_m * radius_m);
     let suns = sources.suns.iter().map(Sun::irradiance).map(of_distant);
     let surroundings = sources.environment.iter().map(facing).map(of_distant);
-    let lamps = sources.lamps.iter().map(of_lamp);
-    of_surfaces(world, material_table).into_iter().chain(lamps).chain(suns).chain(surroundings).collect()
+    let lamps = sources.lamps.iter().map(lamp_flux);
+    surface_fluxes(world, material_table).into_iter().chain(lamps).chain(suns).chain(surroundings).collect()
 }
 
 /// Flux of each emitting material, from all surfaces that have it.
-fn of_surfaces(world: &World, material_table: &MaterialTable) -> Vec<Spectrum> {
+fn surface_fluxes(world: &World, material_table: &MaterialTable) -> Vec<Spectrum> {
     let mut areas_m2 = vec![0.0; material_table.materials().len()];
     for instance in world.instances() {
         let mut glowing: Vec<MaterialId> =
@@ -62,13 +62,13 @@ fn mean_radiance(emission: &Emission, material_table: &MaterialTable) -> Spectru
     }
 }
 
-fn of_lamp(lamp: &Lamp) -> Spectrum {
+fn lamp_flux(lamp: &Lamp) -> Spectrum {
     lamp.intensity().scaled(lamp.profile().flux_sr() * lamp.modulation().map_or(1.0, mean_level))
 }
 
 /// The mean over all times, or the maximum if nothing recurs.
 fn mean_level(waveform: &Waveform) -> f64 {
-    waveform.mean_level().unwrap_or_else(|| waveform.greatest_level())
+    waveform.mean_level().unwrap_or_else(|| waveform.max_level())
 }
 
 /// Irradiance of surroundings, W·m⁻²·nm⁻¹: of a surface under uniform radiance, in the mean over all directions of an image, of level
@@ -102,14 +102,14 @@ mod tests {
         let mut builder = WorldBuilder::new();
         builder.add_instance(Instance {
             shape: Shape::Sphere { radius_m: 0.5 },
-            to_world: Motion::still(DAffine3::from_scale(DVec3::splat(2.0))),
+            to_world: Motion::constant(DAffine3::from_scale(DVec3::splat(2.0))),
             materials: vec![MaterialId(0)],
             instance_id: 1,
             semantic_id: 0,
         });
         let world = builder.build().expect("legal");
         let lamp = Lamp::new(DVec3::ZERO, DMat3::IDENTITY, level(5.0), Profile::Isotropic).expect("legal");
-        let sun = Sun::of_irradiance(DVec3::Z, 0.5, &level(7.0)).expect("legal").with_limb();
+        let sun = Sun::from_irradiance(DVec3::Z, 0.5, &level(7.0)).expect("legal").with_limb();
         let environment = Some(Environment::Uniform(level(2.0)));
         let sources = Sources { suns: vec![sun], lamps: vec![lamp], environment };
         let fluxes: Vec<f32> = spectral_fluxes(&world, &table, &sources).iter().map(|s| s.at(550.0)).collect();

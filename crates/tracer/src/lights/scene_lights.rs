@@ -7,7 +7,7 @@ use super::collect::{self, LightError};
 use super::light::{Light, Primitives};
 use super::light_sample::{DistantLight, LampIrradiance, LightHit, LightSample, LightSampleContext};
 use super::light_sampler::{LightId, LightSampler, SampledLight, WeightedSun};
-use super::tree::{Start, TreeQuery};
+use super::tree::{TreeStart, TreeQuery};
 use super::{environment::Environment, lamp::Lamp, sun::Sun};
 use crate::materials::{EmissionQuery, MaterialTable};
 use crate::{ALL_EFFECTS, geometry::SurfacePoint, is_optional, render_space::RenderSpace};
@@ -40,7 +40,7 @@ impl Lights {
     ) -> Result<Self, LightError> {
         let are_modulated = sources.is_modulated();
         let Sources { suns, lamps, environment } = sources;
-        let mut scene_lights = collect::of_surfaces(view, material_table, range)?;
+        let mut scene_lights = collect::collect_surface_lights(view, material_table, range)?;
         for lamp in lamps {
             scene_lights.add_lamp(lamp, view, material_table, range)?;
         }
@@ -50,7 +50,7 @@ impl Lights {
         let weighted_suns: Vec<_> =
             suns.iter().map(|sun| WeightedSun { sun: sun.clone(), irradiance: irradiance(sun) }).collect();
         let of_suns = weighted_suns.iter().map(|sun| f64::from(sun.irradiance)).sum();
-        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(range, of_suns)) as f32;
+        let surroundings = environment.as_ref().map_or(0.0, |e| e.sampled_irradiance(range, of_suns)) as f32;
         let sampler = LightSampler::new(&scene_lights.bounds, weighted_suns, surroundings);
         let collect::SceneLights { lights, primitives, .. } = scene_lights;
         Ok(Self { lights, sampler, primitives, points, has_openings, are_modulated, suns, environment })
@@ -80,14 +80,14 @@ impl Lights {
 
     /// True if any light can be sampled.
     #[must_use]
-    pub fn can_be_drawn(&self) -> bool {
+    pub fn can_sample(&self) -> bool {
         self.sampler.is_possible()
     }
 
     /// True if there is more than one light to choose from; otherwise [`Lights::sample`] does not use the number that chooses.
     #[must_use]
     pub fn are_many(&self) -> bool {
-        self.sampler.is_open()
+        self.sampler.has_choice()
     }
 
     /// Samples a light and a direction towards it from the `receiver`; `None` if the sampled light sends nothing there. `spread_rad` is the
@@ -108,9 +108,9 @@ impl Lights {
     /// The sampler of a receiver: built once for all its samples.
     #[inline(always)]
     pub(crate) fn sampler_for<'a>(&'a self, receiver: &'a LightSampleContext) -> ReceiverLightSampler<'a> {
-        let question = self.question(receiver);
-        let start = self.sampler.start(&question);
-        let local = self.sampler.local_share(&question, &start);
+        let query = self.tree_query(receiver);
+        let start = self.sampler.start(&query);
+        let local = self.sampler.local_fraction(&query, &start);
         ReceiverLightSampler { lights: self, receiver, start, local }
     }
 
@@ -134,7 +134,7 @@ impl Lights {
             is_optional();
             self.sample_of_other(light.id, receiver, u, spread_rad, material_table, query)?
         };
-        let pdf = sample.pdf * light.probability * receiver.draws as f32;
+        let pdf = sample.pdf * light.probability * receiver.samples as f32;
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
@@ -164,7 +164,7 @@ impl Lights {
         }
     }
 
-    pub(super) fn question<'a>(
+    pub(super) fn tree_query<'a>(
         &'a self,
         receiver: &'a LightSampleContext,
     ) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
@@ -191,14 +191,14 @@ impl Lights {
             Light::MovingLamp(lamp) => lamp.pdf(hit),
             Light::Lamp(_) => 0.0,
         };
-        let probability = self.sampler.probability(&self.question(hit.receiver), LightId::Local(i));
-        pdf * probability * hit.receiver.draws as f32
+        let probability = self.sampler.probability(&self.tree_query(hit.receiver), LightId::Local(i));
+        pdf * probability * hit.receiver.samples as f32
     }
 
     /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has hit at `point`; `None` if the surface is
     /// no opening, or its side does not emit.
     #[inline(always)]
-    pub(crate) fn of_opening<const N: usize>(
+    pub(crate) fn opening_radiance<const N: usize>(
         &self,
         point: &SurfacePoint,
         direction: Vec3,
@@ -223,22 +223,22 @@ impl Lights {
         receiver: Option<&'a LightSampleContext>,
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
-        let drawn = move |light: LightId| {
+        let sample_probability = move |light: LightId| {
             receiver.map_or(0.0, |receiver| {
-                self.sampler.probability(&self.question(receiver), light) * receiver.draws as f32
+                self.sampler.probability(&self.tree_query(receiver), light) * receiver.samples as f32
             })
         };
         let suns =
             self.suns.iter().filter(|_| ALL_EFFECTS).enumerate().filter(move |(_, sun)| sun.covers(direction)).map(
                 move |(i, sun)| {
-                    let pdf = sun.pdf() * drawn(LightId::Sun(i));
-                    DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
+                    let pdf = sun.pdf() * sample_probability(LightId::Sun(i));
+                    DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, is_environment: false }
                 },
             );
         let environment = self.environment.iter().filter(|_| ALL_EFFECTS).map(move |environment| {
             let (radiance, pdf) = environment.radiance_and_pdf(direction, receiver.is_some(), wavelengths);
-            let pdf = if pdf > 0.0 { pdf * drawn(LightId::Environment) } else { 0.0 };
-            DistantLight { radiance, pdf, surrounds: true }
+            let pdf = if pdf > 0.0 { pdf * sample_probability(LightId::Environment) } else { 0.0 };
+            DistantLight { radiance, pdf, is_environment: true }
         });
         suns.chain(environment)
     }
@@ -248,7 +248,7 @@ impl Lights {
 pub(crate) struct ReceiverLightSampler<'a> {
     lights: &'a Lights,
     receiver: &'a LightSampleContext,
-    start: Start,
+    start: TreeStart,
     /// The fraction of the samples for lights in the scene.
     local: f32,
 }
@@ -267,7 +267,7 @@ impl ReceiverLightSampler<'_> {
         let Self { lights, receiver, start, local } = self;
         // Deep in a tree the choice needs more digits than one number has; the effect on the place on the light is negligible.
         let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
-        let light = lights.sampler.sample(&lights.question(receiver), start, *local, fine)?;
+        let light = lights.sampler.sample(&lights.tree_query(receiver), start, *local, fine)?;
         lights.sample_of(light, receiver, u, spread_rad, material_table, query)
     }
 }

@@ -31,7 +31,7 @@ const COLUMNS: usize = 256;
 const ROWS: usize = 128;
 
 /// Bands whose mean weights directions: 440 to 640 nm.
-const SEEN: core::ops::RangeInclusive<usize> = 3..=8;
+const WEIGHTED_BANDS: core::ops::RangeInclusive<usize> = 3..=8;
 
 /// Height and width of a cell, rad.
 const CELL: (f64, f64) = (core::f64::consts::FRAC_PI_2 / ROWS as f64, core::f64::consts::TAU / COLUMNS as f64);
@@ -76,9 +76,9 @@ impl SkyEnvironment {
     #[must_use]
     pub fn new(model: &SkyModel, azimuth_rad: f64, albedo: f64, sun_on_ground: &Spectrum) -> Option<Self> {
         let irradiance = model.horizontal_irradiance();
-        let share = albedo / core::f64::consts::PI;
-        let ground = Spectrum::from_fn(|nm| share * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
-        let glow = towards(azimuth_rad, model.glow_elevation_rad());
+        let fraction = albedo / core::f64::consts::PI;
+        let ground = Spectrum::from_fn(|nm| fraction * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
+        let emission = towards(azimuth_rad, model.glow_elevation_rad());
         let [gradient, around] = tables(model);
         let weights = weights(model);
         let cells = weights
@@ -86,7 +86,7 @@ impl SkyEnvironment {
             .enumerate()
             .map(|(k, weight)| EnvironmentCell { weight: f64::from(*weight), solid_angle: solid_angle(k / COLUMNS) });
         Some(Self {
-            glow: glow.as_vec3(),
+            glow: emission.as_vec3(),
             azimuth_turns: (azimuth_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32,
             gradient,
             around,
@@ -108,7 +108,7 @@ impl SkyEnvironment {
         let root = direction.z.min(1.0).sqrt();
         // sin(γ/2), half the chord; without loss near the sun.
         let around = (0.5 * (direction - self.glow).length()).min(1.0).sqrt();
-        let (gradient, around) = (Place::of(root), Place::of(around));
+        let (gradient, around) = (TablePosition::new(root), TablePosition::new(around));
         let band = |b: usize| gradient.read(&self.gradient, b) * (around.read(&self.around, b) + self.rise[b] * root);
         Spectral(wavelengths.nm.map(|nm| {
             let x = ((nm - FIRST_NM as f32) * (1.0 / STEP_NM as f32)).clamp(0.0, (BANDS - 1) as f32);
@@ -145,7 +145,7 @@ impl SkyEnvironment {
         let (sin_e, cos_e) = sin_cos(place.y * FRAC_PI_2);
         let direction = Vec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
         let pdf = by_area / (TAU * FRAC_PI_2 * cos_e);
-        LightSample::of_surroundings(direction, self.radiance(direction, wavelengths), pdf)
+        LightSample::from_environment(direction, self.radiance(direction, wavelengths), pdf)
     }
 }
 
@@ -157,13 +157,13 @@ fn towards(azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
 }
 
 /// A place in a table over [0, 1].
-struct Place {
+struct TablePosition {
     node: usize,
     t: f32,
 }
 
-impl Place {
-    fn of(x: f32) -> Self {
+impl TablePosition {
+    fn new(x: f32) -> Self {
         let x = x * STEPS as f32;
         let node = (x as i32 as usize).min(STEPS - 1);
         Self { node, t: x - node as f32 }
@@ -187,17 +187,17 @@ fn tables(model: &SkyModel) -> [Vec<Bands>; 2] {
 /// Mean radiance of each cell, over its corners and middle, times the cell's solid angle.
 fn weights(model: &SkyModel) -> Vec<f32> {
     let (height, width) = CELL;
-    let glow = towards(0.0, model.glow_elevation_rad());
-    let seen = |row: f64, column: f64| {
+    let emission = towards(0.0, model.glow_elevation_rad());
+    let actual = |row: f64, column: f64| {
         let direction = towards(column * width, (row * height).min(core::f64::consts::FRAC_PI_2));
-        let bands = model.band_radiances(direction.z.clamp(0.0, 1.0), direction.dot(glow).clamp(-1.0, 1.0));
-        bands[SEEN].iter().sum::<f64>()
+        let bands = model.band_radiances(direction.z.clamp(0.0, 1.0), direction.dot(emission).clamp(-1.0, 1.0));
+        bands[WEIGHTED_BANDS].iter().sum::<f64>()
     };
     let corners: Vec<f64> =
-        (0..=ROWS).flat_map(|j| (0..=COLUMNS).map(move |i| (j, i))).map(|(j, i)| seen(j as f64, i as f64)).collect();
+        (0..=ROWS).flat_map(|j| (0..=COLUMNS).map(move |i| (j, i))).map(|(j, i)| actual(j as f64, i as f64)).collect();
     let cell = |j: usize, i: usize| {
         let at = |j: usize, i: usize| corners[j * (COLUMNS + 1) + i];
-        let middle = seen(j as f64 + 0.5, i as f64 + 0.5);
+        let middle = actual(j as f64 + 0.5, i as f64 + 0.5);
         0.125 * (at(j, i) + at(j, i + 1) + at(j + 1, i) + at(j + 1, i + 1)) + 0.5 * middle
     };
     let means: Vec<f64> = (0..ROWS).flat_map(|j| (0..COLUMNS).map(move |i| (j, i))).map(|(j, i)| cell(j, i)).collect();
@@ -234,37 +234,37 @@ mod tests {
     fn tables_are_the_model() {
         for (turbidity, elevation_deg) in [(1.0, 2.0), (3.0, 40.0), (10.0, 89.0), (2.0, -4.0)] {
             let (model, sky) = sky(turbidity, elevation_deg);
-            let glow = towards(0.7, model.glow_elevation_rad());
-            let near = (0..50).map(|i| (glow + 1e-3 * f64::from(i) * DVec3::new(0.3, 0.1, 1.0)).normalize().as_vec3());
+            let emission = towards(0.7, model.glow_elevation_rad());
+            let near = (0..50).map(|i| (emission + 1e-3 * f64::from(i) * DVec3::new(0.3, 0.1, 1.0)).normalize().as_vec3());
             for direction in lattice(2000).map(uniform_sphere).chain(near).filter(|d| d.z >= 0.0) {
-                let cos_sun = direction.as_dvec3().dot(glow).clamp(-1.0, 1.0);
+                let cos_sun = direction.as_dvec3().dot(emission).clamp(-1.0, 1.0);
                 let exact = model.radiance(f64::from(direction.z), cos_sun);
-                let got = sky.radiance(direction, &WAVELENGTHS);
-                for (nm, got) in WAVELENGTHS.nm.iter().zip(got.0) {
+                let actual = sky.radiance(direction, &WAVELENGTHS);
+                for (nm, actual) in WAVELENGTHS.nm.iter().zip(actual.0) {
                     let exact = exact.at(*nm);
                     // Where gradient and glow nearly cancel (low over the horizon), errors are those of their terms.
-                    assert!((got - exact).abs() <= 1e-3 * exact + 2e-5, "{direction} {nm}: {got} {exact}");
+                    assert!((actual - exact).abs() <= 1e-3 * exact + 2e-5, "{direction} {nm}: {actual} {exact}");
                 }
             }
         }
     }
 
     #[test]
-    fn draws_give_the_irradiance_and_the_densities_that_are_told() {
+    fn samples_give_the_irradiance_and_the_densities_that_are_reported() {
         for (turbidity, elevation_deg) in [(2.0, 5.0), (4.0, 60.0)] {
             let (model, sky) = sky(turbidity, elevation_deg);
-            let (n, mut sums, mut apart, mut share) = (1 << 15, [0.0; 4], 0, 0.0);
+            let (n, mut sums, mut apart, mut fraction) = (1 << 15, [0.0; 4], 0, 0.0);
             for u in lattice(n) {
                 let sample = sky.sample(u, &WAVELENGTHS).expect("light");
-                let told = sky.pdf(sample.direction);
-                apart += usize::from((told - sample.pdf).abs() > 1e-3 * sample.pdf);
+                let pdf = sky.pdf(sample.direction);
+                apart += usize::from((pdf - sample.pdf).abs() > 1e-3 * sample.pdf);
                 let cos = f64::from(sample.direction.z);
                 (0..4).for_each(|k| sums[k] += f64::from(sample.radiance[k]) * cos / f64::from(sample.pdf));
-                share += f64::from(sky.pdf(uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
+                fraction += f64::from(sky.pdf(uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
             }
             // Only on the borders of cells may rounding give the neighbour's density.
             assert!(apart < 200, "{apart} of {n} densities differ");
-            assert!((share / f64::from(n) - 1.0).abs() < 5e-3, "{}", share / f64::from(n));
+            assert!((fraction / f64::from(n) - 1.0).abs() < 5e-3, "{}", fraction / f64::from(n));
             let expected = model.horizontal_irradiance();
             for (nm, sum) in WAVELENGTHS.nm.iter().zip(sums) {
                 let ratio = sum / f64::from(n) / f64::from(expected.at(*nm));
@@ -277,8 +277,8 @@ mod tests {
     #[test]
     fn the_ground_throws_back_its_share() {
         let (model, sky) = sky(3.0, 30.0);
-        let got = sky.radiance(Vec3::new(0.6, 0.0, -0.8), &WAVELENGTHS)[1];
+        let actual = sky.radiance(Vec3::new(0.6, 0.0, -0.8), &WAVELENGTHS)[1];
         let expected = 0.3 / core::f32::consts::PI * (model.horizontal_irradiance().at(450.0) + 0.5);
-        assert!((got / expected - 1.0).abs() < 1e-5 && sky.pdf(Vec3::NEG_Z) == 0.0);
+        assert!((actual / expected - 1.0).abs() < 1e-5 && sky.pdf(Vec3::NEG_Z) == 0.0);
     }
 }

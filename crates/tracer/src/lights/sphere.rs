@@ -33,21 +33,21 @@ pub(super) struct SphereLight {
 
 /// Properties of a sphere's material that determine its sampling.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SphereLook {
+pub(super) struct SphereSurface {
     /// True if light passes through its surface.
     lets_pass: bool,
     /// True if texture coordinates are needed.
     textured: bool,
 }
 
-impl SphereLook {
-    pub(super) fn of(material: MaterialId, material_table: &MaterialTable) -> Self {
+impl SphereSurface {
+    pub(super) fn new(material: MaterialId, material_table: &MaterialTable) -> Self {
         Self { lets_pass: material_table.lets_pass(material), textured: material_table.needs_footprint(material) }
     }
 }
 
 /// The cone that a round sphere covers, seen from outside.
-struct Cone {
+struct SphereCone {
     axis: Vec3,
     distance: f32,
     one_minus_cos: f32,
@@ -60,11 +60,11 @@ impl SphereLight {
         material: MaterialId,
         material_table: &MaterialTable,
     ) -> Self {
-        Self::with_look(radius_m, to_render, material, SphereLook::of(material, material_table))
+        Self::with_surface(radius_m, to_render, material, SphereSurface::new(material, material_table))
     }
 
     /// A sphere of a material with these properties.
-    pub(super) fn with_look(radius_m: f64, to_render: &DAffine3, material: MaterialId, look: SphereLook) -> Self {
+    pub(super) fn with_surface(radius_m: f64, to_render: &DAffine3, material: MaterialId, surface: SphereSurface) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -73,11 +73,11 @@ impl SphereLight {
             linear: linear.as_mat3(),
             normals: linear.inverse().transpose().as_mat3(),
             determinant: linear.determinant().abs() as f32,
-            radius: round_radius(&linear).filter(|_| !look.lets_pass).map(|r| r as f32),
+            radius: round_radius(&linear).filter(|_| !surface.lets_pass).map(|r| r as f32),
             area_m2: mean_area(&linear),
             error_m: ROUNDING * (centre.abs().max_element() + longest as f32),
             material,
-            textured: look.textured,
+            textured: surface.textured,
         }
     }
 
@@ -86,16 +86,16 @@ impl SphereLight {
         let rows = self.linear.transpose();
         let half = Vec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
         let points = [self.centre - half, self.centre + half];
-        let bounds = LightBounds::of_surface(&points, 0.25 * radiance * self.area_m2, None);
+        let bounds = LightBounds::from_surface(&points, 0.25 * radiance * self.area_m2, None);
         // Margin for rounding.
         LightBounds { radius: half.max_element().min(bounds.radius) * (1.0 + 1e-5), ..bounds }
     }
 
     /// The cone that it covers, with its radius, seen from outside; `None` from inside or if it is not round.
-    fn cone(&self, from: Vec3) -> Option<(Cone, f32)> {
+    fn cone(&self, from: Vec3) -> Option<(SphereCone, f32)> {
         let radius = self.radius?;
-        let way = self.centre - from;
-        let distance = way.length();
+        let to_light = self.centre - from;
+        let distance = to_light.length();
         let sin = radius / distance;
         // A point on the sphere itself is inside to the precision of f32.
         if sin.is_nan() || sin >= 1.0 - 1e-6 {
@@ -103,7 +103,7 @@ impl SphereLight {
         }
         let sin2 = sin * sin;
         let one_minus_cos = sin2 / (1.0 + (1.0 - sin2).sqrt());
-        (one_minus_cos > 0.0).then_some((Cone { axis: way / distance, distance, one_minus_cos }, radius))
+        (one_minus_cos > 0.0).then_some((SphereCone { axis: to_light / distance, distance, one_minus_cos }, radius))
     }
 
     pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
@@ -113,7 +113,7 @@ impl SphereLight {
         }
     }
 
-    fn sample_cone(&self, cone: &Cone, radius: f32, from: Vec3, u: Vec2) -> SurfaceSample {
+    fn sample_cone(&self, cone: &SphereCone, radius: f32, from: Vec3, u: Vec2) -> SurfaceSample {
         let local = uniform_cone(u, cone.one_minus_cos);
         let direction = Basis::about(cone.axis).outward(local);
         // Not by 1 − z²: for a small cone few digits of z are left, and points beyond the limb would be sampled.
@@ -122,8 +122,8 @@ impl SphereLight {
         let normal = (from + direction * near - self.centre).normalize_or(-cone.axis);
         let (uv, uv_per_m) = self.texture(self.linear.transpose() * normal);
         let pdf = 1.0 / (TAU * cone.one_minus_cos);
-        let way = self.centre + normal * radius - from;
-        SurfaceSample { way, distance: way.length(), normal, pdf, uv, uv_per_m }
+        let to_light = self.centre + normal * radius - from;
+        SurfaceSample { to_light: way: to_light, distance: to_light.length(), normal, pdf, uv, uv_per_m }
     }
 
     fn sample_area(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
@@ -131,11 +131,11 @@ impl SphereLight {
         let stretched = self.normals * own;
         let per_area = 1.0 / (4.0 * PI * self.determinant * stretched.length());
         let normal = stretched.normalize_or(own);
-        let way = self.centre + self.linear * own - from;
-        let distance = way.length();
-        let pdf = solid_angle_pdf(per_area, way, distance, normal);
+        let to_light = self.centre + self.linear * own - from;
+        let distance = to_light.length();
+        let pdf = solid_angle_pdf(per_area, to_light, distance, normal);
         let (uv, uv_per_m) = self.texture(own);
-        (pdf > 0.0).then_some(SurfaceSample { way, distance, normal, pdf, uv, uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample { to_light: way: to_light, distance, normal, pdf, uv, uv_per_m })
     }
 
     /// Texture coordinates where the sphere's own normal is along `own`, and their change per metre.

@@ -12,7 +12,7 @@ use etendue_spectra::Spectrum;
 use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, sun as model};
 use glam::{DVec3, Vec2, Vec3};
 
-use super::{BRIGHTEST, LightSample};
+use super::{MAX_LIGHT_VALUE, LightSample};
 
 /// Mean angular diameter of the sun, degrees.
 pub const SUN_ANGULAR_DIAMETER_DEG: f64 = 0.5338;
@@ -55,12 +55,12 @@ impl Sun {
     ///
     /// # Errors
     /// If the direction is zero, the diameter out of range, or the radiance negative.
-    pub fn of_radiance(direction: DVec3, angular_diameter_deg: f64, radiance: Spectrum) -> Result<Self, SunError> {
+    pub fn from_radiance(direction: DVec3, angular_diameter_deg: f64, radiance: Spectrum) -> Result<Self, SunError> {
         let z = direction.try_normalize().ok_or(SunError::Direction)?;
         if !(1e-3..=90.0).contains(&angular_diameter_deg) {
             return Err(SunError::Diameter { degrees: angular_diameter_deg });
         }
-        if !(radiance.min_value() >= 0.0 && radiance.max_value() <= BRIGHTEST) {
+        if !(radiance.min_value() >= 0.0 && radiance.max_value() <= MAX_LIGHT_VALUE) {
             return Err(SunError::Radiance);
         }
         let sin = maths::f64::sin(0.5 * angular_diameter_deg.to_radians());
@@ -73,10 +73,10 @@ impl Sun {
     ///
     /// # Errors
     /// As [`Sun::of_radiance`].
-    pub fn of_irradiance(direction: DVec3, angular_diameter_deg: f64, irradiance: &Spectrum) -> Result<Self, SunError> {
-        let sun = Self::of_radiance(direction, angular_diameter_deg, irradiance.clone())?;
+    pub fn from_irradiance(direction: DVec3, angular_diameter_deg: f64, irradiance: &Spectrum) -> Result<Self, SunError> {
+        let sun = Self::from_radiance(direction, angular_diameter_deg, irradiance.clone())?;
         let radiance = irradiance.scaled(1.0 / (core::f64::consts::PI * sun.sin2));
-        Self::of_radiance(direction, angular_diameter_deg, radiance)
+        Self::from_radiance(direction, angular_diameter_deg, radiance)
     }
 
     /// Adds the limb darkening of the real sun at the same irradiance: the centre becomes brighter.
@@ -162,7 +162,7 @@ impl Sun {
     pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> LightSample<N> {
         let direction = self.basis.outward(uniform_cone(u, self.one_minus_cos));
         let radiance = self.radiance_from(direction, wavelengths);
-        LightSample { direction, target: None, radiance, pdf: self.pdf(), delta: false, surrounds: false }
+        LightSample { direction, target: None, radiance, pdf: self.pdf(), delta: false, is_environment: false }
     }
 }
 
@@ -173,14 +173,14 @@ mod tests {
     #[test]
     fn irradiance_is_radiance_times_the_projected_solid_angle() {
         let irradiance = Spectrum::constant(1.5);
-        let sun = Sun::of_irradiance(DVec3::new(1.0, 2.0, 3.0), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
+        let sun = Sun::from_irradiance(DVec3::new(1.0, 2.0, 3.0), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
         assert!((f64::from(sun.radiance().at(550.0)) * 6.8171e-5 - 1.5).abs() < 1e-4);
         assert!((sun.mean_irradiance(400.0, 700.0) - 1.5).abs() < 1e-6);
     }
 
     #[test]
-    fn draws_lie_on_the_disc_and_its_edge_is_sharp() {
-        let sun = Sun::of_radiance(DVec3::new(0.3, -0.2, 0.9), 0.5338, Spectrum::constant(1.0)).expect("a sun");
+    fn samples_lie_on_the_disc_and_its_edge_is_sharp() {
+        let sun = Sun::from_radiance(DVec3::new(0.3, -0.2, 0.9), 0.5338, Spectrum::constant(1.0)).expect("a sun");
         let half = 0.2669_f32.to_radians();
         for i in 0..1000 {
             let u = Vec2::new(i as f32 / 1000.0 * 0.999, (i * 7 % 1000) as f32 / 1000.0);
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_dark_limb_keeps_the_irradiance_and_has_the_centre_of_the_table() {
         let irradiance = model::normal_irradiance(3.0, 1.0).expect("a sun");
-        let sun = Sun::of_irradiance(DVec3::new(0.2, 0.5, 0.7), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
+        let sun = Sun::from_irradiance(DVec3::new(0.2, 0.5, 0.7), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
         let sun = sun.with_limb();
         let table = model::radiance(3.0, 1.0).expect("a radiance");
         for nm in [330.0, 450.0, 555.0, 700.0, 1000.0] {
@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_sun_rises_with_its_upper_edge() {
-        let sun = Sun::of_radiance(DVec3::Z, 0.5338, Spectrum::constant(1.0)).expect("a sun");
+        let sun = Sun::from_radiance(DVec3::Z, 0.5338, Spectrum::constant(1.0)).expect("a sun");
         for (below_deg, rises) in [(-1.0_f32, true), (0.266, true), (0.27, false), (30.0, false)] {
             let (sin, cos) = maths::f32::sin_cos(below_deg.to_radians());
             assert_eq!(sun.rises_over(Vec3::new(cos, 0.0, -sin)), rises, "{below_deg}");
@@ -232,8 +232,8 @@ mod tests {
     #[test]
     fn suns_that_are_none_are_refused() {
         let light = Spectrum::constant(1.0);
-        assert_eq!(Sun::of_radiance(DVec3::ZERO, 0.5, light.clone()), Err(SunError::Direction));
-        assert_eq!(Sun::of_radiance(DVec3::Z, 0.0, light), Err(SunError::Diameter { degrees: 0.0 }));
-        assert_eq!(Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(-1.0)), Err(SunError::Radiance));
+        assert_eq!(Sun::from_radiance(DVec3::ZERO, 0.5, light.clone()), Err(SunError::Direction));
+        assert_eq!(Sun::from_radiance(DVec3::Z, 0.0, light), Err(SunError::Diameter { degrees: 0.0 }));
+        assert_eq!(Sun::from_radiance(DVec3::Z, 0.5, Spectrum::constant(-1.0)), Err(SunError::Radiance));
     }
 }

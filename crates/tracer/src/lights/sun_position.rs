@@ -223,9 +223,9 @@ mod tests {
         assert_eq!(rows.len(), 80);
         for row in rows {
             let number = |i: usize| row[i].as_f64().expect("a number");
-            let got = sun_position(parsed(row[0].as_str().expect("a time")), number(1), number(2)).expect("a place");
-            let (azimuth, elevation) = (got.azimuth_rad.to_degrees(), got.elevation_rad.to_degrees());
-            let aside = ((azimuth - number(3) + 540.0).rem_euclid(360.0) - 180.0) * cos(got.elevation_rad);
+            let actual = sun_position(parsed(row[0].as_str().expect("a time")), number(1), number(2)).expect("a place");
+            let (azimuth, elevation) = (actual.azimuth_rad.to_degrees(), actual.elevation_rad.to_degrees());
+            let aside = ((azimuth - number(3) + 540.0).rem_euclid(360.0) - 180.0) * cos(actual.elevation_rad);
             let off = (aside * aside + (elevation - number(4)) * (elevation - number(4))).sqrt();
             // The stated accuracy: Meeus' lower accuracy.
             assert!(off < 0.01, "{row}: {azimuth} {elevation}, off by {off}");
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_or_place_is_told() {
+    fn what_is_no_time_or_place_is_reported() {
         let error = |date, time| UtcTime::new(date, time).expect_err("a fault").to_string();
         assert!(error(date(1899, 1, 1), time(0, 0, 0.0)).starts_with("year 1899 is outside 1900 to 2100"));
         assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a calendar date"));

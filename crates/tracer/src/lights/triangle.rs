@@ -28,11 +28,11 @@ pub(super) struct TriangleLight {
 impl TriangleLight {
     /// `None` if rounding leaves no area: such a triangle sends no light that could be sampled.
     pub(super) fn new(mesh: &Mesh, primitive: usize, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
-        Facets::one(mesh, primitive).light(to_render, material)
+        FlatShape::one(mesh, primitive).light(to_render, material)
     }
 
-    fn of_corners(corners: &Corners, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
-        let Corners { own, uvs } = *corners;
+    fn from_corners(corners: &TriangleCorners, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
+        let TriangleCorners { own, uvs } = *corners;
         let [a, b, c] = own.map(|p| to_render.transform_point3(p.as_dvec3()));
         let doubled = (b - a).cross(c - a) * 1.0_f64.copysign(to_render.matrix3.determinant());
         let per_area = (2.0 / doubled.length()) as f32;
@@ -43,7 +43,7 @@ impl TriangleLight {
             flat,
             normal: doubled.normalize_or_zero().as_vec3(),
             per_area,
-            nearness: NearRegion::of(&flat),
+            nearness: NearRegion::new(&flat),
             uvs,
             uv_per_m: (0.5 * uv_area * per_area).sqrt(),
             error_m: error_bound(own, linear, to_render.translation.as_vec3()),
@@ -53,13 +53,13 @@ impl TriangleLight {
     }
 
     /// The parallelogram of two triangles of a mesh; `None` if they form none, to the rounding of coordinates.
-    pub(super) fn of_two(
+    pub(super) fn from_parallelogram(
         mesh: &Mesh,
         primitives: [usize; 2],
         to_render: &DAffine3,
         material: MaterialId,
     ) -> Option<Self> {
-        Facets::two(mesh, primitives)?.light(to_render, material)
+        FlatShape::two(mesh, primitives)?.light(to_render, material)
     }
 
     /// Number of its triangles.
@@ -90,8 +90,8 @@ impl TriangleLight {
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
         let corners = self.flat.corners();
         // A side's intensity falls by the cosine, whose mean over all directions is one half.
-        let share = if both { 0.5 } else { 1.0 };
-        LightBounds::of_surface(&corners, share * radiance * self.area_m2(), (!both).then_some(self.normal))
+        let fraction = if both { 0.5 } else { 1.0 };
+        LightBounds::from_surface(&corners, fraction * radiance * self.area_m2(), (!both).then_some(self.normal))
     }
 
     #[inline(always)]
@@ -102,11 +102,11 @@ impl TriangleLight {
             None if self.flat.doubled => u,
             None => uniform_triangle(u),
         };
-        let way = self.flat.at(b) - from;
-        let distance = way.length();
-        let pdf = self.density(near.as_ref(), way, distance);
+        let to_light = self.flat.at(b) - from;
+        let distance = to_light.length();
+        let pdf = self.density(near.as_ref(), to_light, distance);
         let uv = self.uvs[0] * (1.0 - b.x - b.y) + self.uvs[1] * b.x + self.uvs[2] * b.y;
-        (pdf > 0.0).then_some(SurfaceSample { way, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample { to_light: way: to_light, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
     }
 
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
@@ -116,10 +116,10 @@ impl TriangleLight {
 
     /// Density by solid angle of the point at the end of `way`.
     #[inline(always)]
-    fn density(&self, near: Option<&NearView>, way: Vec3, distance: f32) -> f32 {
+    fn density(&self, near: Option<&NearView>, to_light: Vec3, distance: f32) -> f32 {
         match near {
             Some(near) => near.per_sr,
-            None => solid_angle_pdf(self.per_area, way, distance, self.normal),
+            None => solid_angle_pdf(self.per_area, to_light, distance, self.normal),
         }
     }
 
@@ -136,21 +136,21 @@ impl TriangleLight {
 
 /// A triangle in its own frame, or two that form a parallelogram.
 #[derive(Clone, Debug)]
-pub(super) struct Facets {
-    near: Corners,
-    far: Option<Corners>,
+pub(super) struct FlatShape {
+    near: TriangleCorners,
+    far: Option<TriangleCorners>,
 }
 
-impl Facets {
+impl FlatShape {
     pub(super) fn one(mesh: &Mesh, primitive: usize) -> Self {
-        Self { near: Corners::of(mesh, primitive), far: None }
+        Self { near: TriangleCorners::new(mesh, primitive), far: None }
     }
 
     /// `None` if the two form no parallelogram, to the rounding of coordinates.
     pub(super) fn two(mesh: &Mesh, primitives: [usize; 2]) -> Option<Self> {
-        let whole = primitives.map(|primitive| Corners::of(mesh, primitive));
-        let turn = (0..9).find(|turn| whole[0].turned(turn % 3).meets(&whole[1].turned(turn / 3)))?;
-        Some(Self { near: whole[0].turned(turn % 3), far: Some(whole[1].turned(turn / 3)) })
+        let corners = primitives.map(|primitive| TriangleCorners::new(mesh, primitive));
+        let turn = (0..9).find(|turn| corners[0].rotated(turn % 3).forms_parallelogram_with(&corners[1].rotated(turn / 3)))?;
+        Some(Self { near: corners[0].rotated(turn % 3), far: Some(corners[1].rotated(turn / 3)) })
     }
 
     /// Number of its triangles.
@@ -167,13 +167,13 @@ impl Facets {
 
     /// The light at its placement; `None` if rounding leaves no area.
     pub(super) fn light(&self, to_render: &DAffine3, material: MaterialId) -> Option<TriangleLight> {
-        let single = TriangleLight::of_corners(&self.near, to_render, material)?;
+        let single = TriangleLight::from_corners(&self.near, to_render, material)?;
         let Some(far) = &self.far else { return Some(single) };
-        let error_m = single.error_m.max(TriangleLight::of_corners(far, to_render, material)?.error_m);
+        let error_m = single.error_m.max(TriangleLight::from_corners(far, to_render, material)?.error_m);
         let flat = FlatLight { doubled: true, ..single.flat };
         Some(TriangleLight {
             flat,
-            nearness: NearRegion::of(&flat),
+            nearness: NearRegion::new(&flat),
             per_area: 0.5 * single.per_area,
             error_m,
             ..single
@@ -183,19 +183,19 @@ impl Facets {
 
 /// The corners of a triangle in its own frame, with their texture coordinates.
 #[derive(Clone, Copy, Debug)]
-struct Corners {
+struct TriangleCorners {
     own: [Vec3; 3],
     uvs: [Vec2; 3],
 }
 
-impl Corners {
-    fn of(mesh: &Mesh, primitive: usize) -> Self {
+impl TriangleCorners {
+    fn new(mesh: &Mesh, primitive: usize) -> Self {
         let uvs = mesh.triangles()[primitive].map(|v| mesh.uvs().get(v as usize).copied().unwrap_or_default());
         Self { own: mesh.corners(primitive as u32), uvs }
     }
 
     /// The same triangle, starting with another corner.
-    fn turned(&self, by: usize) -> Self {
+    fn rotated(&self, by: usize) -> Self {
         let Self { mut own, mut uvs } = *self;
         own.rotate_left(by);
         uvs.rotate_left(by);
@@ -203,16 +203,16 @@ impl Corners {
     }
 
     /// True if `far` has the side that faces the first corner, seen from the same side, and both form a parallelogram.
-    fn meets(&self, far: &Self) -> bool {
-        let shares = |one: usize, other: usize| self.own[one] == far.own[other] && self.uvs[one] == far.uvs[other];
+    fn forms_parallelogram_with(&self, far: &Self) -> bool {
+        let coincide = |one: usize, other: usize| self.own[one] == far.own[other] && self.uvs[one] == far.uvs[other];
         let closes = |one: [f32; 3], far: f32| {
-            let largest = one.into_iter().fold(far.abs(), |most, x| most.max(x.abs()));
-            ((one[1] - one[0]) - (far - one[2])).abs() <= CLOSED * largest
+            let largest = one.into_iter().fold(far.abs(), |maximum, x| maximum.max(x.abs()));
+            ((one[1] - one[0]) - (far - one[2])).abs() <= CLOSURE_TOLERANCE * largest
         };
         let near = |axis: usize| self.own.map(|p| p[axis]);
         let near_uv = |axis: usize| self.uvs.map(|p| p[axis]);
-        shares(1, 2)
-            && shares(2, 1)
+        coincide(1, 2)
+            && coincide(2, 1)
             && (0..3).all(|axis| closes(near(axis), far.own[0][axis]))
             && (0..2).all(|axis| closes(near_uv(axis), far.uvs[0][axis]))
     }
@@ -220,7 +220,7 @@ impl Corners {
 
 /// Maximum distance of a parallelogram's fourth corner from where the others put it, in units of the largest coordinate: four roundings of
 /// f32 and a margin for those of the test.
-const CLOSED: f32 = 8.0 * 0.5 * f32::EPSILON;
+const CLOSURE_TOLERANCE: f32 = 8.0 * 0.5 * f32::EPSILON;
 
 /// Maximum distance of a stored point from where the accelerator sees the triangle: roundings of the coordinates in the mesh's own frame
 /// and in the render frame.
@@ -237,7 +237,7 @@ mod tests {
     /// Two triangles over four corners, named in these orders.
     fn two(corners: [Vec3; 4], triangles: [[u32; 3]; 2]) -> Option<TriangleLight> {
         let mesh = Mesh::new(corners.to_vec(), vec![], vec![], triangles.to_vec(), vec![]).expect("legal").0;
-        TriangleLight::of_two(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0))
+        TriangleLight::from_parallelogram(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0))
     }
 
     fn slanted() -> [Vec3; 4] {
@@ -260,7 +260,7 @@ mod tests {
             let mut mean = Vec3::ZERO;
             for i in 0..64 {
                 let u = Vec2::new((i % 8) as f32 + 0.5, (i / 8) as f32 + 0.5) / 8.0;
-                mean += light.sample(Vec3::ZERO, u).expect("seen").way / 64.0;
+                mean += light.sample(Vec3::ZERO, u).expect("seen").to_light / 64.0;
             }
             assert!((mean - (b + d) * 0.5).length() < 2e-6, "{mean}");
         }
@@ -278,7 +278,7 @@ mod tests {
         assert!(two(kite, both).is_none());
         let own = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y * 0.5];
         let mesh = Mesh::new(slanted().to_vec(), vec![], own, both.to_vec(), vec![]).expect("legal").0;
-        let light = TriangleLight::of_two(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0));
+        let light = TriangleLight::from_parallelogram(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0));
         assert!(light.is_none(), "a texture that is bent at the diagonal");
     }
 }

@@ -69,7 +69,7 @@ impl Beckmann {
 }
 
 /// Maximum sampled slope: the fraction of steeper ones is exp(−25).
-const STEEPEST: f32 = 5.0;
+const MAX_SLOPE: f32 = 5.0;
 
 /// The slope x < cot θ of density (1 − x tan θ) exp(−x²), sampled by `u`: the root of an increasing function, found by Newton's method
 /// within a bracket.
@@ -78,7 +78,7 @@ fn visible_slope(tan: f32, u: f32) -> f32 {
         let bell = exp(-x * x);
         (1.0 + erf(x) + tan * FRAC_1_SQRT_PI * bell, 2.0 * FRAC_1_SQRT_PI * bell * (1.0 - x * tan))
     };
-    let (mut low, mut high) = (-STEEPEST, (1.0 / tan.max(1e-20)).min(STEEPEST));
+    let (mut low, mut high) = (-MAX_SLOPE, (1.0 / tan.max(1e-20)).min(MAX_SLOPE));
     let goal = rise(high).0 * u;
     let mut x = 0.5 * (low + high.min(1.0));
     for _ in 0..24 {
@@ -173,8 +173,8 @@ mod tests {
                     let at = |k: usize| alpha * 10.0 * ((k as f32 + 0.5) / n as f32 - 0.5);
                     let m = Vec3::new(-at(i % n), -at(i / n), 1.0).normalize();
                     let area = (10.0 * alpha / n as f32) * (10.0 * alpha / n as f32) * m.z * m.z * m.z;
-                    let seen = beckmann.density(m) * wo.dot(m).max(0.0) / (wo.z + beckmann.shadow(wo));
-                    sum += f64::from(seen * area);
+                    let actual = beckmann.density(m) * wo.dot(m).max(0.0) / (wo.z + beckmann.shadow(wo));
+                    sum += f64::from(actual * area);
                 }
                 assert!((sum - 1.0).abs() < 1e-3, "{alpha} {cos}: {sum}");
             }

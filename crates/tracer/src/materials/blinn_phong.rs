@@ -26,7 +26,7 @@ use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 const MAX_EXPONENT: f64 = 1e5;
 
 /// Exponent below which the cosine samples lobes better than half vectors do.
-const WIDE: f32 = 4.0;
+const MAX_COSINE_EXPONENT: f32 = 4.0;
 
 /// c_n: normalisation that gives the lobe (n·h)ⁿ an albedo of 1 at normal incidence.
 #[must_use]
@@ -39,7 +39,7 @@ pub fn blinn_phong_normalisation(n: f64) -> f64 {
 pub struct BlinnPhong {
     base: Reflectance,
     gloss: Spectrum,
-    lobe: Lobe,
+    lobe: CosineLobe,
     /// Albedo of the lobe at k_s = 1.
     albedo: AlbedoTable,
 }
@@ -56,7 +56,7 @@ impl BlinnPhong {
         if !energy::is_weight(&gloss) {
             return Err(BlinnPhongError::Gloss);
         }
-        let lobe = Lobe { n: exponent as f32, scale: blinn_phong_normalisation(exponent) as f32 };
+        let lobe = CosineLobe { n: exponent as f32, scale: blinn_phong_normalisation(exponent) as f32 };
         let model = Self { base, gloss, lobe, albedo: AlbedoTable::new(|cos| lobe.albedo(cos)) };
         model.refuse_gain(&energy::known(&model.base))?;
         Ok(model)
@@ -112,12 +112,12 @@ pub enum BlinnPhongError {
 
 /// The lobe c_n (n·h)ⁿ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Lobe {
+struct CosineLobe {
     n: f32,
     scale: f32,
 }
 
-impl Lobe {
+impl CosineLobe {
     fn half_vector(self, u: Vec2) -> Vec3 {
         let cos = maths::f32::pow(u.x, 1.0 / (self.n + 2.0));
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
@@ -170,16 +170,16 @@ pub struct BlinnPhongBsdf<'a, const N: usize> {
 impl<const N: usize> BlinnPhongBsdf<'_, N> {
     fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<2>> {
         let (base, lobe) = (self.base.mean(), self.gloss.mean() * self.model.albedo.at(wo.z));
-        DiscreteSampler::new(if self.model.lobe.n < WIDE { [base + lobe, 0.0] } else { [base, lobe] })
+        DiscreteSampler::new(if self.model.lobe.n < MAX_COSINE_EXPONENT { [base + lobe, 0.0] } else { [base, lobe] })
     }
 
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3, h: Vec3) -> BsdfValue<N> {
-        let Lobe { n, scale } = self.model.lobe;
+        let CosineLobe { n, scale } = self.model.lobe;
         let power = maths::f32::pow(h.z.clamp(0.0, 1.0), n);
         let lobe_pdf = (n + 2.0) / TAU * power * h.z / (4.0 * wo.dot(h)).max(1e-20);
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.gloss * (scale * power * wi.z),
-            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe_pdf,
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * lobe_pdf,
         }
     }
 }
@@ -196,11 +196,11 @@ impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
     }
 
     fn gloss(&self, wo: Vec3) -> Gloss {
-        let Lobe { n, scale } = self.model.lobe;
+        let CosineLobe { n, scale } = self.model.lobe;
         // cosⁿ of the half vector's angle and the kernel have the same curvature at the axis, t² n/2 = 2 t² (1/w² − 1).
         let width = (4.0 / (n + 4.0)).sqrt();
         let peak = self.gloss.mean() * scale * wo.z;
-        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe {
+        Gloss::from_diffuse(self.base.mean() * FRAC_1_PI).with(GlossLobe {
             about: LobeCentre::HalfVector,
             width,
             peak,
@@ -210,7 +210,7 @@ impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
-        let (wi, h) = if discrete_sampler.draw(choice) == 0 {
+        let (wi, h) = if discrete_sampler.sample(choice) == 0 {
             let wi = cosine_hemisphere(u);
             (wi, half_vector(wo, wi))
         } else {
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn all_light_comes_back_at_normal_incidence_and_less_elsewhere() {
         for n in [0.0, 1.0, 10.0, 65.0, 1000.0, 1e5] {
-            let lobe = Lobe { n: n as f32, scale: blinn_phong_normalisation(n) as f32 };
+            let lobe = CosineLobe { n: n as f32, scale: blinn_phong_normalisation(n) as f32 };
             // The midpoint rule over 64² cells: second order where it is smooth, 64^-1.5/4 at a kink at the horizon.
             assert!((lobe.albedo(1.0) - 1.0).abs() < 5e-4, "{n}: {}", lobe.albedo(1.0));
             assert!((0..100).all(|i| lobe.albedo(i as f32 / 100.0) < 1.0005), "{n}");

@@ -25,7 +25,7 @@ use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_spectra::{Spectrum, metal::ComplexIndex};
 use glam::{Vec2, Vec3};
 
-use super::coated::{COAT_INDICES, Coat, PlaceInRows};
+use super::coated::{COAT_INDICES, Coat, RowPosition};
 use super::energy::{self, AlbedoTable};
 use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::microfacet::{Ggx, half_vector, mirrored};
@@ -68,7 +68,7 @@ pub struct CarPaint {
     facets: Ggx,
     coat: Coat,
     coat_alpha: f32,
-    place: PlaceInRows,
+    place: RowPosition,
     inside: InsideCoat,
 }
 
@@ -76,14 +76,14 @@ pub struct CarPaint {
 #[derive(Clone, Debug, PartialEq)]
 struct InsideCoat {
     /// Reflected fraction, by the cosine outside.
-    sent: AlbedoTable,
+    reflected: AlbedoTable,
     /// Part of it that the coat reflects internally.
-    turned: AlbedoTable,
+    internally_reflected: AlbedoTable,
     /// Means of both over diffuse light inside.
-    mean_sent: f32,
-    mean_turned: f32,
+    mean_reflected: f32,
+    mean_internally_reflected: f32,
     /// Part of the second that leaves if it is emitted upwards with its own profile: X of the flakes.
-    out: f32,
+    escaped: f32,
 }
 
 /// The cosine inside the coat for one outside.
@@ -98,31 +98,31 @@ fn outer_cos(cos: f32, n: f32) -> Option<f32> {
 }
 
 /// A direction refracted at the coat's mean plane.
-fn bent(w: Vec3, scale: f32, cos: f32) -> Vec3 {
+fn refracted(w: Vec3, scale: f32, cos: f32) -> Vec3 {
     Vec3::new(w.x * scale, w.y * scale, cos)
 }
 
 impl InsideCoat {
-    fn new(facets: Ggx, coat: &Coat, place: PlaceInRows) -> Self {
+    fn new(facets: Ggx, coat: &Coat, place: RowPosition) -> Self {
         const STEPS: usize = 64;
         let through = |cos: f32| outer_cos(cos, coat.n).map_or(0.0, |outer| coat.transmittance(place, outer));
-        let both = |cos: f32| sent_and_turned(facets, cos, &through);
+        let both = |cos: f32| reflected_and_internally_reflected(facets, cos, &through);
         // Means over diffuse light inside: ∫ f dμ², by the midpoint rule.
         let nodes: Vec<_> = (0..STEPS).map(|i| ((i as f32 + 0.5) / STEPS as f32).sqrt()).collect();
         let all: Vec<_> = nodes.iter().map(|cos| both(*cos)).collect();
         let mean = |f: &dyn Fn(usize) -> f64| ((0..STEPS).map(f).sum::<f64>() / STEPS as f64) as f32;
         Self {
-            sent: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).0),
-            turned: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).1),
-            mean_sent: mean(&|i| all[i].0),
-            mean_turned: mean(&|i| all[i].1),
-            out: mean(&|i| all[i].1 * f64::from(through(nodes[i]))),
+            reflected: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).0),
+            internally_reflected: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).1),
+            mean_reflected: mean(&|i| all[i].0),
+            mean_internally_reflected: mean(&|i| all[i].1),
+            escaped: mean(&|i| all[i].1 * f64::from(through(nodes[i]))),
         }
     }
 }
 
 /// Fraction of light from a cosine inside that flakes reflect, and the part of it that the coat reflects internally.
-fn sent_and_turned(facets: Ggx, cos: f32, through: &impl Fn(f32) -> f32) -> (f64, f64) {
+fn reflected_and_internally_reflected(facets: Ggx, cos: f32, through: &impl Fn(f32) -> f32) -> (f64, f64) {
     const CELLS: usize = 24;
     let cos = cos.max(1e-4);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
@@ -172,7 +172,7 @@ impl CarPaint {
     }
 
     /// Fraction of diffuse light inside that the coat reflects internally.
-    fn turned_diffuse(&self) -> f32 {
+    fn internal_diffuse_reflectance(&self) -> f32 {
         1.0 - self.coat.mean_transmittance(self.place) / (self.coat.n * self.coat.n)
     }
 }
@@ -191,18 +191,18 @@ impl SurfaceModel for CarPaint {
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> CarPaintBsdf<'_, N> {
         let flakes = self.flakes.sample(point.wavelengths) * self.coverage;
         let pigment = point.reflectance(&self.pigment) * (1.0 - self.coverage);
-        let turned = self.turned_diffuse();
+        let turned = self.internal_diffuse_reflectance();
         let again = Spectral::from_fn(|i| {
             let (f, d) = (flakes[i], pigment[i]);
-            let sent = f * self.inside.mean_sent + d;
-            let round = f * self.inside.mean_turned + d * turned;
-            let out = f * self.inside.out + d * turned * (1.0 - turned);
+            let sent = f * self.inside.mean_reflected + d;
+            let round = f * self.inside.mean_internally_reflected + d * turned;
+            let out = f * self.inside.escaped + d * turned * (1.0 - turned);
             if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
         });
         // Outside, the coat's refraction also spreads the light of flakes.
         let facets = Ggx { alpha: self.facets.alpha.max(point.min_alpha / self.coat.n) };
         let coat_alpha = point.widened(self.coat_alpha);
-        let (coat_facets, is_widened) = (Ggx::of(coat_alpha), coat_alpha > self.coat_alpha);
+        let (coat_facets, is_widened) = (Ggx::from_alpha(coat_alpha), coat_alpha > self.coat_alpha);
         CarPaintBsdf { paint: self, facets, coat_facets, is_widened, flakes, pigment, turned, again }
     }
 
@@ -265,31 +265,31 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
 
     /// R at a cosine outside.
     fn round(&self, cos: f32) -> Spectral<N> {
-        self.flakes * self.paint.inside.turned.at(cos) + self.pigment * self.turned
+        self.flakes * self.paint.inside.internally_reflected.at(cos) + self.pigment * self.turned
     }
 
     /// Sampler of coat, flakes and diffuse part, by the reflected light of each.
     fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<3>> {
         let (inside, through) = (&self.paint.inside, self.through(wo.z));
-        let flakes = self.flakes.mean() * (inside.sent.at(wo.z) - inside.turned.at(wo.z)).max(0.0);
+        let flakes = self.flakes.mean() * (inside.reflected.at(wo.z) - inside.internally_reflected.at(wo.z)).max(0.0);
         let (f, d) = (self.flakes.mean(), self.pigment.mean());
-        let out = f * inside.out + d * self.turned * (1.0 - self.turned);
-        let matt = d * (1.0 - self.turned) + self.round(wo.z).mean() * self.again.mean() * out;
-        DiscreteSampler::new([1.0 - through, through * flakes, through * matt])
+        let out = f * inside.escaped + d * self.turned * (1.0 - self.turned);
+        let diffuse = d * (1.0 - self.turned) + self.round(wo.z).mean() * self.again.mean() * out;
+        DiscreteSampler::new([1.0 - through, through * flakes, through * diffuse])
     }
 
     fn value(&self, discrete_sampler: &DiscreteSampler<3>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let n = self.paint.coat.n;
         let both = self.through(wo.z) * self.through(wi.z) / (n * n);
         let (flake, flake_pdf) = self.flake(wo, wi);
-        let matt = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
-        let mut value_cos = self.flakes * (both * flake) + matt * (both * FRAC_1_PI * wi.z);
-        let mut pdf = discrete_sampler.of(1) * flake_pdf + discrete_sampler.of(2) * cosine_hemisphere_pdf(wi.z);
+        let diffuse = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
+        let mut value_cos = self.flakes * (both * flake) + diffuse * (both * FRAC_1_PI * wi.z);
+        let mut pdf = discrete_sampler.probability(1) * flake_pdf + discrete_sampler.probability(2) * cosine_hemisphere_pdf(wi.z);
         if let Some(facets) = self.coat_facets {
             let m = half_vector(wo, wi);
             let reflected = if self.is_widened { 1.0 - self.through(wo.z) } else { fresnel::dielectric(wo.dot(m), n) };
             value_cos += Spectral::splat(reflected * facets.reflect(wo, wi, m));
-            pdf += discrete_sampler.of(0) * facets.reflect_pdf(wo, m);
+            pdf += discrete_sampler.probability(0) * facets.reflect_pdf(wo, m);
         }
         BsdfValue { value_cos, pdf }
     }
@@ -297,7 +297,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
     /// For flakes of reflectance 1: f′ cos θᵢ for directions outside, and the density of sampling them there.
     fn flake(&self, wo: Vec3, wi: Vec3) -> (f32, f32) {
         let (n, facets) = (self.paint.coat.n, self.facets);
-        let (o, i) = (bent(wo, 1.0 / n, inner_cos(wo.z, n)), bent(wi, 1.0 / n, inner_cos(wi.z, n)));
+        let (o, i) = (refracted(wo, 1.0 / n, inner_cos(wo.z, n)), refracted(wi, 1.0 / n, inner_cos(wi.z, n)));
         let m = half_vector(o, i);
         (facets.reflect(o, i, m) * wi.z / i.z, facets.reflect_pdf(o, m) * wi.z / (n * n * i.z))
     }
@@ -305,10 +305,10 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
     /// Samples a direction outside, reflected at a flake; `None` if the coat reflects it internally.
     fn sample_flake(&self, wo: Vec3, u: Vec2) -> Option<Vec3> {
         let n = self.paint.coat.n;
-        let o = bent(wo, 1.0 / n, inner_cos(wo.z, n));
+        let o = refracted(wo, 1.0 / n, inner_cos(wo.z, n));
         let i = mirrored(o, self.facets.sample(o, u));
         let cos = outer_cos(i.z, n).filter(|_| i.z > 0.0)?;
-        Some(bent(i, n, cos))
+        Some(refracted(i, n, cos))
     }
 }
 
@@ -326,13 +326,13 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
         let n = self.paint.coat.n;
         let (through, inner) = (self.through(wo.z), inner_cos(wo.z, n));
         let both = through * through / (n * n);
-        let matt = self.pigment + self.round(wo.z) * self.round(wo.z) * self.again;
+        let diffuse = self.pigment + self.round(wo.z) * self.round(wo.z) * self.again;
         // Slopes of half vectors are those inside times n cos θ′/cos θ.
         let width = (self.facets.alpha * n * inner / wo.z).min(1.0);
         let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
         let peak = self.flakes.mean() * both * self.flake(wo, mirror).0;
         let flakes = GlossLobe { about: LobeCentre::HalfVector, width, peak, f0: 1.0 };
-        let gloss = Gloss::over(matt.mean() * both * FRAC_1_PI).with(flakes);
+        let gloss = Gloss::from_diffuse(diffuse.mean() * both * FRAC_1_PI).with(flakes);
         match self.coat_facets {
             Some(facets) => gloss.with(facets.gloss(wo, fresnel::dielectric(1.0, n))),
             None => gloss,
@@ -341,10 +341,10 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
-        let wi = match (discrete_sampler.draw(choice), self.coat_facets) {
+        let wi = match (discrete_sampler.sample(choice), self.coat_facets) {
             (0, Some(facets)) => mirrored(wo, facets.sample(wo, u)),
             (0, None) => {
-                let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / discrete_sampler.of(0);
+                let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / discrete_sampler.probability(0);
                 return Some(BsdfSample::mirror(wo, Spectral::splat(reflectance)));
             }
             (1, _) => self.sample_flake(wo, u)?,
@@ -364,7 +364,7 @@ mod tests {
 
     #[test]
     fn flakes_of_aluminium_in_lacquer_reflect_less_than_in_air() {
-        let metal = etendue_spectra::metal::named("Al").expect("aluminium");
+        let metal = etendue_spectra::metal::by_name("Al").expect("aluminium");
         let (air, lacquer) = (flake_reflectance(metal, 1.0).at(550.0), flake_reflectance(metal, 1.5).at(550.0));
         assert!((air - 0.915).abs() < 0.02 && lacquer < air && lacquer > 0.85, "{air} {lacquer}");
     }

@@ -3,7 +3,7 @@
 use super::material::{Material, Mix};
 use super::parameter::{Parameter, TextureCheck};
 use super::{Surface, emission::Emission, error::MaterialError};
-use crate::{BRIGHTEST, textures::ImageTexture};
+use crate::{MAX_LIGHT_VALUE, textures::ImageTexture};
 
 /// Checks material `index` of `materials`.
 pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {
@@ -23,11 +23,11 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
     if let Some(opacity) = material.opacity {
         check.parameter(Parameter::Factor(opacity, "an opacity"))?;
         if let (Some(_), Some(id)) = (&material.emission, opacity.texture()) {
-            check.laid_by_uv("an opacity together with an emission", id)?;
+            check.uv_texture("an opacity together with an emission", id)?;
         }
     }
     if let Some(map) = material.normal_map {
-        check.laid_by_uv("a normal map", map.texture())?;
+        check.uv_texture("a normal map", map.texture())?;
     }
     Ok(())
 }
@@ -35,12 +35,12 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
 fn emission(check: &TextureCheck<'_>, emission: &Emission) -> Result<(), MaterialError> {
     let (mut low, mut high) = (emission.radiance.min_value(), emission.radiance.max_value());
     if let Some(id) = emission.factor {
-        let range = check.laid_by_uv("an emission", id)?.range();
+        let range = check.uv_texture("an emission", id)?.range();
         (low, high) = (low.min(range.0), high * range.1);
     }
-    let level = emission.modulation.as_ref().map_or(1.0, |modulation| modulation.greatest_level() as f32);
+    let level = emission.modulation.as_ref().map_or(1.0, |modulation| modulation.max_level() as f32);
     high = high.max(high * level);
-    match [low, high].into_iter().find(|v| !(0.0..=BRIGHTEST).contains(v)) {
+    match [low, high].into_iter().find(|v| !(0.0..=MAX_LIGHT_VALUE).contains(v)) {
         Some(value) => Err(MaterialError::Radiance { material: check.material, value }),
         None => Ok(()),
     }
@@ -50,12 +50,12 @@ fn emission(check: &TextureCheck<'_>, emission: &Emission) -> Result<(), Materia
 fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), MaterialError> {
     for part in [mix.a, mix.b] {
         let unknown = MaterialError::UnknownMaterial { material: index, part: part.0, materials: materials.len() };
-        let found = materials.get(part.0 as usize).ok_or(unknown)?;
+        let material = materials.get(part.0 as usize).ok_or(unknown)?;
         let refused = |what| Err(MaterialError::Part { material: index, part: part.0, what });
-        if found.emission.is_some() {
+        if material.emission.is_some() {
             return refused("an emission");
         }
-        if found.opacity.is_some() {
+        if material.opacity.is_some() {
             return refused("an opacity");
         }
     }
@@ -66,7 +66,7 @@ fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), Material
         if part.0 as usize == index {
             return Err(MaterialError::Circle { material: index });
         }
-        let new = visited.get_mut(part.0 as usize).is_some_and(|seen| !core::mem::replace(seen, true));
+        let new = visited.get_mut(part.0 as usize).is_some_and(|is_visited| !core::mem::replace(is_visited, true));
         if let (true, Some(Surface::Mix(inner))) = (new, materials.get(part.0 as usize).map(|m| &m.surface)) {
             open.extend([inner.a, inner.b]);
         }

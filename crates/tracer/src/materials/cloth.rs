@@ -51,15 +51,15 @@ impl Cloth {
             return Err(ClothError::Colour);
         }
         let bare = Sheen::new(alpha as f32, 1.0);
-        let most = AlbedoTable::new(|cos| bare.albedo(cos)).max_value();
-        let sheen = Sheen { scale: 1.0 / most.max(1.0), ..bare };
+        let maximum = AlbedoTable::new(|cos| bare.albedo(cos)).max_value();
+        let sheen = Sheen { scale: 1.0 / maximum.max(1.0), ..bare };
         let albedo = AlbedoTable::new(|cos| sheen.albedo(cos));
         let cumulative = (0..=ROWS).flat_map(|row| sheen.row(row)).collect();
         Ok(Self { base, colour, sheen, mean: albedo.mean(), albedo, cumulative })
     }
 
     /// The row of a viewer's cosine.
-    fn shares(&self, cos: f32) -> &[f32] {
+    fn cumulative_row(&self, cos: f32) -> &[f32] {
         let row = (cos.min(1.0).sqrt() * ROWS as f32 + 0.5) as usize;
         &self.cumulative[row * (CELLS + 1)..(row + 1) * (CELLS + 1)]
     }
@@ -170,12 +170,12 @@ impl Sheen {
         let cells: Vec<_> = (0..CELLS).map(|k| self.cell(wo, k)).collect();
         let total: f64 = cells.iter().sum();
         let mut sum = 0.0;
-        let mut shares = vec![0.0];
-        shares.extend(cells.iter().map(|cell| {
+        let mut fractions = vec![0.0];
+        fractions.extend(cells.iter().map(|cell| {
             sum += cell / total;
             sum.min(1.0) as f32
         }));
-        shares
+        fractions
     }
 }
 
@@ -216,20 +216,20 @@ impl<const N: usize> ClothBsdf<'_, N> {
         let left = self.colour.map(|c| (1.0 - c * wo_albedo) * (1.0 - c * wi_albedo));
         BsdfValue {
             value_cos: self.under * left * (FRAC_1_PI * wi.z) + self.colour * self.cloth.sheen.value_cos(wo, wi),
-            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * self.sheen_pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * self.sheen_pdf(wo, wi),
         }
     }
 
     fn sheen_pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         let k = ((wi.z.min(1.0).sqrt() * CELLS as f32) as usize).min(CELLS - 1);
-        let shares = self.cloth.shares(wo.z);
-        (shares[k + 1] - shares[k]) / (TAU * (edge(k + 1) - edge(k)))
+        let fractions = self.cloth.cumulative_row(wo.z);
+        (fractions[k + 1] - fractions[k]) / (TAU * (edge(k + 1) - edge(k)))
     }
 
     fn sample_sheen(&self, wo: Vec3, u: Vec2) -> Vec3 {
-        let shares = self.cloth.shares(wo.z);
-        let k = shares.partition_point(|c| *c <= u.x).clamp(1, CELLS) - 1;
-        let within = ((u.x - shares[k]) / (shares[k + 1] - shares[k]).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let fractions = self.cloth.cumulative_row(wo.z);
+        let k = fractions.partition_point(|c| *c <= u.x).clamp(1, CELLS) - 1;
+        let within = ((u.x - fractions[k]) / (fractions[k + 1] - fractions[k]).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         let cos = edge(k) + (edge(k + 1) - edge(k)) * within;
         let (s, c) = sin_cos(TAU * u.y);
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
@@ -256,7 +256,7 @@ impl<const N: usize> BsdfModel<N> for ClothBsdf<'_, N> {
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wo_albedo = self.cloth.albedo.at(wo.z);
         let discrete_sampler = self.discrete_sampler(wo_albedo)?;
-        let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.sample_sheen(wo, u) };
+        let wi = if discrete_sampler.sample(choice) == 0 { cosine_hemisphere(u) } else { self.sample_sheen(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }

@@ -21,7 +21,7 @@ use glam::{Vec2, Vec3};
 use super::microfacet::{Distribution, Ggx, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
-use super::{energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::SeenFacets};
+use super::{energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::VisibleFacets};
 
 /// Range of a coat's refractive index: from a little above air's, below which neither f32 nor the table would resolve the coat, to that of
 /// germanium. Scene files state the same range.
@@ -80,16 +80,16 @@ impl SurfaceModel for Coated {
         let mean = self.coat.mean_transmittance(place);
         let n2 = self.coat.n * self.coat.n;
         let inner = 1.0 - mean / n2;
-        let seen = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
-        let least = point.widened(alpha);
+        let base = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
+        let minimum = point.widened(alpha);
         CoatedBsdf {
             coat: &self.coat,
-            facets: Ggx::of(least),
-            is_widened: least > alpha,
+            facets: Ggx::from_alpha(minimum),
+            is_widened: minimum > alpha,
             place,
             mean_transmittance: mean,
-            seen_mean: seen.mean(),
-            seen,
+            base_mean: base.mean(),
+            base: seen: base,
         }
     }
 
@@ -110,12 +110,12 @@ pub(super) struct Coat {
     alpha: Factor,
     /// One row for a roughness that is a number. For a texture that of a smooth coat, then [`ROWS`] + 1 at equal ratios of α from
     /// [`MIRROR_ALPHA`] to 1.
-    rows: Box<[Row]>,
+    rows: Box<[CoatRow]>,
 }
 
 /// The transmittance of a coat of one roughness.
 #[derive(Clone, Debug, PartialEq)]
-struct Row {
+struct CoatRow {
     /// T, with more steps than albedos have: it changes sharply towards grazing.
     transmittance: CosineTable<192>,
     /// T̄ = 2 ∫ T μ dμ.
@@ -124,7 +124,7 @@ struct Row {
 
 /// Position of a roughness among the rows: between `row` and the next, at `beyond` in [0, 1]; 0 needs no next row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PlaceInRows {
+pub(super) struct RowPosition {
     row: u32,
     beyond: f32,
 }
@@ -140,39 +140,39 @@ fn alpha_of(row: usize) -> f32 {
 impl Coat {
     pub(super) fn new(n: f32, alpha: Factor) -> Self {
         let rows = match alpha {
-            Factor::Number(alpha) => Box::new([Row::new(n, alpha)]) as Box<[Row]>,
-            Factor::Texture(..) => (0..=ROWS + 1).map(|i| Row::new(n, alpha_of(i))).collect(),
+            Factor::Number(alpha) => Box::new([CoatRow::new(n, alpha)]) as Box<[CoatRow]>,
+            Factor::Texture(..) => (0..=ROWS + 1).map(|i| CoatRow::new(n, alpha_of(i))).collect(),
         };
         Self { n, alpha, rows }
     }
 
-    pub(super) fn place(&self, alpha: f32) -> PlaceInRows {
+    pub(super) fn place(&self, alpha: f32) -> RowPosition {
         if self.rows.len() == 1 || alpha < MIRROR_ALPHA {
-            return PlaceInRows { row: 0, beyond: 0.0 };
+            return RowPosition { row: 0, beyond: 0.0 };
         }
         let x = (1.0 - ln(alpha) / ln(MIRROR_ALPHA)).clamp(0.0, 1.0) * ROWS as f32;
         let row = (x as usize).min(ROWS - 1);
-        PlaceInRows { row: row as u32 + 1, beyond: x - row as f32 }
+        RowPosition { row: row as u32 + 1, beyond: x - row as f32 }
     }
 
-    fn between(&self, place: PlaceInRows, of: impl Fn(&Row) -> f32) -> f32 {
+    fn between(&self, place: RowPosition, of: impl Fn(&CoatRow) -> f32) -> f32 {
         let row = place.row as usize;
         let low = of(&self.rows[row]);
         if place.beyond > 0.0 { low + (of(&self.rows[row + 1]) - low) * place.beyond } else { low }
     }
 
-    pub(super) fn mean_transmittance(&self, place: PlaceInRows) -> f32 {
+    pub(super) fn mean_transmittance(&self, place: RowPosition) -> f32 {
         self.between(place, |row| row.mean)
     }
 
-    pub(super) fn transmittance(&self, place: PlaceInRows, cos: f32) -> f32 {
+    pub(super) fn transmittance(&self, place: RowPosition, cos: f32) -> f32 {
         self.between(place, |row| row.transmittance.at(cos))
     }
 }
 
-impl Row {
+impl CoatRow {
     fn new(n: f32, alpha: f32) -> Self {
-        let facets = Ggx::of(alpha);
+        let facets = Ggx::from_alpha(alpha);
         let transmittance = CosineTable::new(|cos| 1.0 - reflectance_of_coat(n, facets, cos));
         Self { mean: transmittance.mean(), transmittance }
     }
@@ -183,7 +183,7 @@ fn reflectance_of_coat(n: f32, facets: Option<Ggx>, cos_o: f32) -> f64 {
     let fresnel = |cos: f64| f64::from(fresnel::dielectric(cos as f32, n));
     match facets {
         None => fresnel(f64::from(cos_o)),
-        Some(facets) => SeenFacets::new(Distribution::Ggx, facets.alpha, cos_o).reflected(|met, _| fresnel(met)),
+        Some(facets) => VisibleFacets::new(Distribution::Ggx, facets.alpha, cos_o).reflected(|cos_facet, _| fresnel(cos_facet)),
     }
 }
 
@@ -195,24 +195,24 @@ pub struct CoatedBsdf<'a, const N: usize> {
     facets: Option<Ggx>,
     /// True if they are rougher than the coat.
     is_widened: bool,
-    place: PlaceInRows,
+    place: RowPosition,
     /// T̄ here.
     mean_transmittance: f32,
     /// a / (n² (1 − a·Fᵢₙₜ)).
-    seen: Spectral<N>,
-    seen_mean: f32,
+    base: Spectral<N>,
+    base_mean: f32,
 }
 
 impl<const N: usize> CoatedBsdf<'_, N> {
     /// Probability of sampling the coat: its fraction of the energy reflected towards `wo`.
     fn coat_fraction(&self, through: f32) -> f32 {
         let coat = 1.0 - through;
-        let base = self.seen_mean * through * self.mean_transmittance;
+        let base = self.base_mean * through * self.mean_transmittance;
         if coat + base > 0.0 { coat / (coat + base) } else { 1.0 }
     }
 
     fn base_value_cos(&self, through: f32, wi: Vec3) -> Spectral<N> {
-        self.seen * (FRAC_1_PI * wi.z * through * self.coat.transmittance(self.place, wi.z))
+        self.base * (FRAC_1_PI * wi.z * through * self.coat.transmittance(self.place, wi.z))
     }
 }
 
@@ -224,30 +224,30 @@ impl<const N: usize> BsdfModel<N> for CoatedBsdf<'_, N> {
 
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let through = self.coat.transmittance(self.place, wo.z);
-        let share = self.coat_fraction(through);
+        let fraction = self.coat_fraction(through);
         let base = self.base_value_cos(through, wi);
-        let base_pdf = (1.0 - share) * cosine_hemisphere_pdf(wi.z);
+        let base_pdf = (1.0 - fraction) * cosine_hemisphere_pdf(wi.z);
         let Some(facets) = self.facets else { return BsdfValue { value_cos: base, pdf: base_pdf } };
         let m = half_vector(wo, wi);
         // Wider facets spread the light that the coat reflects; their tilt does not reduce it.
         let share_reflected = if self.is_widened { 1.0 - through } else { fresnel::dielectric(wo.dot(m), self.coat.n) };
         let coat = share_reflected * facets.reflect(wo, wi, m);
-        BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + share * facets.reflect_pdf(wo, m) }
+        BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + fraction * facets.reflect_pdf(wo, m) }
     }
 
     fn gloss(&self, wo: Vec3) -> Gloss {
         let Some(facets) = self.facets else { return Gloss::MATT };
-        let matt = self.seen_mean * self.coat.transmittance(self.place, wo.z) * self.mean_transmittance * FRAC_1_PI;
-        Gloss::over(matt).with(facets.gloss(wo, fresnel::dielectric(1.0, self.coat.n)))
+        let diffuse = self.base_mean * self.coat.transmittance(self.place, wo.z) * self.mean_transmittance * FRAC_1_PI;
+        Gloss::from_diffuse(diffuse).with(facets.gloss(wo, fresnel::dielectric(1.0, self.coat.n)))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let share = self.coat_fraction(self.coat.transmittance(self.place, wo.z));
+        let fraction = self.coat_fraction(self.coat.transmittance(self.place, wo.z));
         let wi = match self.facets {
-            _ if choice >= share => cosine_hemisphere(u),
+            _ if choice >= fraction => cosine_hemisphere(u),
             Some(facets) => mirrored(wo, facets.sample(wo, u)),
             None => {
-                let reflectance = fresnel::dielectric(wo.z, self.coat.n) / share;
+                let reflectance = fresnel::dielectric(wo.z, self.coat.n) / fraction;
                 return Some(BsdfSample::mirror(wo, Spectral::splat(reflectance)));
             }
         };
@@ -264,7 +264,7 @@ mod tests {
     use super::*;
     use crate::textures::{Channel, TextureId};
 
-    const ALONE: PlaceInRows = PlaceInRows { row: 0, beyond: 0.0 };
+    const ALONE: RowPosition = RowPosition { row: 0, beyond: 0.0 };
 
     #[test]
     fn a_smooth_coat_has_the_textbook_diffuse_reflectances() {

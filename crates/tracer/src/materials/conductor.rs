@@ -14,7 +14,7 @@ use etendue_core::Spectral;
 use etendue_spectra::{Spectrum, metal::ComplexIndex};
 use glam::{Vec2, Vec3};
 
-use super::interreflection::{self, LossOfAlpha};
+use super::interreflection::{self, RoughnessLoss};
 use super::microfacet::{Distribution, Facets, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
@@ -24,7 +24,7 @@ use crate::textures::TextureId;
 /// A metal, or another interface that light does not leave again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
-    index: Index,
+    index: ConductorIndex,
     alpha: Factor,
     distribution: Distribution,
     /// F̄, if multiple scattering is included.
@@ -42,7 +42,7 @@ enum MeanFresnel {
 
 /// A refractive index over wavelength.
 #[derive(Clone, Debug, PartialEq)]
-enum Index {
+enum ConductorIndex {
     Complex(ComplexIndex),
     Real(Spectrum),
     /// Given by the reflectance at normal incidence only, the colours of a texture.
@@ -58,7 +58,7 @@ impl Conductor {
         let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !is_a_substance(&index, f32::from(*nm))) {
             Some(nm) => Err(MaterialError::Index { nm }),
-            None => Ok(Self::of_index(Index::Complex(index), alpha)),
+            None => Ok(Self::from_index(ConductorIndex::Complex(index), alpha)),
         }
     }
 
@@ -70,7 +70,7 @@ impl Conductor {
         let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !(1.0..=4.0).contains(&index.at(f32::from(*nm)))) {
             Some(nm) => Err(MaterialError::RealIndex { nm, n: index.at(f32::from(nm)) }),
-            None => Ok(Self::of_index(Index::Real(index), alpha)),
+            None => Ok(Self::from_index(ConductorIndex::Real(index), alpha)),
         }
     }
 
@@ -79,11 +79,11 @@ impl Conductor {
     ///
     /// # Errors
     /// If the roughness is out of range.
-    pub fn of_texture(texture: TextureId, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
-        Ok(Self::of_index(Index::Colour(Reflectance::Texture(texture)), alpha.into().checked_alpha()?))
+    pub fn from_texture(texture: TextureId, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
+        Ok(Self::from_index(ConductorIndex::Colour(Reflectance::Texture(texture)), alpha.into().checked_alpha()?))
     }
 
-    fn of_index(index: Index, alpha: Factor) -> Self {
+    fn from_index(index: ConductorIndex, alpha: Factor) -> Self {
         Self { index, alpha, distribution: Distribution::Ggx, mean_fresnel: None }
     }
 
@@ -106,7 +106,7 @@ impl SurfaceModel for Conductor {
 
     fn parameters(&self) -> Vec<Parameter<'_>> {
         let mut parameters = vec![Parameter::alpha(self.alpha)];
-        if let Index::Colour(reflectance) = &self.index {
+        if let ConductorIndex::Colour(reflectance) = &self.index {
             parameters.push(Parameter::Reflectance(reflectance));
         }
         parameters
@@ -121,14 +121,14 @@ impl SurfaceModel for Conductor {
         let alpha = point.widened(own_alpha);
         let rough = alpha >= MIRROR_ALPHA;
         let fresnel = match &self.index {
-            Index::Complex(index) => {
+            ConductorIndex::Complex(index) => {
                 Fresnel::Complex(index.n.sample(point.wavelengths), index.k.sample(point.wavelengths))
             }
-            Index::Real(n) => Fresnel::Real(n.sample(point.wavelengths)),
-            Index::Colour(reflectance) => Fresnel::Schlick(point.reflectance(reflectance)),
+            ConductorIndex::Real(n) => Fresnel::Real(n.sample(point.wavelengths)),
+            ConductorIndex::Colour(reflectance) => Fresnel::Schlick(point.reflectance(reflectance)),
         };
         let more = self.mean_fresnel.as_ref().filter(|_| rough).map(|mean| {
-            let loss = interreflection::table(self.distribution).of_alpha(alpha);
+            let loss = interreflection::table(self.distribution).at_alpha(alpha);
             let mean = match (mean, fresnel) {
                 (MeanFresnel::Spectrum(mean), _) => mean.sample(point.wavelengths),
                 (
@@ -138,7 +138,7 @@ impl SurfaceModel for Conductor {
             };
             MultipleScattering { loss, tint: mean.map(|mean| loss.tint(mean)) }
         });
-        let facets = rough.then(|| self.distribution.of_alpha(alpha));
+        let facets = rough.then(|| self.distribution.facets(alpha));
         ConductorBsdf { fresnel, facets, is_widened: alpha > own_alpha, more }
     }
 
@@ -156,7 +156,7 @@ fn is_a_substance(index: &ComplexIndex, nm: f32) -> bool {
     n >= 0.0 && k >= 0.0 && n * n + k * k > 1e-9 && (n * n + k * k) < 1e9
 }
 
-impl Index {
+impl ConductorIndex {
     fn mean_fresnel(&self) -> MeanFresnel {
         let of = |fresnel: &dyn Fn(f32, f32) -> f32| {
             MeanFresnel::Spectrum(Spectrum::from_fn(|nm| mean_over_directions(|cos_i| fresnel(nm as f32, cos_i))))
@@ -188,7 +188,7 @@ enum Fresnel<const N: usize> {
 /// Multiple scattering among facets.
 #[derive(Clone, Copy, Debug)]
 struct MultipleScattering<const N: usize> {
-    loss: LossOfAlpha<'static>,
+    loss: RoughnessLoss<'static>,
     /// F_ms.
     tint: Spectral<N>,
 }
@@ -217,14 +217,14 @@ impl<const N: usize> ConductorBsdf<N> {
             Fresnel::Real(n) => n.map(|n| fresnel::dielectric(cos_i, n)),
             Fresnel::Schlick(normal) => {
                 let rest = (1.0 - cos_i).clamp(0.0, 1.0);
-                let share = (rest * rest) * (rest * rest) * rest;
-                normal.map(|normal| normal + (1.0 - normal) * share)
+                let fraction = (rest * rest) * (rest * rest) * rest;
+                normal.map(|normal| normal + (1.0 - normal) * fraction)
             }
         }
     }
 
     /// Probability of sampling multiple scattering: approximately its fraction of the reflected light.
-    fn share_of(&self, more: &MultipleScattering<N>, wo_loss: f32, wo: Vec3) -> f32 {
+    fn multiple_scattering_fraction(&self, more: &MultipleScattering<N>, wo_loss: f32, wo: Vec3) -> f32 {
         let (again, once) = (more.tint.mean() * wo_loss, self.fresnel(wo.z).mean() * (1.0 - wo_loss));
         if again + once > 0.0 { again / (again + once) } else { 0.0 }
     }
@@ -237,8 +237,8 @@ impl<const N: usize> ConductorBsdf<N> {
         choice: f32,
         u: Vec2,
     ) -> Option<BsdfSample<N>> {
-        let share = self.share_of(more, more.loss.at(wo.z), wo);
-        let wi = if choice < share { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
+        let fraction = self.multiple_scattering_fraction(more, more.loss.at(wo.z), wo);
+        let wi = if choice < fraction { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
         if wi.z <= 0.0 {
             return None;
         }
@@ -259,17 +259,17 @@ impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
         let (once, pdf) = (self.reflected(wo, m) * facets.reflect(wo, wi, m), facets.reflect_pdf(wo, m));
         let Some(more) = &self.more else { return BsdfValue { value_cos: once, pdf } };
         let wo_loss = more.loss.at(wo.z);
-        let share = self.share_of(more, wo_loss, wo);
+        let fraction = self.multiple_scattering_fraction(more, wo_loss, wo);
         BsdfValue {
             value_cos: once + more.tint * more.loss.value_cos(wo_loss, wi),
-            pdf: pdf * (1.0 - share) + share * more.loss.pdf(wi.z),
+            pdf: pdf * (1.0 - fraction) + fraction * more.loss.pdf(wi.z),
         }
     }
 
     fn gloss(&self, wo: Vec3) -> Gloss {
         let Some(facets) = self.facets else { return Gloss::MATT };
-        let matt = self.more.as_ref().map_or(0.0, |more| more.tint.mean() * more.loss.at(wo.z) * FRAC_1_PI);
-        Gloss::over(matt).with(facets.gloss(wo, self.fresnel(1.0).mean()))
+        let diffuse = self.more.as_ref().map_or(0.0, |more| more.tint.mean() * more.loss.at(wo.z) * FRAC_1_PI);
+        Gloss::from_diffuse(diffuse).with(facets.gloss(wo, self.fresnel(1.0).mean()))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

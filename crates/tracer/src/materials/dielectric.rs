@@ -31,7 +31,7 @@ pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;
 
 /// Minimum difference of the index from 1 of a rough solid. Below, it is smooth: its facets deflect light by less than a thousandth of
 /// their slope, into lobes narrower than single precision resolves.
-const FACETS_FROM: f32 = 1e-3;
+const MIN_ROUGH_INDEX_STEP: f32 = 1e-3;
 
 /// A transparent solid.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +73,7 @@ impl SurfaceModel for Dielectric {
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DielectricBsdf {
         let eta = if point.front { self.n } else { 1.0 / self.n };
-        let facets = Ggx::of(point.widened(point.factor(self.alpha))).filter(|_| self.n - 1.0 >= FACETS_FROM);
+        let facets = Ggx::from_alpha(point.widened(point.factor(self.alpha))).filter(|_| self.n - 1.0 >= MIN_ROUGH_INDEX_STEP);
         DielectricBsdf { eta, facets }
     }
 
@@ -125,8 +125,8 @@ impl DielectricBsdf {
 
     fn reflect(&self, facets: Ggx, wo: Vec3, wi: Vec3) -> (f32, f32) {
         let m = half_vector(wo, wi);
-        let share = fresnel::interface(wo.dot(m), self.eta);
-        (share * facets.reflect(wo, wi, m), share * facets.reflect_pdf(wo, m))
+        let fraction = fresnel::interface(wo.dot(m), self.eta);
+        (fraction * facets.reflect(wo, wi, m), fraction * facets.reflect_pdf(wo, m))
     }
 
     fn transmit(&self, facets: Ggx, wo: Vec3, wi: Vec3) -> (f32, f32) {
@@ -165,8 +165,8 @@ impl<const N: usize> BsdfModel<N> for DielectricBsdf {
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let m = self.facets.map_or(Vec3::Z, |facets| facets.sample(wo, u));
-        let share = fresnel::interface(wo.dot(m), self.eta);
-        let reflected = choice < share;
+        let fraction = fresnel::interface(wo.dot(m), self.eta);
+        let reflected = choice < fraction;
         let wi = if reflected { mirrored(wo, m) } else { refracted(wo, m, self.eta)? };
         if wi.z == 0.0 || (wi.z > 0.0) != reflected {
             return None;
@@ -238,12 +238,12 @@ mod tests {
                     |s: &BsdfSample<1>| if s.wi.z > 0.0 { s.weight[0] } else { s.weight[0] * bsdf.eta * bsdf.eta };
                 let sum = samples.iter().map(power).sum::<f32>() / 1024.0;
                 // A smooth surface loses nothing; facets lose by multiple scattering as much as at any index.
-                let least = match (bsdf.facets.is_none(), cos > 0.99) {
+                let minimum = match (bsdf.facets.is_none(), cos > 0.99) {
                     (true, _) => 1.0 - 2e-3,
                     (false, true) => 0.94,
                     (false, false) => 0.0,
                 };
-                assert!((least..=1.0 + 2e-3).contains(&sum), "n {n}, alpha {alpha}, cos {cos}, {front}: {sum}");
+                assert!((minimum..=1.0 + 2e-3).contains(&sum), "n {n}, alpha {alpha}, cos {cos}, {front}: {sum}");
             }
         }
     }

@@ -50,7 +50,7 @@ pub struct EmissionQuery<'a, const N: usize> {
 impl Emission {
     /// True if light leaves along `direction` from a surface of this geometric normal.
     #[must_use]
-    pub fn leaves(&self, geometric_normal: Vec3, direction: Vec3) -> bool {
+    pub fn emits_towards(&self, geometric_normal: Vec3, direction: Vec3) -> bool {
         self.sides == EmissionSides::Both || geometric_normal.dot(direction) > 0.0
     }
 
@@ -83,13 +83,13 @@ impl Emission {
 
 /// Minimum weight of a light in light selection, over its maximum level in the view's interval. In rows of the image that the light
 /// illuminates at its strongest, it is sampled at least a sixteenth as often as it should be.
-const LEAST_OF_GREATEST: f64 = 1.0 / 16.0;
+const MIN_LEVEL_FRACTION: f64 = 1.0 / 16.0;
 
 /// Strength of a light in light selection for a whole `interval`: its mean, but not less than a sixteenth of its maximum level; 0 only if
 /// it is dark throughout.
 #[must_use]
-pub fn choice_level(waveform: &Waveform, interval: TimeInterval) -> f64 {
-    waveform.mean(interval).max(LEAST_OF_GREATEST * waveform.greatest(interval))
+pub fn selection_level(waveform: &Waveform, interval: TimeInterval) -> f64 {
+    waveform.mean(interval).max(MIN_LEVEL_FRACTION * waveform.max_over(interval))
 }
 
 /// Change of the strength of a surface's light over time: uniformly, or row by row like the multiplexed rows of a panel.
@@ -103,7 +103,7 @@ pub struct Modulation {
 impl Modulation {
     /// One waveform for the whole surface.
     #[must_use]
-    pub fn of(waveform: impl Into<Arc<Waveform>>) -> Self {
+    pub fn new(waveform: impl Into<Arc<Waveform>>) -> Self {
         Self { waveform: waveform.into(), rows: None }
     }
 
@@ -132,16 +132,16 @@ impl Modulation {
     }
 
     /// Its weight in light selection; for a panel the mean over its rows.
-    pub(crate) fn choice_level(&self, interval: TimeInterval) -> f64 {
-        let Some((rows, step_s)) = self.rows else { return choice_level(&self.waveform, interval) };
-        let of = |row: u32| choice_level(&self.waveform, interval.later(-step_s * f64::from(row)));
+    pub(crate) fn selection_level(&self, interval: TimeInterval) -> f64 {
+        let Some((rows, step_s)) = self.rows else { return selection_level(&self.waveform, interval) };
+        let of = |row: u32| selection_level(&self.waveform, interval.later(-step_s * f64::from(row)));
         (0..rows.get()).map(of).sum::<f64>() / f64::from(rows.get())
     }
 
     /// Maximum level at any time.
     #[must_use]
-    pub fn greatest_level(&self) -> f64 {
-        self.waveform.greatest_level()
+    pub fn max_level(&self) -> f64 {
+        self.waveform.max_level()
     }
 
     /// The waveform; for a panel that of its topmost row.
@@ -172,16 +172,16 @@ mod tests {
     use crate::textures::{Sampling, Texels};
 
     #[test]
-    fn a_picture_in_candelas_glows_in_candelas() {
+    fn an_image_in_candelas_emits_in_candelas() {
         let colour = [1200.0, 35.0, 400.0];
-        let picture =
+        let image =
             ImageTexture::new(1, 1, Texels::Float(vec![colour]), Sampling::default()).expect("a picture above 1");
         let unit = upsample::emission_spectrum([1.0; 3]);
         let emission =
             Emission { radiance: unit, factor: Some(TextureId(0)), sides: EmissionSides::Front, modulation: None };
         let wavelengths = Wavelengths::<8>::uniform(380.0, 780.0, 0.3);
         let query = EmissionQuery { wavelengths: &wavelengths, interval: &TimeInterval::default() };
-        let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), query);
+        let radiance = emission.at(&[image], &Lookup::point(Vec2::ZERO), query);
         let expected = upsample::emission(colour, &wavelengths);
         for i in 0..8 {
             // Products of interpolated spectra, and the product interpolated: tables of D65 curve by 1e-3 over a nanometre.

@@ -12,7 +12,7 @@ use super::{error::EnergyGain, parameter::Reflectance, slopes::GAUSS};
 const SEGMENTS: usize = 128;
 
 /// Maximum albedo: a margin for rounding, and for the error of the quadratures behind the tables.
-const LIMIT: f64 = 1.0 + 5e-4;
+const MAX_ALBEDO: f64 = 1.0 + 5e-4;
 
 /// A function of the cosine of incidence, at cosines (i/N)⁴, i = 0 ..= N: dense towards grazing, where surfaces of roughness α curve at
 /// cosines of α.
@@ -68,15 +68,15 @@ pub(super) struct WeightedLobe<'a> {
 
 /// Refuses a surface of diffuse reflectance `base` and lobes (spectrum, albedo at spectrum 1) that gains energy anywhere.
 pub(super) fn check(base: &Spectrum, lobes: &[WeightedLobe<'_>]) -> Result<(), EnergyGain> {
-    let greatest =
-        (0..=SEGMENTS).map(|i| greatest(base, lobes, i)).reduce(|a, b| if b.albedo > a.albedo { b } else { a });
-    match greatest {
-        Some(gain) if gain.albedo > LIMIT => Err(gain),
+    let maximum =
+        (0..=SEGMENTS).map(|i| max_gain(base, lobes, i)).reduce(|a, b| if b.albedo > a.albedo { b } else { a });
+    match maximum {
+        Some(gain) if gain.albedo > MAX_ALBEDO => Err(gain),
         _ => Ok(()),
     }
 }
 
-fn greatest(base: &Spectrum, lobes: &[WeightedLobe<'_>], node: usize) -> EnergyGain {
+fn max_gain(base: &Spectrum, lobes: &[WeightedLobe<'_>], node: usize) -> EnergyGain {
     let albedo = |k: usize| -> f64 {
         let lobe = |lobe: &WeightedLobe<'_>| f64::from(lobe.weight.nodes()[k] * lobe.albedo.0[node]);
         f64::from(base.nodes()[k]) + lobes.iter().map(lobe).sum::<f64>()
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn a_gain_is_found_where_it_is() {
         let base =
-            Spectrum::from_points(&[(400.0, 0.2), (600.0, 0.6)], etendue_spectra::Outside::Hold).expect("points");
+            Spectrum::from_points(&[(400.0, 0.2), (600.0, 0.6)], etendue_spectra::Extrapolation::Hold).expect("points");
         let table = AlbedoTable::new(|cos| f64::from(1.0 - cos));
         assert_eq!(check(&base, &[WeightedLobe { weight: &Spectrum::constant(0.4), albedo: &table }]), Ok(()));
         let gain =

@@ -10,15 +10,15 @@
 use glam::Vec3;
 
 /// Maximum number of described lobes: the brightest.
-pub(crate) const TOLD: usize = 2;
+pub(crate) const MAX_GLOSS_LOBES: usize = 2;
 
 /// A surface's gloss at one point for one viewer, in the shading frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
     /// Mean BSDF of the diffuse part, 1/sr.
-    pub(crate) matt: f32,
+    pub(crate) diffuse: f32,
     /// Lobes; those without a peak do not exist.
-    pub(crate) lobes: [GlossLobe; TOLD],
+    pub(crate) lobes: [GlossLobe; MAX_GLOSS_LOBES],
 }
 
 /// A narrow lobe.
@@ -47,7 +47,7 @@ impl GlossLobe {
     const NONE: Self = Self { about: LobeCentre::HalfVector, width: 1.0, peak: 0.0, f0: 0.0 };
 
     /// A lobe about a unit direction with the total albedo `albedo`: ∫ [w²/(w² + t²)]² 2π t dt = π w².
-    pub(super) fn of_albedo(direction: Vec3, peak: f32, albedo: f32) -> Self {
+    pub(super) fn from_albedo(direction: Vec3, peak: f32, albedo: f32) -> Self {
         let width2 = core::f32::consts::FRAC_1_PI * albedo / peak.max(f32::MIN_POSITIVE);
         Self { about: LobeCentre::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
     }
@@ -70,15 +70,15 @@ impl GlossLobe {
 
 impl Gloss {
     /// A surface without narrow lobes.
-    pub(super) const MATT: Self = Self { matt: 1.0, lobes: [GlossLobe::NONE; TOLD] };
+    pub(super) const MATT: Self = Self { diffuse: 1.0, lobes: [GlossLobe::NONE; MAX_GLOSS_LOBES] };
 
     /// A diffuse part alone, of mean BSDF `matt`, 1/sr.
-    pub(super) fn over(matt: f32) -> Self {
-        Self { matt, ..Self::MATT }
+    pub(super) fn from_diffuse(diffuse: f32) -> Self {
+        Self { diffuse: matt: diffuse, ..Self::MATT }
     }
 
     /// Keeps only the lobes that `keep` selects.
-    pub(crate) fn keeping(mut self, keep: impl Fn(&GlossLobe) -> bool) -> Self {
+    pub(crate) fn retain_lobes(mut self, keep: impl Fn(&GlossLobe) -> bool) -> Self {
         for lobe in &mut self.lobes {
             if lobe.peak > 0.0 && !keep(lobe) {
                 *lobe = GlossLobe::NONE;
@@ -90,7 +90,7 @@ impl Gloss {
     /// Adds a lobe; of too many the weakest is left out.
     pub(super) fn with(mut self, lobe: GlossLobe) -> Self {
         let weakest =
-            (0..TOLD).fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
+            (0..MAX_GLOSS_LOBES).fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
         if lobe.peak > self.lobes[weakest].peak && lobe.peak.is_finite() {
             self.lobes[weakest] = lobe;
         }
@@ -118,7 +118,7 @@ mod tests {
             let lobe = Ggx { alpha }.gloss(Vec3::Z, 0.04);
             assert!((lobe.density_at_axis() * 4.0 * PI * alpha * alpha - 1.0).abs() < 1e-4, "{lobe:?}");
         }
-        let wide = GlossLobe::of_albedo(Vec3::Z, 3.0, 0.5);
+        let wide = GlossLobe::from_albedo(Vec3::Z, 3.0, 0.5);
         // All reflected light lies within the lobe: peak over albedo.
         assert!((wide.density_at_axis() - 6.0).abs() < 1e-4, "{wide:?}");
     }

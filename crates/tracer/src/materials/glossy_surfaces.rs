@@ -28,7 +28,7 @@ fn coated(n: f64, alpha: f64) -> Surface {
 }
 
 fn metal(distribution: Distribution, alpha: f64) -> Surface {
-    let aluminium = metal::named("Al").expect("aluminium").clone();
+    let aluminium = metal::by_name("Al").expect("aluminium").clone();
     Surface::Conductor(Box::new(Conductor::new(aluminium, alpha).expect("a metal").with_distribution(distribution)))
 }
 
@@ -66,6 +66,6 @@ fn sheeting() -> Surface {
 /// With beads of a narrow lobe: that of usual ones is hardly brighter than the paint.
 fn marking() -> Surface {
     let white = Spectrum::constant(1.0);
-    let marking = RoadMarking::with_spread(300.0, DayTime::Qd(130.0), &white, 0.5).expect("a marking");
+    let marking = RoadMarking::with_spread(300.0, DaytimeBrightness::Qd(130.0), &white, 0.5).expect("a marking");
     Surface::Marking(Box::new(marking))
 }

@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 use etendue_core::maths::f32::{exp, ln, sin_cos};
 use glam::{Vec2, Vec3};
 
-use super::slopes::{GAUSS, SeenFacets};
+use super::slopes::{GAUSS, VisibleFacets};
 use super::{MIRROR_ALPHA, microfacet::Distribution};
 
 /// Steps over the root of the roughness.
@@ -27,7 +27,7 @@ const SLANTS: usize = 128;
 const MEANS: usize = 256;
 
 /// Loss by single scattering for every roughness and incidence.
-pub(super) struct Loss {
+pub(super) struct LossTable {
     /// 1 − E, row by row of roughness.
     loss: Vec<f32>,
     /// (1 − Ē)/α².
@@ -36,11 +36,11 @@ pub(super) struct Loss {
     cumulative: Vec<f32>,
 }
 
-static GGX: LazyLock<Loss> = LazyLock::new(|| Loss::new(Distribution::Ggx));
-static BECKMANN: LazyLock<Loss> = LazyLock::new(|| Loss::new(Distribution::Beckmann));
+static GGX: LazyLock<LossTable> = LazyLock::new(|| LossTable::new(Distribution::Ggx));
+static BECKMANN: LazyLock<LossTable> = LazyLock::new(|| LossTable::new(Distribution::Beckmann));
 
 /// The table of a distribution, computed at first use.
-pub(super) fn table(distribution: Distribution) -> &'static Loss {
+pub(super) fn table(distribution: Distribution) -> &'static LossTable {
     match distribution {
         Distribution::Ggx => &GGX,
         Distribution::Beckmann => &BECKMANN,
@@ -84,38 +84,38 @@ fn mean_of(alpha: f32) -> (usize, f32) {
     (node, x - node as f32)
 }
 
-impl Loss {
+impl LossTable {
     fn new(distribution: Distribution) -> Self {
         let mut table = Self { loss: vec![], mean: vec![0.0; MEANS + 1], cumulative: vec![] };
         for row in 0..=ROUGHNESSES {
             let alpha = row_alpha(row);
             table.loss.extend((0..=SLANTS).map(|k| {
-                let lost = SeenFacets::new(distribution, alpha, cell_edge(k, alpha)).lost();
+                let lost = VisibleFacets::new(distribution, alpha, cell_edge(k, alpha)).energy_loss();
                 lost.max(1e-12) as f32
             }));
         }
         for row in 0..=ROUGHNESSES {
-            table.cumulative.extend(table.shares(row_alpha(row)));
+            table.cumulative.extend(table.cumulative_sums(row_alpha(row)));
         }
         table.mean = (0..=MEANS).map(|node| table.mean_at(node)).collect();
         table
     }
 
     /// The loss at a roughness.
-    pub(super) fn of_alpha(&self, alpha: f32) -> LossOfAlpha<'_> {
-        let ((row, share), (node, beyond)) = (row_of(alpha), mean_of(alpha));
+    pub(super) fn at_alpha(&self, alpha: f32) -> RoughnessLoss<'_> {
+        let ((row, fraction), (node, beyond)) = (row_of(alpha), mean_of(alpha));
         let mean = self.mean[node] + (self.mean[node + 1] - self.mean[node]) * beyond;
-        LossOfAlpha { table: self, alpha, row, share, mean: mean * alpha * alpha }
+        RoughnessLoss { table: self, alpha, row, row_fraction: share: fraction, mean: mean * alpha * alpha }
     }
 
     /// ∫ (1 − E) μ dμ over each cell of the slant.
     fn cells(&self, alpha: f32) -> Vec<f64> {
-        let loss = self.of_alpha(alpha);
+        let loss = self.at_alpha(alpha);
         (0..SLANTS).map(|k| loss.cell_flux(k)).collect()
     }
 
     /// Cumulative sums of the cells up to each step, normalised.
-    fn shares(&self, alpha: f32) -> Vec<f32> {
+    fn cumulative_sums(&self, alpha: f32) -> Vec<f32> {
         let cells = self.cells(alpha);
         let total: f64 = cells.iter().sum();
         let mut sum = 0.0;
@@ -139,22 +139,22 @@ fn cell_edge(k: usize, alpha: f32) -> f32 {
 
 /// Loss by single scattering at one roughness.
 #[derive(Clone, Copy)]
-pub(super) struct LossOfAlpha<'a> {
-    table: &'a Loss,
+pub(super) struct RoughnessLoss<'a> {
+    table: &'a LossTable,
     alpha: f32,
     row: usize,
-    share: f32,
+    row_fraction: f32,
     /// 1 − Ē.
     mean: f32,
 }
 
-impl core::fmt::Debug for LossOfAlpha<'_> {
+impl core::fmt::Debug for RoughnessLoss<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("LossOfAlpha").field("alpha", &self.alpha).field("mean", &self.mean).finish_non_exhaustive()
     }
 }
 
-impl LossOfAlpha<'_> {
+impl RoughnessLoss<'_> {
     /// 1 − E at a cosine.
     pub(super) fn at(&self, cos: f32) -> f32 {
         let x = step(cos, self.alpha);
@@ -164,7 +164,7 @@ impl LossOfAlpha<'_> {
             nodes[0] + (nodes[1] - nodes[0]) * (x - k as f32)
         };
         let (low, high) = (along(self.row), along(self.row + 1));
-        low + (high - low) * self.share
+        low + (high - low) * self.row_fraction
     }
 
     /// ∫ (1 − E) μ dμ over a cell of the slant: over the cosine in the first, over its logarithm in the others.
@@ -192,7 +192,7 @@ impl LossOfAlpha<'_> {
 
     /// The nearer row of the table: directions are sampled by its cells.
     fn cells(&self) -> &[f32] {
-        let row = self.row + usize::from(self.share >= 0.5);
+        let row = self.row + usize::from(self.row_fraction >= 0.5);
         &self.table.cumulative[row * (SLANTS + 1)..(row + 1) * (SLANTS + 1)]
     }
 
@@ -201,16 +201,16 @@ impl LossOfAlpha<'_> {
         let cells = self.cells();
         let k = cells.partition_point(|c| *c <= u.x).clamp(1, SLANTS) - 1;
         let within = ((u.x - cells[k]) / (cells[k + 1] - cells[k]).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let cos = self.within(k, within);
+        let cos = self.cosine_in_cell(k, within);
         let (s, c) = sin_cos(TAU * u.y);
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         Vec3::new(sin * c, sin * s, cos)
     }
 
     /// The cosine at a fraction of cell `k`: uniform by its square in the first, by its logarithm in the others.
-    fn within(&self, k: usize, share: f32) -> f32 {
+    fn cosine_in_cell(&self, k: usize, fraction: f32) -> f32 {
         let (low, high) = (cell_edge(k, self.alpha), cell_edge(k + 1, self.alpha));
-        if k == 0 { high * share.sqrt() } else { low * exp(share * ln(high / low)) }
+        if k == 0 { high * fraction.sqrt() } else { low * exp(fraction * ln(high / low)) }
     }
 
     /// Density of [`Self::sample`] at a cosine, 1/sr.

@@ -46,18 +46,18 @@ impl Lobe {
     /// A lobe about the mirror direction with `albedo` at normal incidence.
     #[must_use]
     pub fn mirror(exponent: f64, albedo: &Spectrum) -> Self {
-        Self::of_albedo(-1.0, 1.0, exponent, albedo)
+        Self::from_albedo(-1.0, 1.0, exponent, albedo)
     }
 
     /// A lobe back towards the incoming light, with `albedo` at normal incidence.
     #[must_use]
     pub fn retro(exponent: f64, albedo: &Spectrum) -> Self {
-        Self::of_albedo(1.0, 1.0, exponent, albedo)
+        Self::from_albedo(1.0, 1.0, exponent, albedo)
     }
 
     /// A lobe of factors C_t and C_n > 0 with `albedo` at normal incidence: w = albedo (n + 2)/(2π C_nⁿ).
     #[must_use]
-    pub fn of_albedo(tangential: f64, normal: f64, exponent: f64, albedo: &Spectrum) -> Self {
+    pub fn from_albedo(tangential: f64, normal: f64, exponent: f64, albedo: &Spectrum) -> Self {
         let scale = (exponent + 2.0) / (core::f64::consts::TAU * maths::f64::pow(normal, exponent));
         Self { tangential, normal, exponent, weight: albedo.scaled(scale) }
     }
@@ -238,7 +238,7 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
 
     fn value(&self, discrete_sampler: &DiscreteSampler<{ MAX_LOBES + 1 }>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let mut value_cos = self.base * (wi.z * FRAC_1_PI);
-        let mut pdf = discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z);
+        let mut pdf = discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z);
         for (i, lobe) in self.model.lobes.iter().enumerate() {
             let (axis, n) = (lobe.axis(wo), lobe.exponent as f32);
             let length = axis.length();
@@ -246,7 +246,7 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
             if cos > 0.0 {
                 let power = maths::f32::pow(cos.min(1.0), n);
                 value_cos += self.weights[i] * (maths::f32::pow(length, n) * power * wi.z);
-                pdf += discrete_sampler.of(i + 1) * (n + 1.0) / TAU * power;
+                pdf += discrete_sampler.probability(i + 1) * (n + 1.0) / TAU * power;
             }
         }
         BsdfValue { value_cos, pdf }
@@ -265,17 +265,17 @@ impl<const N: usize> BsdfModel<N> for LafortuneBsdf<'_, N> {
     }
 
     fn gloss(&self, wo: Vec3) -> Gloss {
-        let matt = Gloss::over(self.base.mean() * FRAC_1_PI);
+        let diffuse = Gloss::from_diffuse(self.base.mean() * FRAC_1_PI);
         self.model
             .lobes
             .iter()
             .zip(&self.weights)
-            .fold(matt, |gloss, (lobe, weight)| gloss.with(lobe.gloss(wo, weight.mean())))
+            .fold(diffuse, |gloss, (lobe, weight)| gloss.with(lobe.gloss(wo, weight.mean())))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
-        let wi = match discrete_sampler.draw(choice).checked_sub(1) {
+        let wi = match discrete_sampler.sample(choice).checked_sub(1) {
             None => cosine_hemisphere(u),
             Some(i) => {
                 let lobe = &self.model.lobes[i];
@@ -336,8 +336,8 @@ mod tests {
         assert!(gain.albedo > 1.0 && gain.incidence_deg > 45.0, "{gain}");
         let half = Spectrum::constant(0.5);
         assert!(Lafortune::new(Reflectance::Spectrum(half.clone()), vec![Lobe::mirror(30.0, &half)]).is_ok());
-        let most = Spectrum::constant(0.6);
-        let error = Lafortune::new(Reflectance::Spectrum(half), vec![Lobe::mirror(30.0, &most)]).expect_err("1.1");
+        let maximum = Spectrum::constant(0.6);
+        let error = Lafortune::new(Reflectance::Spectrum(half), vec![Lobe::mirror(30.0, &maximum)]).expect_err("1.1");
         assert!(matches!(error, LafortuneError::Energy(g) if (g.albedo - 1.1).abs() < 1e-3 && g.incidence_deg == 0.0));
     }
 

@@ -42,9 +42,9 @@ impl SurfaceModel for Leaf {
     /// Checks that no wavelength gains energy: node by node for spectra, by its maximum value for a texture.
     fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
         let [r, t] = [&self.reflectance, &self.transmittance].map(|part| check.brightest(part));
-        let greatest = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);
-        if greatest > WHITE {
-            return Err(MaterialError::LeafSum { material: check.material, value: greatest });
+        let maximum = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);
+        if maximum > WHITE {
+            return Err(MaterialError::LeafSum { material: check.material, value: maximum });
         }
         Ok(())
     }
@@ -60,14 +60,14 @@ pub struct LeafBsdf<const N: usize> {
     reflectance: Spectral<N>,
     transmittance: Spectral<N>,
     /// Probability of the viewer's side.
-    share: f32,
+    reflected_fraction: f32,
 }
 
 impl<const N: usize> LeafBsdf<N> {
     fn new(reflectance: Spectral<N>, transmittance: Spectral<N>) -> Self {
         let (r, t) = (reflectance.mean(), transmittance.mean());
-        let share = if r + t > 0.0 { r / (r + t) } else { 1.0 };
-        Self { reflectance, transmittance, share }
+        let fraction = if r + t > 0.0 { r / (r + t) } else { 1.0 };
+        Self { reflectance, transmittance, reflected_fraction: share: fraction }
     }
 }
 
@@ -78,12 +78,12 @@ impl<const N: usize> BsdfModel<N> for LeafBsdf<N> {
     }
 
     fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        let (scattered, share) = match wi.z > 0.0 {
-            true => (self.reflectance, self.share),
-            false => (self.transmittance, 1.0 - self.share),
+        let (scattered, fraction) = match wi.z > 0.0 {
+            true => (self.reflectance, self.reflected_fraction),
+            false => (self.transmittance, 1.0 - self.reflected_fraction),
         };
         let cos = wi.z.abs();
-        BsdfValue { value_cos: scattered * (cos * FRAC_1_PI), pdf: share * cosine_hemisphere_pdf(cos) }
+        BsdfValue { value_cos: scattered * (cos * FRAC_1_PI), pdf: fraction * cosine_hemisphere_pdf(cos) }
     }
 
     fn gloss(&self, _: Vec3) -> Gloss {
@@ -92,11 +92,11 @@ impl<const N: usize> BsdfModel<N> for LeafBsdf<N> {
 
     fn sample(&self, _wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let above = cosine_hemisphere(u);
-        let (wi, weight, share) = match choice < self.share {
-            true => (above, self.reflectance, self.share),
-            false => (Vec3::new(above.x, above.y, -above.z), self.transmittance, 1.0 - self.share),
+        let (wi, weight, fraction) = match choice < self.reflected_fraction {
+            true => (above, self.reflectance, self.reflected_fraction),
+            false => (Vec3::new(above.x, above.y, -above.z), self.transmittance, 1.0 - self.reflected_fraction),
         };
-        let pdf = share * cosine_hemisphere_pdf(above.z);
-        (pdf > 0.0).then(|| BsdfSample { wi, weight: weight / share, pdf, event: Event::Scatter })
+        let pdf = fraction * cosine_hemisphere_pdf(above.z);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: weight / fraction, pdf, event: Event::Scatter })
     }
 }

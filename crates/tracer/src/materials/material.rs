@@ -67,10 +67,10 @@ impl MaterialFlags {
 
 /// The flags of each material. No mix contains itself.
 pub(super) fn flags(materials: &[Material]) -> Vec<MaterialFlags> {
-    let mut known: Vec<_> = materials.iter().map(own).collect();
+    let mut known: Vec<_> = materials.iter().map(own_flags).collect();
     // Each iteration passes the parts' flags one mix higher up. It converges after as many iterations as mixes are nested.
     loop {
-        let next: Vec<_> = materials.iter().zip(&known).map(|(m, own)| own.or(of_parts(m, &known))).collect();
+        let next: Vec<_> = materials.iter().zip(&known).map(|(m, own)| own.or(part_flags(m, &known))).collect();
         if next == known {
             return known;
         }
@@ -78,14 +78,14 @@ pub(super) fn flags(materials: &[Material]) -> Vec<MaterialFlags> {
     }
 }
 
-fn of_parts(material: &Material, known: &[MaterialFlags]) -> MaterialFlags {
+fn part_flags(material: &Material, known: &[MaterialFlags]) -> MaterialFlags {
     match &material.surface {
         Surface::Mix(mix) => known[mix.a.0 as usize].or(known[mix.b.0 as usize]),
         _ => MaterialFlags::default(),
     }
 }
 
-fn own(material: &Material) -> MaterialFlags {
+fn own_flags(material: &Material) -> MaterialFlags {
     let (straight, solid) = match material.surface.passage() {
         Passage::None => (false, false),
         Passage::Straight => (true, false),

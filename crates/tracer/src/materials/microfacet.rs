@@ -26,7 +26,7 @@ pub struct Ggx {
 impl Ggx {
     /// The facets of a surface of roughness `alpha` (0 to 1); `None` if it is smooth.
     #[must_use]
-    pub fn of(alpha: f32) -> Option<Self> {
+    pub fn from_alpha(alpha: f32) -> Option<Self> {
         (alpha >= MIRROR_ALPHA).then_some(Self { alpha })
     }
 
@@ -113,7 +113,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    pub(super) fn of_alpha(self, alpha: f32) -> Facets {
+    pub(super) fn facets(self, alpha: f32) -> Facets {
         match self {
             Self::Ggx => Facets::Ggx(Ggx { alpha }),
             Self::Beckmann => Facets::Beckmann(Beckmann { alpha }),

@@ -64,7 +64,7 @@ pub use error::{EnergyGain, MaterialError};
 
 use etendue_core::Spectral;
 use glam::{Vec2, Vec3};
-pub(crate) use gloss::{Gloss, GlossLobe, LobeCentre, TOLD, schlick};
+pub(crate) use gloss::{Gloss, GlossLobe, LobeCentre, MAX_GLOSS_LOBES, schlick};
 #[cfg(test)]
 pub(crate) use glossy_surfaces::glossy_surfaces;
 
@@ -72,7 +72,7 @@ use list::surfaces;
 use model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use parameter::{Parameter, ShadingPoint, TextureCheck};
 
-pub use emission::{Modulation, choice_level};
+pub use emission::{Modulation, selection_level};
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
 pub use material::{Material, Mix};
@@ -82,10 +82,10 @@ pub use model::{BsdfSample, BsdfValue, Event};
 pub use parameter::{Factor, Reflectance};
 pub use puddles::{GroundRelief, Puddles};
 pub use retro::{
-    DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
+    DaytimeBrightness, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
     Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
 };
-pub use shading::{Green, NormalMap, ShadingFrame};
+pub use shading::{GreenDirection, NormalMap, ShadingFrame};
 pub use thin_sheet::{ThinSheet, ThinSheetBsdf};
 
 surfaces! {

@@ -126,18 +126,18 @@ pub(super) struct DiscreteSampler<const K: usize>([f32; K]);
 
 impl<const K: usize> DiscreteSampler<K> {
     /// Probabilities in proportion to `shares` (0 or more); `None` if all are zero.
-    pub(super) fn new(shares: [f32; K]) -> Option<Self> {
-        let total: f32 = shares.iter().sum();
-        (total > 0.0).then(|| Self(shares.map(|s| s / total)))
+    pub(super) fn new(fractions: [f32; K]) -> Option<Self> {
+        let total: f32 = fractions.iter().sum();
+        (total > 0.0).then(|| Self(fractions.map(|s| s / total)))
     }
 
     /// Probability of lobe `k`.
-    pub(super) fn of(&self, k: usize) -> f32 {
+    pub(super) fn probability(&self, k: usize) -> f32 {
         self.0[k]
     }
 
     /// The lobe selected by `choice` in [0, 1); never one of zero probability.
-    pub(super) fn draw(&self, choice: f32) -> usize {
+    pub(super) fn sample(&self, choice: f32) -> usize {
         let mut left = choice;
         let mut last = 0;
         for (k, p) in self.0.iter().enumerate().filter(|(_, p)| **p > 0.0) {
@@ -156,13 +156,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lobes_are_drawn_by_weight() {
+    fn lobes_are_sampled_by_weight() {
         let discrete_sampler = DiscreteSampler::new([0.0, 1.0, 0.0, 3.0, 0.0]).expect("weights");
         let mut counts = [0; 5];
-        (0..1000).for_each(|i| counts[discrete_sampler.draw((i as f32 + 0.5) / 1000.0)] += 1);
+        (0..1000).for_each(|i| counts[discrete_sampler.sample((i as f32 + 0.5) / 1000.0)] += 1);
         assert_eq!(counts, [0, 250, 0, 750, 0]);
-        assert_eq!(discrete_sampler.draw(0.999_999_94), 3);
-        assert_eq!(discrete_sampler.of(3), 0.75);
+        assert_eq!(discrete_sampler.sample(0.999_999_94), 3);
+        assert_eq!(discrete_sampler.probability(3), 0.75);
         assert!(DiscreteSampler::new([0.0; 3]).is_none());
     }
 }

@@ -172,7 +172,7 @@ impl<'a> TextureCheck<'a> {
     }
 
     /// The texture of a quantity that only texture coordinates can place.
-    pub(super) fn laid_by_uv(&self, what: &'static str, id: TextureId) -> Result<&'a ImageTexture, MaterialError> {
+    pub(super) fn uv_texture(&self, what: &'static str, id: TextureId) -> Result<&'a ImageTexture, MaterialError> {
         let texture = self.find(id)?;
         if texture.needs_uv() { Ok(texture) } else { Err(MaterialError::Projected { material: self.material, what }) }
     }

@@ -110,7 +110,7 @@ fn facing(normal: Vec3, geometric_normal: Vec3, to_viewer: Vec3) -> Vec3 {
 
 /// Direction of the green channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Green {
+pub enum GreenDirection {
     /// To greater v: y up (OpenGL).
     #[default]
     Up,
@@ -126,7 +126,7 @@ pub struct NormalMap {
 }
 
 /// The strongest exaggeration of slopes.
-const STRONGEST: f64 = 10.0;
+const MAX_STRENGTH: f64 = 10.0;
 
 /// Half the width of a byte's step about 0, of −1 to 1.
 const FLAT: f32 = 1.0 / 254.0;
@@ -136,12 +136,12 @@ impl NormalMap {
     ///
     /// # Errors
     /// If the strength is out of range.
-    pub fn new(texture: TextureId, green: Green, strength: f64) -> Result<Self, MaterialError> {
-        if !(0.0..=STRONGEST).contains(&strength) {
+    pub fn new(texture: TextureId, green: GreenDirection, strength: f64) -> Result<Self, MaterialError> {
+        if !(0.0..=MAX_STRENGTH).contains(&strength) {
             return Err(MaterialError::NormalStrength { strength });
         }
         let strength = strength as f32;
-        let y = if green == Green::Up { strength } else { -strength };
+        let y = if green == GreenDirection::Up { strength } else { -strength };
         Ok(Self { texture, slopes: Vec2::new(strength, y) })
     }
 
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
     use crate::textures::{Sampling, Texels};
 
-    fn bent(byte: [u8; 3], green: Green, strength: f64, normal: Vec3, tangents: [Vec3; 2]) -> Vec3 {
+    fn mapped_normal(byte: [u8; 3], green: GreenDirection, strength: f64, normal: Vec3, tangents: [Vec3; 2]) -> Vec3 {
         let texture = ImageTexture::new(1, 1, Texels::Linear8(vec![byte]), Sampling::default()).expect("a texel");
         let map = NormalMap::new(TextureId(0), green, strength).expect("a map");
         map.at(&[texture], &Lookup::point(Vec2::splat(0.5)), normal, tangents)
@@ -183,26 +183,26 @@ mod tests {
     fn colours_tell_directions_of_the_texture() {
         let flat = [Vec3::X, Vec3::Y];
         for byte in [[127, 127, 255], [128, 128, 255], [127, 128, 255]] {
-            assert_eq!(bent(byte, Green::Up, 1.0, Vec3::Z, flat), Vec3::Z);
+            assert_eq!(mapped_normal(byte, GreenDirection::Up, 1.0, Vec3::Z, flat), Vec3::Z);
         }
         // (2 · 204/255 − 1, 0, 2 · 230/255 − 1) = (0.6, 0, 0.804).
-        let right = bent([204, 128, 230], Green::Up, 1.0, Vec3::Z, flat);
+        let right = mapped_normal([204, 128, 230], GreenDirection::Up, 1.0, Vec3::Z, flat);
         assert!((right - Vec3::new(0.6, 0.0, 0.803_922).normalize()).length() < 1e-5, "{right}");
-        let up = bent([128, 204, 230], Green::Up, 1.0, Vec3::Z, flat);
-        let down = bent([128, 204, 230], Green::Down, 1.0, Vec3::Z, flat);
+        let up = mapped_normal([128, 204, 230], GreenDirection::Up, 1.0, Vec3::Z, flat);
+        let down = mapped_normal([128, 204, 230], GreenDirection::Down, 1.0, Vec3::Z, flat);
         assert!(up.y > 0.5 && (up.y + down.y).abs() < 1e-7 && up.z == down.z);
-        let strong = bent([204, 128, 230], Green::Up, 2.0, Vec3::Z, flat);
+        let strong = mapped_normal([204, 128, 230], GreenDirection::Up, 2.0, Vec3::Z, flat);
         assert!((strong.x / strong.z - 2.0 * right.x / right.z).abs() < 1e-5);
-        assert_eq!(bent([204, 128, 230], Green::Up, 0.0, Vec3::Z, flat), Vec3::Z);
+        assert_eq!(mapped_normal([204, 128, 230], GreenDirection::Up, 0.0, Vec3::Z, flat), Vec3::Z);
     }
 
     #[test]
     fn leaning_and_useless_tangents_are_borne() {
         let normal = Vec3::new(0.6, 0.0, 0.8);
-        let n = bent([204, 128, 230], Green::Up, 1.0, normal, [Vec3::X, Vec3::Y]);
+        let n = mapped_normal([204, 128, 230], GreenDirection::Up, 1.0, normal, [Vec3::X, Vec3::Y]);
         assert!((n.length() - 1.0).abs() < 1e-6 && n.dot(Vec3::new(0.8, 0.0, -0.6)) > 0.5, "{n}");
-        assert_eq!(bent([204, 230, 230], Green::Up, 1.0, normal, [normal, Vec3::ZERO]), normal);
-        assert_eq!(bent([0, 0, 0], Green::Up, 1.0, Vec3::Z, [Vec3::X, Vec3::Y]), Vec3::Z, "below the surface");
-        assert!(NormalMap::new(TextureId(0), Green::Up, f64::NAN).is_err());
+        assert_eq!(mapped_normal([204, 230, 230], GreenDirection::Up, 1.0, normal, [normal, Vec3::ZERO]), normal);
+        assert_eq!(mapped_normal([0, 0, 0], GreenDirection::Up, 1.0, Vec3::Z, [Vec3::X, Vec3::Y]), Vec3::Z, "below the surface");
+        assert!(NormalMap::new(TextureId(0), GreenDirection::Up, f64::NAN).is_err());
     }
 }

@@ -16,13 +16,13 @@ use glam::Vec3;
 use super::{beckmann::Beckmann, microfacet::Distribution};
 
 /// Slopes of Beckmann's facets beyond are left out: their fraction is exp(−30).
-const STEEPEST: f64 = 5.5;
+const MAX_SLOPE: f64 = 5.5;
 
 const FRAC_1_SQRT_PI: f64 = 0.564_189_583_547_756_3;
 
 /// Facets of one roughness as a viewer at one cosine sees them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SeenFacets {
+pub(super) struct VisibleFacets {
     distribution: Distribution,
     alpha: f64,
     cos: f64,
@@ -33,20 +33,20 @@ pub(super) struct SeenFacets {
 
 /// Interval of coordinates of a strip.
 #[derive(Clone, Copy)]
-struct Coordinates {
+struct StripInterval {
     low: f64,
     high: f64,
 }
 
 /// Facets of one slope y.
-struct Strip {
+struct SlopeStrip {
     y: f64,
     /// Stretch of the coordinate along x, see [`SeenFacets::slope`].
     stretch: f64,
     weight: f64,
 }
 
-impl SeenFacets {
+impl VisibleFacets {
     /// Facets of roughness `alpha` seen at the cosine `cos`.
     pub(super) fn new(distribution: Distribution, alpha: f32, cos: f32) -> Self {
         let (alpha, cos) = (f64::from(alpha), f64::from(cos).clamp(1e-7, 1.0));
@@ -55,14 +55,14 @@ impl SeenFacets {
     }
 
     /// Fraction of light that does not leave after one reflection, for facets that reflect everything: 1 − E.
-    pub(super) fn lost(&self) -> f64 {
+    pub(super) fn energy_loss(&self) -> f64 {
         let (above, below) = self.strips();
-        let all = |strip: &Strip| strip.weight * self.along(strip, self.ends(strip), |_, _| 1.0);
+        let all = |strip: &SlopeStrip| strip.weight * self.along(strip, self.ends(strip), |_, _| 1.0);
         let below: f64 = below.iter().map(all).sum();
         let above = above.iter().map(|strip| {
-            let (seen, up) = (self.ends(strip), self.upward(strip));
+            let (visible, up) = (self.ends(strip), self.upward(strip));
             let (left, right) =
-                (Coordinates { low: seen.low, high: up.low }, Coordinates { low: up.high, high: seen.high });
+                (StripInterval { low: visible.low, high: up.low }, StripInterval { low: up.high, high: visible.high });
             let down = self.along(strip, left, |_, _| 1.0) + self.along(strip, right, |_, _| 1.0);
             strip.weight * (down + self.along(strip, up, |_, up| 1.0 - self.free(up)))
         });
@@ -73,15 +73,15 @@ impl SeenFacets {
     /// cosine at which the light leaves.
     pub(super) fn reflected(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
         let light =
-            |strip: &Strip| strip.weight * self.along(strip, self.upward(strip), |met, up| self.free(up) * of(met, up));
+            |strip: &SlopeStrip| strip.weight * self.along(strip, self.upward(strip), |cos_facet, up| self.free(up) * of(cos_facet, up));
         self.strips().0.iter().map(light).sum()
     }
 
     /// Strips that reflect part of the light up, and strips that reflect all of it down.
-    fn strips(&self) -> ([Strip; 20], [Strip; 20]) {
+    fn strips(&self) -> ([SlopeStrip; 20], [SlopeStrip; 20]) {
         let end = match self.distribution {
             Distribution::Ggx => FRAC_PI_2,
-            Distribution::Beckmann => STEEPEST,
+            Distribution::Beckmann => MAX_SLOPE,
         };
         let steep = 1.0 / (self.alpha * self.cos);
         let split = self.coordinate(steep, 1.0).min(end);
@@ -93,14 +93,14 @@ impl SeenFacets {
     }
 
     /// Both signs of y.
-    fn strip(&self, t: f64, weight: f64) -> Strip {
+    fn strip(&self, t: f64, weight: f64) -> SlopeStrip {
         match self.distribution {
             Distribution::Ggx => {
                 let (sin, cos) = sin_cos(t);
                 let cos = cos.max(1e-15);
-                Strip { y: sin / cos, stretch: 1.0 / cos, weight: 2.0 * weight * cos }
+                SlopeStrip { y: sin / cos, stretch: 1.0 / cos, weight: 2.0 * weight * cos }
             }
-            Distribution::Beckmann => Strip { y: t, stretch: 1.0, weight: 2.0 * weight * FRAC_1_SQRT_PI * exp(-t * t) },
+            Distribution::Beckmann => SlopeStrip { y: t, stretch: 1.0, weight: 2.0 * weight * FRAC_1_SQRT_PI * exp(-t * t) },
         }
     }
 
@@ -108,7 +108,7 @@ impl SeenFacets {
     fn coordinate(&self, x: f64, stretch: f64) -> f64 {
         match self.distribution {
             Distribution::Ggx => atan(x / stretch),
-            Distribution::Beckmann => x.clamp(-STEEPEST, STEEPEST),
+            Distribution::Beckmann => x.clamp(-MAX_SLOPE, MAX_SLOPE),
         }
     }
 
@@ -125,24 +125,24 @@ impl SeenFacets {
     }
 
     /// Coordinates between which facets of a strip are visible.
-    fn ends(&self, strip: &Strip) -> Coordinates {
+    fn ends(&self, strip: &SlopeStrip) -> StripInterval {
         let at = |x| self.coordinate(x, strip.stretch);
-        Coordinates { low: at(f64::NEG_INFINITY), high: at(self.cos / (self.alpha * self.sin)) }
+        StripInterval { low: at(f64::NEG_INFINITY), high: at(self.cos / (self.alpha * self.sin)) }
     }
 
     /// Coordinates between which facets of a strip reflect light up.
-    fn upward(&self, strip: &Strip) -> Coordinates {
+    fn upward(&self, strip: &SlopeStrip) -> StripInterval {
         let (steep, s) = (self.alpha * strip.y, self.sin);
         let root = (s * s + self.cos * self.cos * (1.0 - steep * steep)).max(0.0).sqrt();
         let left = -(s + root) / (self.cos * self.alpha);
         let right = self.cos * (1.0 - steep * steep) / (self.alpha * (s + root).max(1e-300));
         let at = |x| self.coordinate(x, strip.stretch);
-        Coordinates { low: at(left), high: at(right.max(left)) }
+        StripInterval { low: at(left), high: at(right.max(left)) }
     }
 
     /// ∫ over the visible part of a strip, times a function of the cosine at the facet and of the reflected light's.
-    fn along(&self, strip: &Strip, coordinates: Coordinates, of: impl Fn(f64, f64) -> f64) -> f64 {
-        let Coordinates { low, high } = coordinates;
+    fn along(&self, strip: &SlopeStrip, coordinates: StripInterval, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let StripInterval { low, high } = coordinates;
         let at = |(g, w): &(f64, f64)| {
             let (x, density) = self.slope(low + (high - low) * g, strip.stretch);
             let towards = (self.cos - self.alpha * x * self.sin).max(0.0);
@@ -207,8 +207,8 @@ fn legendre(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    fn lost(distribution: Distribution, alpha: f32, cos: f32) -> f64 {
-        SeenFacets::new(distribution, alpha, cos).lost()
+    fn energy_loss(distribution: Distribution, alpha: f32, cos: f32) -> f64 {
+        VisibleFacets::new(distribution, alpha, cos).energy_loss()
     }
 
     #[test]
@@ -223,7 +223,7 @@ mod tests {
             (Distribution::Beckmann, 0.5, 0.05, 0.024_014_54),
         ];
         for (distribution, alpha, cos, expected) in known {
-            let lost = lost(distribution, alpha, cos);
+            let lost = energy_loss(distribution, alpha, cos);
             assert!((lost - expected).abs() < 3e-5, "{distribution:?} {alpha} {cos}: {lost} {expected}");
         }
     }
@@ -233,8 +233,8 @@ mod tests {
         for distribution in [Distribution::Ggx, Distribution::Beckmann] {
             for alpha in [1e-4, 1e-2, 0.1, 0.4, 1.0] {
                 for cos in [0.0, 1e-5, 1e-2, 0.1, 0.5, 0.9, 1.0] {
-                    let seen = SeenFacets::new(distribution, alpha, cos);
-                    let sum = seen.lost() + seen.reflected(|_, _| 1.0);
+                    let actual = VisibleFacets::new(distribution, alpha, cos);
+                    let sum = actual.energy_loss() + actual.reflected(|_, _| 1.0);
                     assert!((sum - 1.0).abs() < 3e-5, "{distribution:?} {alpha} {cos}: {sum}");
                 }
             }

@@ -59,7 +59,7 @@ impl SurfaceModel for ThinSheet {
     }
 
     fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N> {
-        self.resolve(point).shares(cos).1
+        self.resolve(point).reflectance_and_transmittance(cos).1
     }
 }
 
@@ -73,7 +73,7 @@ pub struct ThinSheetBsdf<const N: usize> {
 
 impl<const N: usize> ThinSheetBsdf<N> {
     /// Reflectance and transmittance of the pane at a cosine of incidence.
-    fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
+    fn reflectance_and_transmittance(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
         let cos = cos.clamp(0.0, 1.0);
         let planes = fresnel::planes(cos, self.n);
         let cos_inside = (fresnel::cos_square(cos, self.n) / (self.n * self.n)).sqrt();
@@ -105,14 +105,14 @@ impl<const N: usize> BsdfModel<N> for ThinSheetBsdf<N> {
     }
 
     fn sample(&self, wo: Vec3, choice: f32, _u: Vec2) -> Option<BsdfSample<N>> {
-        let (reflected, passed) = self.shares(wo.z);
+        let (reflected, passed) = self.reflectance_and_transmittance(wo.z);
         let (r, t) = (reflected.mean(), passed.mean());
-        let share = r / (r + t);
-        if choice < share {
-            return Some(BsdfSample::mirror(wo, reflected / share));
+        let fraction = r / (r + t);
+        if choice < fraction {
+            return Some(BsdfSample::mirror(wo, reflected / fraction));
         }
         // If nothing passes, the fraction is 1; NaN if the pane neither reflects nor transmits.
-        (share < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - share), pdf: 0.0, event: Event::Null })
+        (fraction < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - fraction), pdf: 0.0, event: Event::Null })
     }
 }
 
@@ -135,8 +135,8 @@ mod tests {
     #[test]
     fn a_pane_of_index_1_is_its_sheet_alone() {
         for cos in [1.0_f32, 0.5, 1e-4] {
-            assert_eq!(pane(1.0, 1.0).shares(cos), (Spectral::ZERO, Spectral::ONE), "{cos}");
-            let (reflected, passed) = pane(1.0, 0.5).shares(cos);
+            assert_eq!(pane(1.0, 1.0).reflectance_and_transmittance(cos), (Spectral::ZERO, Spectral::ONE), "{cos}");
+            let (reflected, passed) = pane(1.0, 0.5).reflectance_and_transmittance(cos);
             let expected = maths::f64::exp(maths::f64::ln(0.5) / f64::from(cos)) as f32;
             assert!(
                 reflected.is_zero() && (passed[0] - expected).abs() <= 1e-6 * expected.max(1e-30),
@@ -164,7 +164,7 @@ mod tests {
                 let a = maths::f64::exp(maths::f64::ln(f64::from(inner)) / f64::from(inside));
                 let by_plane = fresnel::planes(cos, 1.52).map(|rho| followed(f64::from(rho), a));
                 let (r, t) = (by_plane[0].0 + by_plane[1].0, by_plane[0].1 + by_plane[1].1);
-                let (reflected, passed) = pane(1.52, inner).shares(cos);
+                let (reflected, passed) = pane(1.52, inner).reflectance_and_transmittance(cos);
                 // Roundings of f32; at grazing incidence 1 − ρ² keeps fewer digits.
                 assert!((f64::from(reflected[0]) - r / 2.0).abs() < 2e-6, "{cos} {inner}");
                 assert!((f64::from(passed[0]) - t / 2.0).abs() < 2e-6, "{cos} {inner}");
@@ -175,10 +175,10 @@ mod tests {
     #[test]
     fn clear_glass_has_the_textbook_shares() {
         // ρ = ((n − 1)/(n + 1))² = 0.04: R = 2ρ/(1 + ρ) = 0.0769, T = (1 − ρ)/(1 + ρ) = 0.9231 along the normal.
-        let (reflected, passed) = pane(1.5, 1.0).shares(1.0);
+        let (reflected, passed) = pane(1.5, 1.0).reflectance_and_transmittance(1.0);
         assert!((reflected[0] - 0.08 / 1.04).abs() < 1e-6 && (passed[0] - 0.96 / 1.04).abs() < 1e-6);
         for i in 0..=1000 {
-            let (reflected, passed) = pane(1.5, 1.0).shares(i as f32 / 1000.0);
+            let (reflected, passed) = pane(1.5, 1.0).reflectance_and_transmittance(i as f32 / 1000.0);
             assert!((reflected[0] + passed[0] - 1.0).abs() < 1e-6, "{i}");
         }
     }
@@ -187,7 +187,7 @@ mod tests {
     fn no_input_is_no_number() {
         for cos in [0.0, 1e-20, 1e-4, 1.0] {
             for inner in [0.0, 1e-38, 1.0, 1.000_1] {
-                let (reflected, passed) = pane(1.1, inner).shares(cos);
+                let (reflected, passed) = pane(1.1, inner).reflectance_and_transmittance(cos);
                 assert!((0.0..=1.0).contains(&reflected[0]) && (0.0..=1.0).contains(&passed[0]), "{cos} {inner}");
                 for choice in [0.0, 0.5, 0.999_999_94] {
                     let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);

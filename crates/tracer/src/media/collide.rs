@@ -15,7 +15,7 @@ pub struct FlightRandom<'s> {
     /// The stream.
     pub stream: &'s PathStream,
     /// Number of random numbers that the path has used.
-    pub draws: &'s mut u32,
+    pub counter: &'s mut u32,
 }
 
 /// A place where light is scattered.
@@ -38,7 +38,7 @@ impl<'a> Media<'a> {
         wavelengths: &Wavelengths<N>,
         throughput: &mut Spectral<N>,
     ) -> Option<Collision<'a>> {
-        let FlightRandom { stream, draws: flights } = random;
+        let FlightRandom { stream, counter: flights } = random;
         let length_m = f64::from(media_ray.ray.direction.length());
         let last = flights.saturating_add(MAX_FLIGHTS);
         let mut t = 0.0;
@@ -57,9 +57,9 @@ impl<'a> Media<'a> {
             }
             let u = stream.one(Draw::Collision, *flights);
             match self.event(media_ray, t, piece.majorant_per_m as f32, u, wavelengths, throughput) {
-                Event::Null => {}
-                Event::Scattered(phase) => return Some(Collision { t: t as f32, phase }),
-                Event::Absorbed => return None,
+                CollisionEvent::Null => {}
+                CollisionEvent::Scattered(phase) => return Some(Collision { t: t as f32, phase }),
+                CollisionEvent::Absorbed => return None,
             }
             if *flights >= last {
                 *throughput = Spectral::ZERO;
@@ -78,7 +78,7 @@ impl<'a> Media<'a> {
         u: f32,
         wavelengths: &Wavelengths<N>,
         throughput: &mut Spectral<N>,
-    ) -> Event<'a> {
+    ) -> CollisionEvent<'a> {
         let MediaRay { ray, peak } = media_ray;
         let within = |i: usize| {
             let placed = &self.placed[i];
@@ -91,31 +91,31 @@ impl<'a> Media<'a> {
         let null = extinction.map(|extinction| (majorant_per_m - extinction).max(0.0));
         let counts = |of: Spectral<N>| (*throughput * of).mean();
         let by_null = counts(null);
-        let whole = by_null + (0..self.placed.len()).map(|i| counts(scattered(i))).sum::<f32>();
-        if whole <= 0.0 {
+        let total = by_null + (0..self.placed.len()).map(|i| counts(scattered(i))).sum::<f32>();
+        if total <= 0.0 {
             *throughput = Spectral::ZERO;
-            return Event::Absorbed;
+            return CollisionEvent::Absorbed;
         }
-        let mut rest = u * whole;
+        let mut rest = u * total;
         for i in 0..self.placed.len() {
-            let share = counts(scattered(i));
-            if rest < share {
-                *throughput *= scattered(i) * (whole / share / majorant_per_m);
-                return Event::Scattered(&self.placed[i].medium.optics(peak).phase);
+            let fraction = counts(scattered(i));
+            if rest < fraction {
+                *throughput *= scattered(i) * (total / fraction / majorant_per_m);
+                return CollisionEvent::Scattered(&self.placed[i].medium.optics(peak).phase);
             }
-            rest -= share;
+            rest -= fraction;
         }
         if by_null <= 0.0 {
             // Rounding has left a remainder beyond the last probability: treated as absorbed, which is rarer than any number of samples.
             *throughput = Spectral::ZERO;
-            return Event::Absorbed;
+            return CollisionEvent::Absorbed;
         }
-        *throughput *= null * (whole / by_null / majorant_per_m);
-        Event::Null
+        *throughput *= null * (total / by_null / majorant_per_m);
+        CollisionEvent::Null
     }
 }
 
-enum Event<'a> {
+enum CollisionEvent<'a> {
     Null,
     Scattered(&'a Phase),
     Absorbed,

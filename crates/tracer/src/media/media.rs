@@ -4,11 +4,11 @@ use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths, maths::f64::exp};
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::medium::{ForwardPeak, Medium, Optics};
+use super::medium::{ForwardPeak, Medium, MediumOptics};
 use super::{phase::Phase, shape::Hollow};
 
 /// Weight of a medium relative to the part of a ray that lies in it, if light is sampled at the middles of longer parts.
-const BESIDE: f32 = 0.05;
+const OUTSIDE_WEIGHT: f32 = 0.05;
 
 /// Maximum number of steps of ratio tracking along one ray. If more are needed, nothing comes through.
 const MAX_STEPS: u32 = 4096;
@@ -58,7 +58,7 @@ pub(super) struct PlacedMedium<'a> {
 
 /// A part of a ray, in lengths of its direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct RayPiece {
     pub(super) end: f64,
     /// Maximum extinction of all media in it, 1/m.
     pub(super) majorant_per_m: f64,
@@ -69,7 +69,7 @@ impl<'a> Media<'a> {
     #[must_use]
     pub fn new(media: &'a [Medium], origin_m: DVec3, interval: TimeInterval) -> Self {
         let place = |medium: &'a Medium| {
-            let to_local = medium.to_world.still_over(interval).map(|to_world| {
+            let to_local = medium.to_world.constant_over(interval).map(|to_world| {
                 let mut to_render = to_world;
                 to_render.translation -= origin_m;
                 to_render.inverse()
@@ -81,7 +81,7 @@ impl<'a> Media<'a> {
 
     /// Leaves out parts of one medium, by its index in the list, near the origin of the render frame. Its density must be uniform.
     #[must_use]
-    pub fn hollowed(mut self, medium: usize, hollow: Hollow) -> Self {
+    pub fn with_hollow(mut self, medium: usize, hollow: Hollow) -> Self {
         self.placed[medium].hollow = Some(hollow);
         self
     }
@@ -142,7 +142,7 @@ impl<'a> Media<'a> {
         for placed in &self.placed {
             if self.span(placed, ray, f64::INFINITY).is_some_and(|span| t >= span.from && t <= span.to) {
                 let density = self.density(placed, ray, t) as f32;
-                let Optics { extinction, albedo, phase, .. } = placed.medium.optics(peak);
+                let MediumOptics { extinction, albedo, phase, .. } = placed.medium.optics(peak);
                 let values = Spectral(phase.values(ray.direction, to, wavelengths));
                 sum += extinction.sample(wavelengths) * albedo.sample(wavelengths) * values * density;
             }
@@ -157,20 +157,20 @@ impl<'a> Media<'a> {
         let (mut scattered, mut depth) = (0.0, 0.0);
         for placed in &self.placed {
             let Some(RaySpan { from, to: end }) = self.span(placed, ray, f64::INFINITY) else { continue };
-            let Optics { extinction, albedo, phase, .. } = placed.medium.optics(ForwardPeak::Exact);
+            let MediumOptics { extinction, albedo, phase, .. } = placed.medium.optics(ForwardPeak::Exact);
             let extinction = extinction.sample(wavelengths);
             depth += f64::from(extinction.mean()) * (t.clamp(from, end) - from);
             let density = phase.density_at(ray.direction, to, wavelengths.nm[0]);
-            let counts = if t >= from && t <= end { 1.0 } else { BESIDE };
+            let counts = if t >= from && t <= end { 1.0 } else { OUTSIDE_WEIGHT };
             scattered += counts * (extinction * albedo.sample(wavelengths)).mean() * density;
         }
         scattered * exp(-depth) as f32
     }
 
     /// The part of a ray from `t` on that lies in the same media.
-    pub(super) fn piece(&self, media_ray: MediaRay<'_>, t: f64, end: f64) -> Piece {
+    pub(super) fn piece(&self, media_ray: MediaRay<'_>, t: f64, end: f64) -> RayPiece {
         let MediaRay { ray, peak } = media_ray;
-        let mut piece = Piece { end, majorant_per_m: 0.0 };
+        let mut piece = RayPiece { end, majorant_per_m: 0.0 };
         for placed in &self.placed {
             let Some(RaySpan { from, to }) = self.span(placed, ray, end) else { continue };
             if t < from {
@@ -178,7 +178,7 @@ impl<'a> Media<'a> {
             } else if t < to {
                 piece.end = piece.end.min(to);
                 piece.majorant_per_m +=
-                    f64::from(placed.medium.optics(peak).greatest_per_m * placed.medium.greatest_density());
+                    f64::from(placed.medium.optics(peak).max_per_m * placed.medium.max_density());
             }
         }
         piece
@@ -212,7 +212,7 @@ impl<'a> Media<'a> {
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
         let MediaRay { ray, peak } = media_ray;
-        let (mut depth, mut share) = ([0.0_f64; N], Spectral::ONE);
+        let (mut depth, mut fraction) = ([0.0_f64; N], Spectral::ONE);
         let length_m = f64::from(ray.direction.length());
         for (i, placed) in self.placed.iter().enumerate() {
             let Some(span) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
@@ -228,12 +228,12 @@ impl<'a> Media<'a> {
                     .filter(|k| extinction[*k] > 0.0)
                     .for_each(|k| depth[k] += f64::from(extinction[k]) * inside * length_m);
             } else {
-                let majorant_per_m = optics.greatest_per_m * placed.medium.greatest_density();
+                let majorant_per_m = optics.max_per_m * placed.medium.max_density();
                 let random = RandomCounter { counter: counter_of(random.counter, i), ..random };
-                share *= self.ratio_tracked(placed, ray, span, random, extinction, majorant_per_m);
+                fraction *= self.ratio_tracked(placed, ray, span, random, extinction, majorant_per_m);
             }
         }
-        share * Spectral(depth.map(|depth| exp(-depth) as f32))
+        fraction * Spectral(depth.map(|depth| exp(-depth) as f32))
     }
 
     fn ratio_tracked<const N: usize>(
@@ -246,19 +246,19 @@ impl<'a> Media<'a> {
         majorant_per_m: f32,
     ) -> Spectral<N> {
         let majorant = f64::from(majorant_per_m) * f64::from(ray.direction.length());
-        let (mut t, mut share) = (span.from, Spectral::ONE);
+        let (mut t, mut fraction) = (span.from, Spectral::ONE);
         if majorant == 0.0 {
-            return share;
+            return fraction;
         }
         for step in 0..MAX_STEPS {
             t += free_flight(random.stream.one(Draw::Transmittance, random.counter.wrapping_add(step))) / majorant;
             if t >= span.to {
-                return share;
+                return fraction;
             }
             let density = self.density(placed, ray, t) as f32;
-            share *= extinction.map(|extinction| (1.0 - extinction * density / majorant_per_m).max(0.0));
-            if share.is_zero() {
-                return share;
+            fraction *= extinction.map(|extinction| (1.0 - extinction * density / majorant_per_m).max(0.0));
+            if fraction.is_zero() {
+                return fraction;
             }
         }
         Spectral::ZERO

@@ -9,7 +9,7 @@ use etendue_core::Motion;
 use etendue_spectra::Spectrum;
 use glam::DVec3;
 
-use super::{noise::Noise, phase::Phase, shape::Shape};
+use super::{noise::Noise, phase::Phase, shape::MediumRegion};
 
 /// Error of a medium.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -33,7 +33,7 @@ pub enum MediumError {
 
 /// Variation of a medium's density in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unevenness {
+pub struct DensityVariation {
     /// The noise, in the world.
     pub noise: Noise,
     /// Deviation of the density at noise 1, as a fraction of the mean: 0 to 1.
@@ -44,28 +44,28 @@ pub struct Unevenness {
 
 /// Optical properties of a medium at its mean density.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Optics {
+pub(super) struct MediumOptics {
     /// Extinction coefficient, 1/m.
     pub(super) extinction: Arc<Spectrum>,
     pub(super) albedo: Arc<Spectrum>,
     pub(super) phase: Arc<Phase>,
     /// Maximum extinction over wavelengths, 1/m.
-    pub(super) greatest_per_m: f32,
+    pub(super) max_per_m: f32,
 }
 
-impl Optics {
+impl MediumOptics {
     fn new(extinction: Spectrum, albedo: Spectrum, phase: Arc<Phase>) -> Self {
-        let greatest_per_m = extinction.max_value();
-        Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, greatest_per_m }
+        let max_per_m = extinction.max_value();
+        Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, max_per_m: greatest_per_m: max_per_m }
     }
 
     /// The same if light scattered by the forward peak, a fraction f, counts as not scattered: β (1 − ω f), albedo ω (1 − f)/(1 − ω f).
     fn without_peak(&self) -> Self {
-        let Some((share, phase)) = self.phase.without_peak() else { return self.clone() };
+        let Some((fraction, phase)) = self.phase.without_peak() else { return self.clone() };
         let at = |of: &Spectrum, nm: f64| f64::from(of.at(nm as f32));
-        let kept = |nm: f64| 1.0 - at(&self.albedo, nm) * at(&share, nm);
-        let extinction = Spectrum::from_fn(|nm| at(&self.extinction, nm) * kept(nm));
-        let albedo = Spectrum::from_fn(|nm| (at(&self.albedo, nm) * (1.0 - at(&share, nm)) / kept(nm)).min(1.0));
+        let remaining = |nm: f64| 1.0 - at(&self.albedo, nm) * at(&fraction, nm);
+        let extinction = Spectrum::from_fn(|nm| at(&self.extinction, nm) * remaining(nm));
+        let albedo = Spectrum::from_fn(|nm| (at(&self.albedo, nm) * (1.0 - at(&fraction, nm)) / remaining(nm)).min(1.0));
         Self::new(extinction, albedo, Arc::new(phase))
     }
 }
@@ -82,10 +82,10 @@ pub enum ForwardPeak {
 /// A medium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Medium {
-    exact: Optics,
-    without_peak: Optics,
-    pub(super) unevenness: Option<Unevenness>,
-    pub(super) shape: Shape,
+    exact: MediumOptics,
+    without_peak: MediumOptics,
+    pub(super) unevenness: Option<DensityVariation>,
+    pub(super) shape: MediumRegion,
     pub(super) to_world: Motion,
 }
 
@@ -99,11 +99,11 @@ impl Medium {
         extinction: Spectrum,
         albedo: Spectrum,
         phase: impl Into<Arc<Phase>>,
-        shape: Shape,
+        shape: MediumRegion,
         to_world: Motion,
     ) -> Result<Self, MediumError> {
-        let faulty = |of: &Spectrum, most: f32| {
-            [of.min_value(), of.max_value()].into_iter().find(|value| !(*value >= 0.0 && *value <= most))
+        let faulty = |of: &Spectrum, maximum: f32| {
+            [of.min_value(), of.max_value()].into_iter().find(|value| !(*value >= 0.0 && *value <= maximum))
         };
         if let Some(value) = faulty(&extinction, 1e6) {
             return Err(MediumError::Extinction { value });
@@ -115,22 +115,22 @@ impl Medium {
         if !(start.is_finite() && start.matrix3.determinant() != 0.0) {
             return Err(MediumError::Transform);
         }
-        let exact = Optics::new(extinction, albedo, phase.into());
+        let exact = MediumOptics::new(extinction, albedo, phase.into());
         let without_peak = exact.without_peak();
         Ok(Self { exact, without_peak, unevenness: None, shape, to_world })
     }
 
     /// The same, but absent for light that is traced without forward peaks: for media that deflect little light and absorb none.
     #[must_use]
-    pub fn unless_without_peak(self) -> Self {
-        let Optics { albedo, phase, .. } = &self.exact;
+    pub fn absent_without_peaks(self) -> Self {
+        let MediumOptics { albedo, phase, .. } = &self.exact;
         let (albedo, phase) = (albedo.clone(), phase.clone());
-        let without_peak = Optics { extinction: Arc::new(Spectrum::constant(0.0)), albedo, phase, greatest_per_m: 0.0 };
+        let without_peak = MediumOptics { extinction: Arc::new(Spectrum::constant(0.0)), albedo, phase, max_per_m: 0.0 };
         Self { without_peak, ..self }
     }
 
     #[inline(always)]
-    pub(super) fn optics(&self, peak: ForwardPeak) -> &Optics {
+    pub(super) fn optics(&self, peak: ForwardPeak) -> &MediumOptics {
         match peak {
             ForwardPeak::Exact => &self.exact,
             ForwardPeak::Unscattered => &self.without_peak,
@@ -139,7 +139,7 @@ impl Medium {
 
     /// Adds a non-uniform density.
     #[must_use]
-    pub fn with_unevenness(self, unevenness: Unevenness) -> Self {
+    pub fn with_unevenness(self, unevenness: DensityVariation) -> Self {
         let unevenness = Some(unevenness).filter(|unevenness| unevenness.amplitude != 0.0);
         Self { unevenness, ..self }
     }
@@ -159,7 +159,7 @@ impl Medium {
     /// True if it moves, or its density variation drifts.
     #[must_use]
     pub fn moves(&self) -> bool {
-        self.to_world.as_still().is_none() || self.unevenness.is_some_and(|of| of.wind_mps != DVec3::ZERO)
+        self.to_world.as_constant().is_none() || self.unevenness.is_some_and(|of| of.wind_mps != DVec3::ZERO)
     }
 
     /// Density at a point of the world, m, at a simulated time, s, over its mean.
@@ -167,13 +167,13 @@ impl Medium {
     pub(super) fn density(&self, point_m: DVec3, time_s: f64) -> f64 {
         match &self.unevenness {
             None => 1.0,
-            Some(Unevenness { noise, amplitude, wind_mps }) => 1.0 + amplitude * noise.at(point_m - *wind_mps * time_s),
+            Some(DensityVariation { noise, amplitude, wind_mps }) => 1.0 + amplitude * noise.at(point_m - *wind_mps * time_s),
         }
     }
 
     /// Maximum density over its mean.
     #[inline]
-    pub(super) fn greatest_density(&self) -> f32 {
+    pub(super) fn max_density(&self) -> f32 {
         self.unevenness.as_ref().map_or(1.0, |unevenness| 1.0 + unevenness.amplitude as f32)
     }
 }

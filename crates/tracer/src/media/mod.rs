@@ -19,11 +19,11 @@ mod solid;
 
 pub use collide::{Collision, FlightRandom};
 pub use media::{Media, MediaRay, RandomCounter};
-pub use medium::{ForwardPeak, Medium, MediumError, Unevenness};
+pub use medium::{ForwardPeak, Medium, MediumError, DensityVariation};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;
-pub use shape::{Hollow, HollowPart, Shape};
+pub use shape::{Hollow, HollowPart, MediumRegion};
 
 pub(crate) use media::RaySpan;
 #[cfg(test)]

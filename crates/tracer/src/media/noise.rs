@@ -25,14 +25,14 @@ impl Noise {
     /// The value at a point, m.
     #[must_use]
     pub fn at(&self, point_m: DVec3) -> f64 {
-        let (mut sum, mut whole, mut strength, mut place) = (0.0, 0.0, 1.0, point_m / self.scale_m);
+        let (mut sum, mut total_strength, mut strength, mut place) = (0.0, 0.0, 1.0, point_m / self.scale_m);
         for octave in 0..self.octaves {
             sum += strength * gradient_noise(place, self.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)));
-            whole += strength;
+            total_strength += strength;
             strength *= self.gain;
             place *= 2.0;
         }
-        (sum / whole).clamp(-1.0, 1.0)
+        (sum / total_strength).clamp(-1.0, 1.0)
     }
 }
 
@@ -51,8 +51,8 @@ fn gradient_noise(place: DVec3, seed: u32) -> f64 {
     mix(mix(along(0, 0), along(1, 0), fade.y), mix(along(0, 1), along(1, 1), fade.y), fade.z)
 }
 
-fn mix(low: f64, high: f64, share: f64) -> f64 {
-    low + share * (high - low)
+fn mix(low: f64, high: f64, fraction: f64) -> f64 {
+    low + fraction * (high - low)
 }
 
 /// The product of a point and one of the twelve directions to the edges of a cube.

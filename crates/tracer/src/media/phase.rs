@@ -42,7 +42,7 @@ impl Phase {
     /// the peak continues within 20° of its direction. If that makes no difference, it may be treated as not scattered at all (the δ
     /// approximation of Joseph, Wiscombe and Weinman 1976).
     pub(super) fn without_peak(&self) -> Option<(Spectrum, Self)> {
-        let (share, table) = match self {
+        let (fraction, table) = match self {
             Self::Isotropic | Self::Rayleigh => return None,
             Self::HenyeyGreenstein { g } if *g < PEAKED => return None,
             Self::HenyeyGreenstein { g } => {
@@ -54,7 +54,7 @@ impl Phase {
             }
             Self::Table(table) => table.without_peak(PEAK_RAD),
         };
-        Some((share, Self::Table(table)))
+        Some((fraction, Self::Table(table)))
     }
 
     /// p, 1/sr, of light that is scattered from the unit direction `from` into the unit direction `to`; for tables the mean over the
@@ -152,14 +152,14 @@ mod tests {
             ("backward", Phase::HenyeyGreenstein { g: -0.4 }),
             ("even", Phase::HenyeyGreenstein { g: 0.0 }),
             ("molecules", Phase::Rayleigh),
-            ("water", Phase::Table(SpectralTable::of_water(8.0))),
+            ("water", Phase::Table(SpectralTable::from_water(8.0))),
             ("fit", Phase::Table(SpectralTable::fitted_to_water(12.0).expect("in range"))),
         ]
     }
 
     /// The density integrates to one, and samples follow it: χ² over bins of equal expected counts in angle. 2·10⁵ samples.
     #[test]
-    fn directions_are_drawn_by_the_density() {
+    fn directions_are_sampled_by_the_density() {
         let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
         let from = Vec3::new(0.48, 0.6, 0.64).normalize();
         let (along, across) = from.any_orthonormal_pair();
@@ -167,21 +167,21 @@ mod tests {
             // Nodes dense in the forward peak.
             let n = 200_000_u32;
             let v_of = |t: f64| 2.0 * t * t * t * t;
-            let mut shares = vec![0.0_f64; n as usize];
-            for (i, share) in shares.iter_mut().enumerate() {
+            let mut fractions = vec![0.0_f64; n as usize];
+            for (i, fraction) in fractions.iter_mut().enumerate() {
                 let t = (i as f64 + 0.5) / f64::from(n);
                 let v = v_of(t);
                 let (cos, sin) = ((1.0 - v) as f32, (v * (2.0 - v)).max(0.0).sqrt() as f32);
                 let to = from * cos + along * (0.6 * sin) + across * (0.8 * sin);
-                *share = f64::from(phase.density(from, to, &wavelengths)) * core::f64::consts::TAU * 8.0 * t * t * t
+                *fraction = f64::from(phase.density(from, to, &wavelengths)) * core::f64::consts::TAU * 8.0 * t * t * t
                     / f64::from(n);
             }
-            let whole: f64 = shares.iter().sum();
-            assert!((whole - 1.0).abs() < 2e-3, "{name}: {whole}");
+            let total: f64 = fractions.iter().sum();
+            assert!((total - 1.0).abs() < 2e-3, "{name}: {total}");
             let edges: Vec<f64> = {
                 let (mut sum, mut edges) = (0.0, vec![]);
-                for (i, share) in shares.iter().enumerate() {
-                    sum += share / whole;
+                for (i, fraction) in fractions.iter().enumerate() {
+                    sum += fraction / total;
                     while edges.len() + 1 < BINS && sum > (edges.len() + 1) as f64 / BINS as f64 {
                         edges.push(v_of((i as f64 + 1.0) / f64::from(n)));
                     }
@@ -190,15 +190,15 @@ mod tests {
             };
             let expected_shares: Vec<f64> = {
                 let mut bins = vec![0.0; BINS];
-                for (i, share) in shares.iter().enumerate() {
+                for (i, fraction) in fractions.iter().enumerate() {
                     let v = v_of((i as f64 + 0.5) / f64::from(n));
-                    bins[edges.partition_point(|edge| *edge <= v)] += share / whole;
+                    bins[edges.partition_point(|edge| *edge <= v)] += fraction / total;
                 }
                 bins
             };
-            let draws = 200_000_u32;
+            let samples = 200_000_u32;
             let (mut counts, mut turns) = (vec![0_u64; BINS], vec![0_u64; 16]);
-            for i in 0..draws {
+            for i in 0..samples {
                 let r = philox4x32([i, 0, 0, 0], [5, 9]);
                 let u = Vec2::new(unit_f32(r[1]), unit_f32(r[2]));
                 let to = phase.sample(from, unit_f32(r[0]), u, &wavelengths);
@@ -208,10 +208,10 @@ mod tests {
                 let turn = etendue_core::maths::f32::atan2(to.dot(across), to.dot(along)) / TAU + 0.5;
                 turns[((turn * 16.0) as usize).min(15)] += 1;
             }
-            let expected: Vec<f64> = expected_shares.iter().map(|share| share * f64::from(draws)).collect();
+            let expected: Vec<f64> = expected_shares.iter().map(|fraction| fraction * f64::from(samples)).collect();
             let test = chi_square::goodness_of_fit(&counts, &expected).expect("bins");
             assert!(test.p > 1e-3, "{name}: {test:?}");
-            let test = chi_square::goodness_of_fit(&turns, &[f64::from(draws) / 16.0; 16]).expect("bins");
+            let test = chi_square::goodness_of_fit(&turns, &[f64::from(samples) / 16.0; 16]).expect("bins");
             assert!(test.p > 1e-3, "{name}, azimuth: {test:?}");
         }
     }

@@ -55,7 +55,7 @@ fn balls(n: f64) -> impl Iterator<Item = ScatteredPart> {
                 _ => 2.0 * (i - r) + f64::from(order - 1) * (PI - 2.0 * r),
             };
             let d = 2.0 * sin(0.5 * turned);
-            let strength: f64 = planes.map(f64::from).map(|mirrored| of_order(order, mirrored)).iter().sum();
+            let strength: f64 = planes.map(f64::from).map(|mirrored| order_fraction(order, mirrored)).iter().sum();
             ScatteredPart { v: 0.5 * d * d, strength: b * strength }
         };
         (0..=ORDERS).map(part)
@@ -64,9 +64,9 @@ fn balls(n: f64) -> impl Iterator<Item = ScatteredPart> {
 }
 
 /// Fraction of light that leaves after an order's passages, for an interface of reflectance `mirrored`.
-fn of_order(order: u32, mirrored: f64) -> f64 {
+fn order_fraction(order: u32, mirrored: f64) -> f64 {
     let through = (1.0 - mirrored) * (1.0 - mirrored);
-    let inside = (1..order).fold(1.0, |share, _| share * mirrored);
+    let inside = (1..order).fold(1.0, |fraction, _| fraction * mirrored);
     match order {
         0 => mirrored,
         ORDERS => (1.0 - mirrored) * inside,
@@ -86,19 +86,19 @@ impl PhaseTable {
         let v: Vec<f64> =
             angles().map(|angle| 2.0 * etendue_core::maths::f64::sin(0.5 * angle)).map(|d| 0.5 * d * d).collect();
         let parts: Vec<f64> = (0..STEPS).map(|i| PI * (values[i] + values[i + 1]) * (v[i + 1] - v[i])).collect();
-        let whole: f64 = parts.iter().sum();
+        let total: f64 = parts.iter().sum();
         let mut sum = 0.0;
         let mut below = vec![0.0];
         for part in parts {
             sum += part;
-            below.push((sum / whole) as f32);
+            below.push((sum / total) as f32);
         }
-        let density = values.iter().map(|value| (value / whole) as f32).collect();
+        let density = values.iter().map(|value| (value / total) as f32).collect();
         Self { v: v.into_iter().map(|v| v as f32).collect(), density, below }
     }
 
     /// A table of light that is scattered in parts.
-    fn of_parts(parts: impl Iterator<Item = ScatteredPart>) -> Self {
+    fn from_parts(parts: impl Iterator<Item = ScatteredPart>) -> Self {
         let v: Vec<f64> = angles()
             .map(|angle| {
                 let d = 2.0 * sin(0.5 * angle);
@@ -108,9 +108,9 @@ impl PhaseTable {
         let mut sums = vec![0.0; v.len()];
         for ScatteredPart { v: at, strength } in parts {
             let i = v.partition_point(|node| *node <= at).clamp(1, STEPS) - 1;
-            let share = ((at - v[i]) / (v[i + 1] - v[i])).clamp(0.0, 1.0);
-            sums[i] += strength * (1.0 - share);
-            sums[i + 1] += strength * share;
+            let fraction = ((at - v[i]) / (v[i + 1] - v[i])).clamp(0.0, 1.0);
+            sums[i] += strength * (1.0 - fraction);
+            sums[i + 1] += strength * fraction;
         }
         let width = |i: usize| v[(i + 1).min(STEPS)] - v[i.saturating_sub(1)];
         Self::new(&sums.iter().enumerate().map(|(i, sum)| sum / width(i)).collect::<Vec<_>>())
@@ -126,9 +126,9 @@ impl PhaseTable {
             .enumerate()
             .map(|(i, p)| f64::from(if i < first { p.min(plateau) } else { *p }))
             .collect();
-        let kept: f64 =
+        let remaining: f64 =
             (0..STEPS).map(|i| PI * (cut[i] + cut[i + 1]) * (f64::from(self.v[i + 1]) - f64::from(self.v[i]))).sum();
-        ((1.0 - kept).max(0.0), Self::new(&cut))
+        ((1.0 - remaining).max(0.0), Self::new(&cut))
     }
 
     #[inline]
@@ -151,8 +151,8 @@ impl PhaseTable {
     #[inline]
     fn density(&self, v: f32) -> f32 {
         let i = self.cell(v);
-        let share = ((v - self.v[i]) / (self.v[i + 1] - self.v[i])).clamp(0.0, 1.0);
-        self.density[i] + share * (self.density[i + 1] - self.density[i])
+        let fraction = ((v - self.v[i]) / (self.v[i + 1] - self.v[i])).clamp(0.0, 1.0);
+        self.density[i] + fraction * (self.density[i + 1] - self.density[i])
     }
 
     /// v below which the fraction `u` of the light lies.
@@ -185,21 +185,21 @@ impl SpectralTable {
     /// The phase function without its forward peak: within `within_rad` at most its value at that angle. Also the fraction of light in the
     /// peak, by wavelength.
     pub(super) fn without_peak(&self, within_rad: f64) -> (Spectrum, Self) {
-        let (shares, tables): (Vec<f64>, Vec<PhaseTable>) =
+        let (fractions, tables): (Vec<f64>, Vec<PhaseTable>) =
             self.tables.iter().map(|table| table.without_peak(within_rad)).unzip();
-        let share = |nm: f64| {
+        let fraction = |nm: f64| {
             let (i, between) = self.place(nm as f32);
-            let next = shares.get(i + 1).copied().unwrap_or(shares[i]);
-            shares[i] + f64::from(between) * (next - shares[i])
+            let next = fractions.get(i + 1).copied().unwrap_or(fractions[i]);
+            fractions[i] + f64::from(between) * (next - fractions[i])
         };
-        (Spectrum::from_fn(share), Self { nm: self.nm.clone(), tables })
+        (Spectrum::from_fn(fraction), Self { nm: self.nm.clone(), tables })
     }
 
     /// Water droplets of log-normal sizes about a median diameter, µm (0.1 to 100), by Mie's series (`etendue_spectra::mie`).
     #[must_use]
-    pub fn of_water(diameter_um: f64) -> Self {
+    pub fn from_water(diameter_um: f64) -> Self {
         let cosines: Vec<f64> = angles().map(cos).collect();
-        let table = |nm: f32| PhaseTable::new(&Droplets::of_water(diameter_um).phase(f64::from(nm), &cosines));
+        let table = |nm: f32| PhaseTable::new(&Droplets::from_water(diameter_um).phase(f64::from(nm), &cosines));
         Self { nm: NM.to_vec(), tables: NM.into_par_iter().map(table).collect() }
     }
 
@@ -215,7 +215,7 @@ impl SpectralTable {
         let g_hg = exp(-0.099_056_7 / (d - 1.671_54));
         let g_d = exp(-2.206_79 / (d + 3.910_29) - 0.428_934);
         let alpha = exp(3.624_89 - 8.292_88 / (d + 5.528_25));
-        let share = exp(-0.599_085 / (d - 0.641_583) - 0.665_888);
+        let fraction = exp(-0.599_085 / (d - 0.641_583) - 0.665_888);
         let value = |angle: f64| {
             let mu = cos(angle);
             let far = 2.0 * etendue_core::maths::f64::sin(0.5 * angle);
@@ -225,7 +225,7 @@ impl SpectralTable {
                 (1.0 - g * g) / (x * x.sqrt()) * 0.25 / PI
             };
             let draine = of(g_d) * (1.0 + alpha * mu * mu) / (1.0 + alpha * (1.0 + 2.0 * g_d * g_d) / 3.0);
-            (1.0 - share) * of(g_hg) + share * draine
+            (1.0 - fraction) * of(g_hg) + fraction * draine
         };
         Some(Self::grey(value))
     }
@@ -233,9 +233,9 @@ impl SpectralTable {
     /// Balls of a refractive index, far larger than the wavelength, by geometric optics without diffraction: scattering of the light that
     /// hits the ball. Both polarisations, up to twelve passages. For water this includes the rainbows.
     #[must_use]
-    pub fn of_large_balls(index: &Spectrum) -> Self {
+    pub fn from_large_balls(index: &Spectrum) -> Self {
         let nm: Vec<f32> = (0..=8).map(|i| 380.0 + 42.5 * i as f32).collect();
-        let table = |nm: &f32| PhaseTable::of_parts(balls(f64::from(index.at(*nm))));
+        let table = |nm: &f32| PhaseTable::from_parts(balls(f64::from(index.at(*nm))));
         let tables = nm.par_iter().map(table).collect();
         Self { nm, tables }
     }
@@ -243,15 +243,15 @@ impl SpectralTable {
     /// p at a wavelength, 1/sr.
     #[inline]
     pub(super) fn density(&self, nm: f32, v: f32) -> f32 {
-        let (i, share) = self.place(nm);
+        let (i, fraction) = self.place(nm);
         let low = self.tables[i].density(v);
-        if share > 0.0 { low + share * (self.tables[i + 1].density(v) - low) } else { low }
+        if fraction > 0.0 { low + fraction * (self.tables[i + 1].density(v) - low) } else { low }
     }
 
     /// Samples v at a wavelength; `choice` selects one of the two tables around it.
     pub(super) fn sample(&self, nm: f32, choice: f32, u: f32) -> f32 {
-        let (i, share) = self.place(nm);
-        self.tables[if choice < share { i + 1 } else { i }].sample(u)
+        let (i, fraction) = self.place(nm);
+        self.tables[if choice < fraction { i + 1 } else { i }].sample(u)
     }
 
     /// The table below a wavelength, and the weight of the next one.
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn mean_cosines_of_water() {
         for (diameter_um, g) in [(5.0, 0.834_63), (12.0, 0.858_98), (20.0, 0.867_63)] {
-            let table = &SpectralTable::of_water(diameter_um).tables[1];
+            let table = &SpectralTable::from_water(diameter_um).tables[1];
             let n = 20_000;
             let mean: f64 =
                 (0..n).map(|i| 1.0 - f64::from(table.sample((i as f32 + 0.5) / n as f32))).sum::<f64>() / f64::from(n);
@@ -286,7 +286,7 @@ mod tests {
     fn the_fit_is_as_far_from_the_series_as_others_find_it() {
         for diameter_um in [5.0, 12.0, 20.0] {
             let (mie, fit) =
-                (SpectralTable::of_water(diameter_um), SpectralTable::fitted_to_water(diameter_um).expect("in range"));
+                (SpectralTable::from_water(diameter_um), SpectralTable::fitted_to_water(diameter_um).expect("in range"));
             let ratio = |degrees: f32| {
                 let d = 2.0 * etendue_core::maths::f32::sin_cos(0.5 * degrees.to_radians()).0;
                 let v = 0.5 * d * d;

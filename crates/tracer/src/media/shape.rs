@@ -8,7 +8,7 @@ use super::solid::Solid;
 
 /// The part of space that a medium fills.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum MediumRegion {
     /// All of space.
     Everywhere,
     /// Below z = `top_m`.
@@ -30,7 +30,7 @@ pub enum Shape {
     Mesh(Arc<Solid>),
 }
 
-impl Shape {
+impl MediumRegion {
     /// Start and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` if there is none. For a
     /// mesh from the ray's first entry to its last exit: gaps may lie between ([`Shape::gaps`]).
     pub(super) fn span(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(f64, f64)> {
@@ -136,17 +136,17 @@ mod tests {
     #[test]
     fn spans_of_plain_shapes() {
         let x = DVec3::X;
-        assert_eq!(Shape::Everywhere.span(DVec3::ONE, x, 7.0), Some((0.0, 7.0)));
-        let below = Shape::Below { top_m: 2.0 };
+        assert_eq!(MediumRegion::Everywhere.span(DVec3::ONE, x, 7.0), Some((0.0, 7.0)));
+        let below = MediumRegion::Below { top_m: 2.0 };
         assert_eq!(below.span(DVec3::ZERO, DVec3::Z, 9.0), Some((0.0, 2.0)));
         assert_eq!(below.span(DVec3::Z * 5.0, -DVec3::Z, 9.0), Some((3.0, 9.0)));
         assert!(below.span(DVec3::Z * 5.0, x, 9.0).is_none());
         assert_eq!(below.span(DVec3::Z, x, f64::INFINITY), Some((0.0, f64::INFINITY)));
-        let cube = Shape::Box { half_m: DVec3::new(1.0, 2.0, 3.0) };
+        let cube = MediumRegion::Box { half_m: DVec3::new(1.0, 2.0, 3.0) };
         assert_eq!(cube.span(x * -4.0, x, 9.0), Some((3.0, 5.0)));
         assert_eq!(cube.span(DVec3::ZERO, x, 9.0), Some((0.0, 1.0)), "from inside");
         assert!(cube.span(DVec3::new(-4.0, 2.5, 0.0), x, 9.0).is_none());
-        let ball = Shape::Ball { radius_m: 2.0 };
+        let ball = MediumRegion::Ball { radius_m: 2.0 };
         assert_eq!(ball.span(x * -4.0, x * 2.0, 9.0), Some((1.0, 3.0)), "in lengths of the direction");
         assert!(ball.span(x * 4.0, x, 9.0).is_none());
     }

@@ -38,12 +38,12 @@ pub struct Solid {
     vertices: Vec<DVec3>,
     /// In the order of the leaves.
     triangles: Vec<[u32; 3]>,
-    nodes: Vec<Node>,
+    nodes: Vec<SolidNode>,
 }
 
 /// A box over triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Node {
+struct SolidNode {
     low: DVec3,
     high: DVec3,
     /// Its triangles.
@@ -85,12 +85,12 @@ impl Solid {
 
     /// Crossings of a ray with the surface, in lengths of its direction, beyond its origin.
     fn crossings(&self, origin: DVec3, direction: DVec3) -> Vec<f64> {
-        let (line, inverse) = (Line::new(origin, direction), direction.recip());
-        let mut found = vec![];
+        let (line, inverse) = (LocalLine::new(origin, direction), direction.recip());
+        let mut distances = vec![];
         let mut at = vec![0_u32];
         while let Some(i) = at.pop() {
             let node = &self.nodes[i as usize];
-            if !node.is_met(origin, inverse) {
+            if !node.is_hit(origin, inverse) {
                 continue;
             }
             if node.second > 0 {
@@ -98,10 +98,10 @@ impl Solid {
                 continue;
             }
             let triangles = &self.triangles[node.first as usize..(node.first + node.count) as usize];
-            found.extend(triangles.iter().filter_map(|triangle| line.crosses(&self.vertices, triangle)));
+            distances.extend(triangles.iter().filter_map(|triangle| line.crosses(&self.vertices, triangle)));
         }
-        found.retain(|t| *t > 0.0);
-        found
+        distances.retain(|t| *t > 0.0);
+        distances
     }
 }
 
@@ -132,7 +132,7 @@ fn check_closed(triangles: &[[u32; 3]]) -> Result<(), SolidError> {
 }
 
 /// Boxes over a range of triangles, halved by count along the longest side.
-fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, nodes: &mut Vec<Node>) {
+fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, nodes: &mut Vec<SolidNode>) {
     let Range { start: first, end } = range;
     let part = &mut triangles[first..end];
     let corners = || part.iter().flatten().map(|i| vertices[*i as usize]);
@@ -141,7 +141,7 @@ fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, no
     // Margin for rounding if a ray runs along a side.
     let room = DVec3::splat(1e-9 * low.abs().max(high.abs()).max_element());
     let at = nodes.len();
-    nodes.push(Node {
+    nodes.push(SolidNode {
         low: low - room,
         high: high + room,
         first: first as u32,
@@ -160,9 +160,9 @@ fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, no
     build(vertices, triangles, half..end, nodes);
 }
 
-impl Node {
+impl SolidNode {
     /// True if a ray may hit the box; false only if it certainly misses.
-    fn is_met(&self, origin: DVec3, inverse: DVec3) -> bool {
+    fn is_hit(&self, origin: DVec3, inverse: DVec3) -> bool {
         let (mut from, mut to) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
             if inverse[axis].is_infinite() {
@@ -180,7 +180,7 @@ impl Node {
 }
 
 /// A line in axes of its own: across it, and along it in lengths of its direction.
-struct Line {
+struct LocalLine {
     origin: DVec3,
     /// Axis of the direction's largest component, and the two others.
     axes: [usize; 3],
@@ -188,7 +188,7 @@ struct Line {
     shear: DVec3,
 }
 
-impl Line {
+impl LocalLine {
     fn new(origin: DVec3, direction: DVec3) -> Self {
         let along = (0..3).max_by(|a, b| direction[*a].abs().total_cmp(&direction[*b].abs())).unwrap_or(2);
         let [x, y] = [(along + 1) % 3, (along + 2) % 3];
@@ -213,8 +213,8 @@ impl Line {
         };
         let edges = [side(b, c), side(c, a), side(a, b)];
         let [p, q, r] = [turns(edges[0], b, c), turns(edges[1], c, a), turns(edges[2], a, b)];
-        let whole: f64 = edges.iter().sum();
-        (p == q && q == r && whole != 0.0).then(|| (edges[0] * a.z + edges[1] * b.z + edges[2] * c.z) / whole)
+        let total: f64 = edges.iter().sum();
+        (p == q && q == r && total != 0.0).then(|| (edges[0] * a.z + edges[1] * b.z + edges[2] * c.z) / total)
     }
 }
 
@@ -231,11 +231,11 @@ pub(crate) fn cuboid(centre: DVec3, half: DVec3, first: u32) -> (Vec<DVec3>, Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::media::Shape;
+    use crate::media::MediumRegion;
     use etendue_core::maths::f64::{cos, sin};
     use etendue_core::random::philox4x32;
 
-    fn drawn(i: u32) -> [f64; 8] {
+    fn random_numbers(i: u32) -> [f64; 8] {
         let word = |k: u32| philox4x32([i, k, 0, 0], [7, 8]).map(|w| f64::from(w) / 2_147_483_648.0 - 1.0);
         let ([a, b, c, d], [e, f, g, h]) = (word(0), word(1));
         [a, b, c, d, e, f, g, h]
@@ -246,23 +246,23 @@ mod tests {
     fn a_box_of_triangles_is_the_box() {
         let half = DVec3::new(1.0, 2.0, 0.5);
         let (vertices, triangles) = cuboid(DVec3::ZERO, half, 0);
-        let (solid, shape) = (Solid::new(&vertices, &triangles).expect("closed"), Shape::Box { half_m: half });
-        let mut met = 0;
+        let (solid, shape) = (Solid::new(&vertices, &triangles).expect("closed"), MediumRegion::Box { half_m: half });
+        let mut hits = 0;
         for i in 0..10_000 {
-            let [a, b, c, d, e, f, g, _] = drawn(i);
+            let [a, b, c, d, e, f, g, _] = random_numbers(i);
             let (origin, direction) = (DVec3::new(a, b, c) * 3.0, DVec3::new(d, e, f));
             let end = 2.0 + g;
             let parts = solid.parts(origin, direction, end);
             match (shape.span(origin, direction, end), parts.as_slice()) {
                 (None, []) => {}
                 (Some((from, to)), [(enter, leave)]) => {
-                    met += 1;
+                    hits += 1;
                     assert!((from - enter).abs() < 1e-9 && (to - leave).abs() < 1e-9, "{i}: {from} {to} {parts:?}");
                 }
                 (span, parts) => panic!("{i}: {span:?} {parts:?}"),
             }
         }
-        assert!(met > 500, "{met}");
+        assert!(hits > 500, "{hits}");
     }
 
     /// Rays exactly through edges, diagonals of sides and vertices, from outside and from the middle: neither missed nor counted twice.
@@ -321,11 +321,11 @@ mod tests {
         }
         let solid = Solid::new(&vertices, &triangles).expect("closed at its poles and its seam");
         for i in 0..1000 {
-            let [a, b, c, d, ..] = drawn(i);
+            let [a, b, c, d, ..] = random_numbers(i);
             let aside = DVec3::new(0.0, a, b) * 0.6;
             let direction = DVec3::new(1.0, 0.1 * c, 0.1 * d);
             let origin = aside - 3.0 * direction;
-            let span = Shape::Ball { radius_m: 1.0 }.span(origin, direction, 9.0).expect("within");
+            let span = MediumRegion::Ball { radius_m: 1.0 }.span(origin, direction, 9.0).expect("within");
             let parts = solid.parts(origin, direction, 9.0);
             let lost = (span.1 - span.0) - (parts[0].1 - parts[0].0);
             assert!(parts.len() == 1 && lost > -1e-9 && lost < 2.0 * 0.0025 / 0.5, "{i}: {lost}");

@@ -13,17 +13,17 @@ use glam::DVec3;
 use super::size_law::SizeClass;
 
 /// Minimum distance of a modelled class, m: nearer drops would be on the camera itself.
-const LEAST_M: f64 = 0.02;
+const MIN_MODEL_DISTANCE_M: f64 = 0.02;
 
 /// Resolution of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resolution {
+pub struct CameraResolution {
     /// Angle of a pixel, rad.
     pub pixel_rad: f64,
     /// Minimum width of a modelled particle, as a fraction of a pixel's width.
-    pub smallest_px: f64,
+    pub min_size_px: f64,
     /// Maximum mean number of particles modelled during an exposure.
-    pub most: f64,
+    pub max_particles: f64,
     /// Exposure time, s.
     pub exposure_s: f64,
     /// Distance from the camera within which there are no particles, m.
@@ -44,11 +44,11 @@ pub struct ChangeOver {
 impl ChangeOver {
     /// The change-over of a camera that sees a region.
     #[must_use]
-    pub fn new(classes: &[SizeClass], resolution: &Resolution, region: &SeenRegion) -> Self {
+    pub fn new(classes: &[SizeClass], resolution: &CameraResolution, region: &VisibleRegion) -> Self {
         let clear_m = resolution.clear_m;
-        let resolved = |class: &SizeClass| class.diameter_m / (resolution.smallest_px * resolution.pixel_rad);
-        let share = (region.solid_angle_sr() / (4.0 * PI)).min(1.0);
-        let cone = |r: f64| 4.0 / 3.0 * PI * share * r * r * r;
+        let resolved = |class: &SizeClass| class.diameter_m / (resolution.min_size_px * resolution.pixel_rad);
+        let fraction = (region.solid_angle_sr() / (4.0 * PI)).min(1.0);
+        let cone = |r: f64| 4.0 / 3.0 * PI * fraction * r * r * r;
         let at_a_moment = |class: &SizeClass, r: f64| class.number_per_m3 * (cone(r) - cone(clear_m));
         // Particles that fall into the ball about the camera during the exposure; all of them may cross the cone.
         let falling =
@@ -57,24 +57,24 @@ impl ChangeOver {
             let reached = classes.iter().map(|class| (class, scale * resolved(class)));
             reached.filter(|(_, r)| *r > clear_m).map(|(class, r)| of(class, r)).sum()
         };
-        let fits = |scale: f64| count(scale, &at_a_moment) + count(scale, &falling) <= resolution.most;
-        let scale = if fits(1.0) { 1.0 } else { greatest(fits) };
+        let fits = |scale: f64| count(scale, &at_a_moment) + count(scale, &falling) <= resolution.max_particles;
+        let scale = if fits(1.0) { 1.0 } else { max_scale(fits) };
         let radius = |class: &SizeClass| {
             let radius = scale * resolved(class);
-            if radius < LEAST_M { clear_m } else { radius.max(clear_m) }
+            if radius < MIN_MODEL_DISTANCE_M { clear_m } else { radius.max(clear_m) }
         };
         Self { clear_m, radii_m: classes.iter().map(radius).collect(), expected: count(scale, &at_a_moment) }
     }
 
     /// Maximum distance, m.
     #[must_use]
-    pub fn farthest_m(&self) -> f64 {
+    pub fn max_distance_m(&self) -> f64 {
         self.radii_m.iter().copied().fold(0.0, f64::max)
     }
 }
 
 /// The maximum scale below 1 that fits, by bisection; 0 if none does.
-fn greatest(fits: impl Fn(f64) -> bool) -> f64 {
+fn max_scale(fits: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
@@ -85,13 +85,13 @@ fn greatest(fits: impl Fn(f64) -> bool) -> f64 {
 
 /// A cone from the origin of a view, or all directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeenRegion {
+pub struct VisibleRegion {
     axis: DVec3,
     half_angle_rad: f64,
     margin_m: f64,
 }
 
-impl SeenRegion {
+impl VisibleRegion {
     /// All directions.
     pub const EVERYWHERE: Self = Self { axis: DVec3::X, half_angle_rad: core::f64::consts::PI, margin_m: 0.0 };
 
@@ -99,8 +99,8 @@ impl SeenRegion {
     #[must_use]
     pub fn around(directions: &[DVec3], room_rad: f64, margin_m: f64) -> Self {
         let Some(axis) = directions.iter().sum::<DVec3>().try_normalize() else { return Self::EVERYWHERE };
-        let least = directions.iter().map(|direction| direction.dot(axis)).fold(1.0, f64::min);
-        let half_angle_rad = (acos(least.clamp(-1.0, 1.0)) + room_rad).min(core::f64::consts::PI);
+        let minimum = directions.iter().map(|direction| direction.dot(axis)).fold(1.0, f64::min);
+        let half_angle_rad = (acos(minimum.clamp(-1.0, 1.0)) + room_rad).min(core::f64::consts::PI);
         Self { axis, half_angle_rad, margin_m }
     }
 

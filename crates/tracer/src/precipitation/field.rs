@@ -9,18 +9,18 @@ use etendue_core::maths::f64::{cbrt, exp};
 use etendue_core::random::{philox4x32, unit_f64};
 use glam::{DVec3, I64Vec3};
 
-use super::change_over::{ChangeOver, SeenRegion};
+use super::change_over::{ChangeOver, VisibleRegion};
 use super::size_law::{SizeClass, SizeLaw};
 
 /// Mean number of particles of a cube.
-const MEAN: f64 = 4.0;
+const MEAN_PARTICLES: f64 = 4.0;
 
 /// Maximum number of particles of a cube: a Poisson number of mean 4 is larger once in 10¹⁶ cubes.
-const MOST: u32 = 40;
+const MAX_PARTICLES: u32 = 40;
 
 /// Rain or snow.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Field {
+pub struct PrecipitationField {
     law: SizeLaw,
     classes: Vec<SizeClass>,
     wind_mps: DVec3,
@@ -49,7 +49,7 @@ impl Particle {
     }
 }
 
-impl Field {
+impl PrecipitationField {
     /// Rain or snow by a law, in a wind, below the height `top_m`.
     #[must_use]
     pub fn new(law: SizeLaw, wind_mps: DVec3, top_m: f64, seed: u32) -> Self {
@@ -89,17 +89,17 @@ impl Field {
     /// The particles that may be visible at some time of an interval from near `origin_m` (world), within the distances of a change-over;
     /// some others may be included. Their order depends only on the arguments.
     #[must_use]
-    pub fn about(
+    pub fn particles_near(
         &self,
         origin_m: DVec3,
         interval: TimeInterval,
-        region: &SeenRegion,
+        region: &VisibleRegion,
         change_over: &ChangeOver,
     ) -> Vec<Particle> {
         let mut particles = vec![];
         for (class, radius_m) in change_over.radii_m.iter().enumerate() {
             if *radius_m > change_over.clear_m {
-                Search { field: self, class, origin_m, interval, region, radius_m: *radius_m }.run(&mut particles);
+                ParticleSearch { field: self, class, origin_m, interval, region, radius_m: *radius_m }.run(&mut particles);
             }
         }
         particles
@@ -107,11 +107,11 @@ impl Field {
 
     /// The edge of a class's cubes, m.
     fn edge_m(&self, class: usize) -> f64 {
-        cbrt(MEAN / self.classes[class].number_per_m3)
+        cbrt(MEAN_PARTICLES / self.classes[class].number_per_m3)
     }
 
     /// The particles of one cube.
-    fn cube(&self, class: usize, place: I64Vec3, mut found: impl FnMut(Particle)) {
+    fn cube(&self, class: usize, place: I64Vec3, mut emit: impl FnMut(Particle)) {
         let words = |sub: u32| {
             let key = [self.seed, (class as u32) << 16 | sub];
             let [x, y, z] = place.to_array();
@@ -127,7 +127,7 @@ impl Field {
             let low = |word: u32| f64::from(word) / 4_294_967_296.0;
             let start_m = (place.as_dvec3() + DVec3::new(low(a), low(b), low(c))) * edge_m;
             let size_mm = self.classes[class].size_mm(&self.law, (f64::from(d) + 0.5) / 4_294_967_296.0);
-            found(Particle { class: class as u32, start_m, velocity_mps: self.velocity_mps(class), size_mm });
+            emit(Particle { class: class as u32, start_m, velocity_mps: self.velocity_mps(class), size_mm });
         }
     }
 }
@@ -138,39 +138,39 @@ fn unit(a: u32, b: u32) -> f64 {
 
 /// A Poisson number of mean [`MEAN`] by inversion.
 fn poisson(u: f64) -> u32 {
-    let (mut count, mut chance) = (0, exp(-MEAN));
+    let (mut count, mut chance) = (0, exp(-MEAN_PARTICLES));
     let mut below = chance;
-    while u >= below && count < MOST {
+    while u >= below && count < MAX_PARTICLES {
         count += 1;
-        chance *= MEAN / f64::from(count);
+        chance *= MEAN_PARTICLES / f64::from(count);
         below += chance;
     }
     count
 }
 
 /// The fractions of a displacement `way` from a point between which it lies within a ball about the origin; `None` if no part of it does.
-fn within(from: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
-    let length2 = way.length_squared();
+fn within(from: DVec3, displacement: DVec3, radius_m: f64) -> Option<[f64; 2]> {
+    let length2 = displacement.length_squared();
     if length2 == 0.0 {
         return (from.length() <= radius_m).then_some([0.0, 1.0]);
     }
-    let nearest = -from.dot(way) / length2;
-    let half2 = (radius_m * radius_m - (from + way * nearest).length_squared()) / length2;
+    let nearest = -from.dot(displacement) / length2;
+    let half2 = (radius_m * radius_m - (from + displacement * nearest).length_squared()) / length2;
     let [enter, leave] = [(nearest - half2.max(0.0).sqrt()).max(0.0), (nearest + half2.max(0.0).sqrt()).min(1.0)];
     (half2 >= 0.0 && enter <= leave).then_some([enter, leave])
 }
 
 /// One class about one view.
-struct Search<'a> {
-    field: &'a Field,
+struct ParticleSearch<'a> {
+    field: &'a PrecipitationField,
     class: usize,
     origin_m: DVec3,
     interval: TimeInterval,
-    region: &'a SeenRegion,
+    region: &'a VisibleRegion,
     radius_m: f64,
 }
 
-impl Search<'_> {
+impl ParticleSearch<'_> {
     fn run(&self, particles: &mut Vec<Particle>) {
         let reach = DVec3::splat(self.radius_m) + self.swept_m().abs();
         let middle = self.origin_m - self.velocity() * self.interval.middle_s();
@@ -199,13 +199,13 @@ impl Search<'_> {
             return;
         }
         if side == 1 {
-            let mut found = |particle: Particle| {
+            let mut add_particle = |particle: Particle| {
                 let radius_m = self.field.law.diameter_mm(particle.size_mm) * 1e-3;
                 if self.may_hold(particle.start_m, radius_m) && self.is_below_top(&particle) {
                     particles.push(particle);
                 }
             };
-            self.field.cube(self.class, low, &mut found);
+            self.field.cube(self.class, low, &mut add_particle);
             return;
         }
         let half = side / 2;
@@ -223,9 +223,9 @@ impl Search<'_> {
     /// the camera, if there is one, in a ball of its own.
     fn may_hold(&self, centre_m: DVec3, radius_m: f64) -> bool {
         let middle = centre_m + self.velocity() * self.interval.middle_s() - self.origin_m;
-        let (from, way) = (middle - self.swept_m(), 2.0 * self.swept_m());
-        let Some([enter, leave]) = within(from, way, self.radius_m + radius_m) else { return false };
-        let (seen, half_m) = (from + way * (0.5 * (enter + leave)), 0.5 * (leave - enter) * way.length());
-        self.region.may_see(seen, radius_m + half_m)
+        let (from, displacement) = (middle - self.swept_m(), 2.0 * self.swept_m());
+        let Some([enter, leave]) = within(from, displacement, self.radius_m + radius_m) else { return false };
+        let (centre, half_m) = (from + displacement * (0.5 * (enter + leave)), 0.5 * (leave - enter) * displacement.length());
+        self.region.may_see(centre, radius_m + half_m)
     }
 }

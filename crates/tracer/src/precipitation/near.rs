@@ -11,17 +11,17 @@ use etendue_core::{Motion, Ray, TimeInterval, maths::f64::cbrt};
 use etendue_spectra::{Spectrum, dielectric};
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::change_over::{ChangeOver, SeenRegion};
-use super::field::{Field, Particle};
+use super::change_over::{ChangeOver, VisibleRegion};
+use super::field::{PrecipitationField, Particle};
 use crate::accel::{Simd, Streak, Streaks};
 use crate::materials::fresnel;
-use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, Phase, Shape, SpectralTable};
+use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, Phase, MediumRegion, SpectralTable};
 
 /// Mean cosine of scattering by an ice crystal, without diffraction: that of snow grains by geometric optics (Warren, Rev. Geophys. 20,
 /// 1982: 0.89 with the half that is diffracted straight on).
 const SNOW_G: f32 = 0.78;
 
-impl Field {
+impl PrecipitationField {
     /// The whole field as a medium: light that hits a particle, by geometric optics.
     ///
     /// # Errors
@@ -30,22 +30,22 @@ impl Field {
         let phase = if self.law().is_snow() {
             Phase::HenyeyGreenstein { g: SNOW_G }
         } else {
-            Phase::Table(SpectralTable::of_large_balls(water()))
+            Phase::Table(SpectralTable::from_large_balls(water()))
         };
         let extinction = Spectrum::constant(self.extinction_per_m());
-        let shape = Shape::Below { top_m: self.top_m() };
-        let place = Motion::still(DAffine3::IDENTITY);
+        let shape = MediumRegion::Below { top_m: self.top_m() };
+        let place = Motion::constant(DAffine3::IDENTITY);
         let medium = Medium::new(extinction, Spectrum::constant(1.0), Arc::new(phase), shape, place)?;
-        Ok(medium.unless_without_peak())
+        Ok(medium.absent_without_peaks())
     }
 
     /// The parts of the medium that are left out near a camera.
     #[must_use]
     pub fn hollow(&self, change_over: &ChangeOver) -> Hollow {
-        let whole = self.extinction_per_m();
+        let total_per_m = self.extinction_per_m();
         let part = |(class, radius_m): (&super::SizeClass, &f64)| HollowPart {
             from_m: *radius_m,
-            fraction: class.extinction_per_m / whole,
+            fraction: class.extinction_per_m / total_per_m,
         };
         Hollow::new(self.classes().iter().zip(&change_over.radii_m).map(part).collect())
     }
@@ -73,7 +73,7 @@ impl Field {
 
 /// The refractive index of water.
 fn water() -> &'static Spectrum {
-    &dielectric::named("water").expect("a name of the list").n
+    &dielectric::by_name("water").expect("a name of the list").n
 }
 
 /// Position and time of a view.
@@ -90,7 +90,7 @@ pub struct ViewPlacement {
 /// The particles of a view, and the media as rays from its camera find them.
 #[derive(Clone, Debug)]
 pub struct NearParticles<'a> {
-    region: SeenRegion,
+    region: VisibleRegion,
     streaks: Streaks,
     media: Media<'a>,
     phase: &'a Phase,
@@ -110,20 +110,20 @@ impl<'a> NearParticles<'a> {
     /// The particles of a view. `media` are those of the same view and `medium` is the index of the field's own among them.
     #[must_use]
     pub fn new(
-        field: &Field,
+        field: &PrecipitationField,
         media: Media<'a>,
         medium: usize,
         view: ViewPlacement,
-        region: &SeenRegion,
+        region: &VisibleRegion,
         change_over: &ChangeOver,
     ) -> Self {
         let ViewPlacement { origin_m, interval, simd } = view;
-        let particles = field.about(origin_m, interval, region, change_over);
+        let particles = field.particles_near(origin_m, interval, region, change_over);
         let streak = |particle| field.streak(particle, origin_m, interval, change_over);
         let streaks = Streaks::new(particles.iter().map(streak).collect(), interval.length_s() as f32, simd);
         let index = (!field.law().is_snow()).then(water);
         let phase = media.phase(medium);
-        Self { region: *region, streaks, media: media.hollowed(medium, field.hollow(change_over)), phase, index }
+        Self { region: *region, streaks, media: media.with_hollow(medium, field.hollow(change_over)), phase, index }
     }
 
     /// Number of particles.
@@ -162,7 +162,7 @@ impl<'a> NearParticles<'a> {
         ray: &Ray,
         hit: &ParticleHit,
         wavelength_nm: f32,
-        drawn: impl Fn(u32) -> f64,
+        random_number: impl Fn(u32) -> f64,
     ) -> Option<(Vec3, Vec3)> {
         let n = f64::from(self.index?.at(wavelength_nm));
         let streak = &self.streaks.streaks()[hit.particle as usize];
@@ -173,7 +173,7 @@ impl<'a> NearParticles<'a> {
         let place = (ray.at(hit.t) - centre).as_dvec3();
         let place = place / (place / scale).length();
         let incident = DropRay { place_m: place, direction: ray.direction.as_dvec3().normalize() };
-        let DropRay { place_m, direction } = refracted(half_m[0], half_m[1], n, incident, drawn);
+        let DropRay { place_m, direction } = refracted(half_m[0], half_m[1], n, incident, random_number);
         Some((centre + place_m.as_vec3(), direction.as_vec3().normalize()))
     }
 }
@@ -203,19 +203,19 @@ pub(crate) fn refracted(
     half_height_m: f64,
     n: f64,
     incident: DropRay,
-    drawn: impl Fn(u32) -> f64,
+    random_number: impl Fn(u32) -> f64,
 ) -> DropRay {
     let DropRay { mut place_m, mut direction } = incident;
     let half_m = DVec3::new(half_width_m, half_width_m, half_height_m);
     let inverse2 = (half_m * half_m).recip();
-    let plane = usize::from(drawn(0) < 0.5);
+    let plane = usize::from(random_number(0) < 0.5);
     for passage in 0..=MAX_PASSAGES {
         // The normal against the ray.
         let out = (place_m * inverse2).normalize();
         let (normal, eta) = if passage == 0 { (out, n) } else { (-out, 1.0 / n) };
         let cos = (-direction.dot(normal)).max(0.0);
-        let is_mirrored = drawn(1 + passage) < mirrored(cos, eta, plane);
-        let through = bent(direction, normal, cos, eta);
+        let is_mirrored = random_number(1 + passage) < mirrored(cos, eta, plane);
+        let through = refract(direction, normal, cos, eta);
         let leaves = (passage == 0) == is_mirrored || passage == MAX_PASSAGES;
         direction = match through {
             Some(through) if !is_mirrored || (passage == MAX_PASSAGES && leaves) => through,
@@ -239,7 +239,7 @@ fn mirrored(cos: f64, eta: f64, plane: usize) -> f64 {
 }
 
 /// Snell's law; `None` beyond the critical angle.
-fn bent(direction: DVec3, normal: DVec3, cos: f64, eta: f64) -> Option<DVec3> {
+fn refract(direction: DVec3, normal: DVec3, cos: f64, eta: f64) -> Option<DVec3> {
     let square = eta * eta - 1.0 + cos * cos;
     (square > 0.0).then(|| ((direction + normal * (cos - square.sqrt())) / eta).normalize())
 }

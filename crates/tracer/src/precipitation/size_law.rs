@@ -35,7 +35,7 @@ pub struct SizeLaw {
     pub(super) n0: f64,
     /// Λ, 1/mm.
     pub(super) lambda: f64,
-    pub(super) what: Hydrometeor,
+    pub(super) hydrometeor: Hydrometeor,
     /// The requested rate, mm/h.
     pub(super) rate_mm_h: f64,
 }
@@ -49,7 +49,7 @@ impl SizeLaw {
     pub fn rain(rate_mm_h: f64) -> Result<Self, SizeLawError> {
         check_rate(rate_mm_h, RAIN_RATES)?;
         let [n0, lambda] = marshall_palmer(rate_mm_h);
-        Ok(Self { n0, lambda, what: Hydrometeor::Drop, rate_mm_h })
+        Ok(Self { n0, lambda, hydrometeor: Hydrometeor::Drop, rate_mm_h })
     }
 
     /// Snow by Sekhon and Srivastava's law at a rate, mm/h of water.
@@ -59,13 +59,13 @@ impl SizeLaw {
     pub fn snow(rate_mm_h: f64, crystals: Crystals) -> Result<Self, SizeLawError> {
         check_rate(rate_mm_h, SNOW_RATES)?;
         let [n0, lambda] = sekhon_srivastava(rate_mm_h);
-        Ok(Self { n0, lambda, what: Hydrometeor::Flake(crystals), rate_mm_h })
+        Ok(Self { n0, lambda, hydrometeor: Hydrometeor::Flake(crystals), rate_mm_h })
     }
 
     /// The same with N₀ rescaled, so that the particles with their speeds bring the requested rate.
     #[must_use]
     pub fn rescaled(self) -> Self {
-        Self { n0: self.n0 * self.rate_mm_h / self.carried_mm_h(), ..self }
+        Self { n0: self.n0 * self.rate_mm_h / self.water_rate_mm_h(), ..self }
     }
 
     /// The requested rate, mm/h of water.
@@ -77,7 +77,7 @@ impl SizeLaw {
     /// True for snow.
     #[must_use]
     pub fn is_snow(&self) -> bool {
-        matches!(self.what, Hydrometeor::Flake(_))
+        matches!(self.hydrometeor, Hydrometeor::Flake(_))
     }
 
     /// N₀, 1/(m³ mm).
@@ -94,7 +94,7 @@ impl SizeLaw {
 
     /// Maximum size of the field, mm: drops break up beyond 6 mm; for flakes that of the water in them.
     #[must_use]
-    pub fn greatest_mm(&self) -> f64 {
+    pub fn max_size_mm(&self) -> f64 {
         if self.is_snow() { 8.0 } else { 6.0 }
     }
 
@@ -107,7 +107,7 @@ impl SizeLaw {
     /// Extinction as meteorologists measure it over a narrow beam, 1/m: twice the cross-sections of spheres, half of it by diffraction.
     #[must_use]
     pub fn meteorological_extinction_per_m(&self) -> f64 {
-        match self.what {
+        match self.hydrometeor {
             Hydrometeor::Drop => PI * self.n0 / (self.lambda * self.lambda * self.lambda) * 1e-6,
             Hydrometeor::Flake(_) => {
                 self.integral(self.all_sizes(), |d| {
@@ -125,12 +125,12 @@ impl SizeLaw {
     }
 
     fn all_sizes(&self) -> SizeRange {
-        SizeRange { low_mm: 0.0, high_mm: self.greatest_mm() }
+        SizeRange { low_mm: 0.0, high_mm: self.max_size_mm() }
     }
 
     /// The water rate carried by the particles with their speeds, mm/h.
     #[must_use]
-    pub fn carried_mm_h(&self) -> f64 {
+    pub fn water_rate_mm_h(&self) -> f64 {
         // mm³/m³ · m/s to mm/h.
         let volume = |d: f64| PI / 6.0 * d * d * d;
         3.6e-3 * self.integral(self.all_sizes(), |d| volume(d) * self.speed_mps(d))
@@ -139,7 +139,7 @@ impl SizeLaw {
     /// Diameter of the sphere of a particle's volume, mm, for the size `d` mm.
     #[must_use]
     pub fn diameter_mm(&self, d: f64) -> f64 {
-        match self.what {
+        match self.hydrometeor {
             Hydrometeor::Drop => d,
             Hydrometeor::Flake(crystals) => crystals.flake_mm(d),
         }
@@ -148,7 +148,7 @@ impl SizeLaw {
     /// Speed of fall, m/s, for the size `d` mm.
     #[must_use]
     pub fn speed_mps(&self, d: f64) -> f64 {
-        match self.what {
+        match self.hydrometeor {
             Hydrometeor::Drop => terminal_speed_mps(d),
             Hydrometeor::Flake(crystals) => crystals.speed_mps(d),
         }
@@ -157,7 +157,7 @@ impl SizeLaw {
     /// Height over width for the size `d` mm.
     #[must_use]
     pub fn axis_ratio(&self, d: f64) -> f64 {
-        match self.what {
+        match self.hydrometeor {
             Hydrometeor::Drop => axis_ratio(d),
             Hydrometeor::Flake(_) => 1.0,
         }
@@ -307,7 +307,7 @@ impl SizeClass {
     pub(super) fn all(law: &SizeLaw) -> Vec<Self> {
         let edge = |i: u32| {
             let x = f64::from(i) / f64::from(CLASSES);
-            law.greatest_mm() * x * x.sqrt()
+            law.max_size_mm() * x * x.sqrt()
         };
         (0..CLASSES).map(|i| Self::new(law, SizeRange { low_mm: edge(i), high_mm: edge(i + 1) })).collect()
     }

@@ -83,7 +83,7 @@ pub(super) fn tangents_to_render(local: [DVec3; 2], placed: &InstanceTransform) 
 }
 
 #[inline(always)]
-pub(super) fn of_mesh(
+pub(super) fn mesh_point(
     mesh: &MeshPose<'_>,
     instance: &Instance,
     placed: &InstanceTransform,
@@ -98,7 +98,7 @@ pub(super) fn of_mesh(
     let normals = if facet.is_flat { None } else { mesh.normals(hit.primitive) };
     let (shading, own) = match normals {
         None => (flat, facet.normal),
-        Some(normals) => bent(mesh, hit.primitive, normals, weights, placed, flat),
+        Some(normals) => interpolated_normals(mesh, hit.primitive, normals, weights, placed, flat),
     };
     SurfacePoint {
         position,
@@ -117,7 +117,7 @@ pub(super) fn of_mesh(
 
 /// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit. In f32, except
 /// for lengths whose squares f32 cannot hold.
-fn bent(
+fn interpolated_normals(
     mesh: &MeshPose<'_>,
     primitive: u32,
     [a, b, c]: [Vec3; 3],
@@ -129,8 +129,8 @@ fn bent(
     let own = a * wa + b * wb + c * wc;
     let normal = placed.long_normal_to_render(own);
     let squares = [own.length_squared(), normal.length_squared()];
-    if !squares.iter().all(|square| MODERATE.contains(square)) {
-        let normals = Normals::of_mesh(mesh, primitive, weights, placed);
+    if !squares.iter().all(|square| RELIABLE_LENGTH2.contains(square)) {
+        let normals = Normals::from_mesh(mesh, primitive, weights, placed);
         return (normals.shading.as_vec3(), normals.local.normalize_or(DVec3::Z).as_vec3());
     }
     let side = 1.0_f32.copysign(normal.dot(flat));
@@ -138,9 +138,9 @@ fn bent(
 }
 
 /// Range of squared lengths that f32 holds to all digits, and that are no remainders of cancelling normals.
-const MODERATE: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
+const RELIABLE_LENGTH2: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
 
-pub(super) fn of_sphere(
+pub(super) fn sphere_point(
     radius_m: f64,
     instance: &Instance,
     placed: &InstanceTransform,
@@ -183,7 +183,7 @@ pub(super) struct Normals {
 }
 
 impl Normals {
-    pub(super) fn of_mesh(mesh: &MeshPose<'_>, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
+    pub(super) fn from_mesh(mesh: &MeshPose<'_>, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
         let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
         let local = (b - a).cross(c - a);
         let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);

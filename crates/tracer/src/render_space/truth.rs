@@ -16,10 +16,10 @@ use super::{Hit, RenderSpace};
 use crate::geometry::{InstanceTransform, MeshPose, Shape, SurfacePoint, sphere};
 
 /// Maximum distance beyond its triangle, in barycentric weights, at which a plane is accepted.
-const BEYOND: f64 = 1e-3;
+const MAX_BARYCENTRIC_EXCESS: f64 = 1e-3;
 
 /// Origin and direction in a mesh's frame, and the distance along the exact ray at which the line begins, m.
-type Line = (DVec3, DVec3, f64);
+type TruthLine = (DVec3, DVec3, f64);
 
 /// First hit of a ray, exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,21 +104,21 @@ impl RenderSpace<'_> {
 }
 
 /// The accelerator's line in a mesh's frame, which begins at `start`.
-fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> Line {
+fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> TruthLine {
     let (origin, direction) = placed.ray_to_local(rounded);
     (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3(), start)
 }
 
 /// The hit of the first of `lines` that hits the triangle.
-fn on_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
+fn on_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, hit: &Hit, lines: [TruthLine; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
-    let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
+    let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -MAX_BARYCENTRIC_EXCESS;
     let solve =
-        |(origin, along, start): Line| plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v));
+        |(origin, along, start): TruthLine| plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v));
     let solved = lines.into_iter().find_map(solve);
     // A ray in the plane itself has no better result than the accelerator's.
     let (t, u, v) = solved.unwrap_or((lines[1].2 + f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
-    let normals = Normals::of_mesh(mesh, hit.primitive, point::weights(u, v), placed);
+    let normals = Normals::from_mesh(mesh, hit.primitive, point::weights(u, v), placed);
     (t, normals.shading, usize::from(mesh.mesh().slots()[hit.primitive as usize]))
 }
 

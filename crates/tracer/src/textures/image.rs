@@ -10,8 +10,8 @@ use std::sync::Arc;
 use etendue_core::{maths::f32::log2, storage::Blocks};
 use glam::{Vec2, Vec3};
 
-use super::mipmap::{Level, Resolution, pyramid, weighted_pyramid};
-use super::projection::{Place, Projection};
+use super::mipmap::{Level, TexelLevel, pyramid, weighted_pyramid};
+use super::projection::{TextureFootprint, Projection};
 use super::texels::{Store, Texel, TexelEncoding, Texels, TextureError, TiledError};
 use super::tiled::{TileMemory, TiledLevel, levels};
 use super::{Channel, Lookup, Wrap};
@@ -160,7 +160,7 @@ impl ImageTexture {
         let count = texels.len();
         let store = Store::new(texels);
         let ranges = ranges(&store, count)?;
-        let alpha = halvings(Level::new(width, height, Store::of_bytes(alpha)), &sampling);
+        let alpha = halvings(Level::new(width, height, Store::from_bytes(alpha)), &sampling);
         let colours = Colours::Held(weighted_pyramid(Level::new(width, height, store), &alpha));
         Ok(Self { colours, alpha, sampling, ranges, density: sampling.density(width, height) })
     }
@@ -180,7 +180,7 @@ impl ImageTexture {
     /// The filtered value, linear sRGB.
     #[must_use]
     pub fn sample(&self, lookup: &Lookup) -> [f32; 3] {
-        let value = |place: &Place| match &self.colours {
+        let value = |place: &TextureFootprint| match &self.colours {
             Colours::Held(levels) => self.filtered(levels, place),
             Colours::Tiled(levels, _) => self.filtered_in_tiles(levels, place),
         };
@@ -196,16 +196,16 @@ impl ImageTexture {
                 .projection
                 .read(lookup, self.sampling.wrap, |place| self.filtered(&self.alpha, place));
         }
-        channel.of(self.sample(lookup))
+        channel.value(self.sample(lookup))
     }
 
     /// Separate from the code for images in memory.
     #[inline(never)]
-    fn filtered_in_tiles(&self, levels: &[TiledLevel], place: &Place) -> Vec3 {
+    fn filtered_in_tiles(&self, levels: &[TiledLevel], place: &TextureFootprint) -> Vec3 {
         self.filtered(levels, place)
     }
 
-    fn filtered<T: Texel>(&self, levels: &[impl Resolution<T>], place: &Place) -> T {
+    fn filtered<T: Texel>(&self, levels: &[impl TexelLevel<T>], place: &TextureFootprint) -> T {
         let placed = place.uv * self.sampling.scale + self.sampling.offset;
         // Coordinates that overflow have no place in the image: its corner is used.
         let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
@@ -223,7 +223,7 @@ impl ImageTexture {
     }
 
     /// The value at image coordinates, over a round footprint of a width in texels.
-    fn trilinear<T: Texel>(&self, levels: &[impl Resolution<T>], uv: Vec2, texels: f32) -> T {
+    fn trilinear<T: Texel>(&self, levels: &[impl TexelLevel<T>], uv: Vec2, texels: f32) -> T {
         let wrap = self.sampling.wrap;
         let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
         let last = levels.len() - 1;
@@ -262,7 +262,7 @@ impl ImageTexture {
         if channel == Channel::Alpha && self.has_alpha() {
             return (0.0, 1.0);
         }
-        (channel.of(self.ranges.map(|r| r.0)), channel.of(self.ranges.map(|r| r.1)))
+        (channel.value(self.ranges.map(|r| r.0)), channel.value(self.ranges.map(|r| r.1)))
     }
 
     /// Columns and rows of the image.
@@ -300,9 +300,9 @@ fn probes(across: f32, along: f32) -> u32 {
     if ratio > 2.0 { (0.5 * ratio).ceil().min(MAX_PROBES) as u32 } else { 1 }
 }
 
-fn check_size(width: u32, height: u32, found: usize) -> Result<(), TextureError> {
-    let fits = found > 0 && found as u64 == u64::from(width) * u64::from(height);
-    if fits { Ok(()) } else { Err(TextureError::Size { width, height, found }) }
+fn check_size(width: u32, height: u32, actual: usize) -> Result<(), TextureError> {
+    let fits = actual > 0 && actual as u64 == u64::from(width) * u64::from(height);
+    if fits { Ok(()) } else { Err(TextureError::Size { width, height, found: actual }) }
 }
 
 /// The resolutions that a filter needs.
@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn far_coordinates_stay_in_the_picture() {
+    fn far_coordinates_stay_in_the_image() {
         let t = numbered(Sampling { wrap: [Wrap::Mirror, Wrap::Repeat], ..Sampling::default() });
         for x in [1e9, -1e9, 3.4e38, -1e-30] {
             let value = read(&t, x, -x);
@@ -414,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn faulty_pictures_are_refused() {
+    fn faulty_images_are_refused() {
         let size = ImageTexture::new(2, 2, Texels::Linear8(vec![[0; 3]; 3]), Sampling::default());
         assert_eq!(size.err(), Some(TextureError::Size { width: 2, height: 2, found: 3 }));
         let nan = Texels::Float(vec![[0.0; 3], [f32::NAN; 3]]);

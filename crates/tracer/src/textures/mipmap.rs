@@ -8,7 +8,7 @@ use super::projection::Wrap;
 use super::texels::{Store, Texel};
 
 /// One resolution of an image, in memory or in tiles.
-pub(super) trait Resolution<T> {
+pub(super) trait TexelLevel<T> {
     /// Bilinear interpolation at `s` (to the right) and `t` (downwards), both folded into [0, 1].
     fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T;
 }
@@ -38,23 +38,23 @@ impl<T: Texel> Level<T> {
     /// Half as wide and as high (at least 1); every texel is the mean of the area it covers, so that the mean is preserved for odd sizes
     /// too.
     fn halved(&self) -> Self {
-        self.coarser(|share| share.mean(|i, j| self.texel(i, j)))
+        self.coarser(|fraction| fraction.mean(|i, j| self.texel(i, j)))
     }
 
     /// A level of half the size, each texel computed from the area of this one that it covers.
-    fn coarser(&self, texel: impl Fn(Share<'_>) -> T) -> Self {
+    fn coarser(&self, texel: impl Fn(TexelArea<'_>) -> T) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let columns: Vec<Vec<_>> = (0..width).map(|x| overlaps(x, width, self.width).collect()).collect();
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         for y in 0..height {
             let rows: Vec<_> = overlaps(y, height, self.height).collect();
-            texels.extend(columns.iter().map(|columns| texel(Share { columns, rows: &rows })));
+            texels.extend(columns.iter().map(|columns| texel(TexelArea { columns, rows: &rows })));
         }
         Self { width, height, store: Store::Float(texels) }
     }
 }
 
-impl<T: Texel> Resolution<T> for Level<T> {
+impl<T: Texel> TexelLevel<T> for Level<T> {
     fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T {
         let (x0, x1, fx) = neighbours(s, self.width, wrap[0]);
         let (y0, y1, fy) = neighbours(t, self.height, wrap[1]);
@@ -66,12 +66,12 @@ impl<T: Texel> Resolution<T> for Level<T> {
 
 /// The columns and rows that a coarse texel covers, with their weights.
 #[derive(Clone, Copy)]
-pub(super) struct Share<'a> {
+pub(super) struct TexelArea<'a> {
     pub(super) columns: &'a [(usize, f32)],
     pub(super) rows: &'a [(usize, f32)],
 }
 
-impl Share<'_> {
+impl TexelArea<'_> {
     pub(super) fn mean<V: Texel>(self, value: impl Fn(usize, usize) -> V) -> V {
         let row = |j: usize| self.columns.iter().fold(V::NOTHING, |sum, (i, wx)| sum + value(*i, j) * *wx);
         self.rows.iter().fold(V::NOTHING, |sum, (j, wy)| sum + row(*j) * *wy)
@@ -92,8 +92,8 @@ pub(super) fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (
     let (low, high) = (f64::from(j) * ratio, f64::from(j + 1) * ratio);
     let last = (high.ceil() as usize).min(fine as usize);
     (low.floor() as usize..last).filter_map(move |i| {
-        let share = ((i as f64 + 1.0).min(high) - (i as f64).max(low)) / ratio;
-        (share > 0.0).then_some((i, share as f32))
+        let fraction = ((i as f64 + 1.0).min(high) - (i as f64).max(low)) / ratio;
+        (fraction > 0.0).then_some((i, fraction as f32))
     })
 }
 
@@ -112,12 +112,12 @@ pub(super) fn weighted_pyramid(base: Level<Vec3>, alpha: &[Level<f32>]) -> Vec<L
     let mut levels = vec![base];
     for visible in &alpha[..alpha.len() - 1] {
         let last = &levels[levels.len() - 1];
-        let next = last.coarser(|share| {
-            let weight = share.mean(|i, j| visible.texel(i, j));
+        let next = last.coarser(|fraction| {
+            let weight = fraction.mean(|i, j| visible.texel(i, j));
             if weight > 0.0 {
-                share.mean(|i, j| last.texel(i, j) * visible.texel(i, j)) * (1.0 / weight)
+                fraction.mean(|i, j| last.texel(i, j) * visible.texel(i, j)) * (1.0 / weight)
             } else {
-                share.mean(|i, j| last.texel(i, j))
+                fraction.mean(|i, j| last.texel(i, j))
             }
         });
         levels.push(next);

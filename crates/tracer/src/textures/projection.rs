@@ -29,7 +29,7 @@ pub enum Projection {
 
 /// A place in an image's coordinates: the middle of the footprint, its short side's width, its long side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct TextureFootprint {
     pub(super) uv: Vec2,
     pub(super) width: f32,
     pub(super) long: Vec2,
@@ -47,12 +47,12 @@ impl Projection {
 
     /// Reads `value` at the projected places, blended.
     #[inline]
-    pub(super) fn read<T>(self, lookup: &Lookup, wrap: [Wrap; 2], value: impl Fn(&Place) -> T) -> T
+    pub(super) fn read<T>(self, lookup: &Lookup, wrap: [Wrap; 2], value: impl Fn(&TextureFootprint) -> T) -> T
     where
         T: Default + core::ops::Add<Output = T> + core::ops::Mul<f32, Output = T>,
     {
         match self {
-            Self::Uv => value(&Place { uv: lookup.uv, width: lookup.width, long: lookup.long }),
+            Self::Uv => value(&TextureFootprint { uv: lookup.uv, width: lookup.width, long: lookup.long }),
             Self::Triplanar { size_m, sharpness } => {
                 let weights = weights(lookup.local_normal, sharpness);
                 let sides = sides(lookup, 1.0 / size_m, wrap);
@@ -64,18 +64,18 @@ impl Projection {
 
 /// Weights of the three axes, which sum to 1.
 fn weights(normal: Vec3, sharpness: f32) -> [f32; 3] {
-    let most = normal.abs().max_element();
+    let maximum = normal.abs().max_element();
     // Written so that a normal without direction counts as one along z.
-    if !(most > 0.0 && most.is_finite()) {
+    if !(maximum > 0.0 && maximum.is_finite()) {
         return [0.0, 0.0, 1.0];
     }
     // Relative to the largest component, so that powers do not vanish.
-    let powers = (normal.abs() / most).to_array().map(|n| if n > 0.0 { pow(n, sharpness) } else { 0.0 });
+    let powers = (normal.abs() / maximum).to_array().map(|n| if n > 0.0 { pow(n, sharpness) } else { 0.0 });
     let sum = powers[0] + powers[1] + powers[2];
     powers.map(|p| p / sum)
 }
 
-fn sides(lookup: &Lookup, per_m: f32, wrap: [Wrap; 2]) -> [Place; 3] {
+fn sides(lookup: &Lookup, per_m: f32, wrap: [Wrap; 2]) -> [TextureFootprint; 3] {
     let side = lookup.local_normal.map(|n| 1.0_f32.copysign(n));
     let onto = |v: Vec3| {
         [Vec2::new(side.x * v.y, v.z), Vec2::new(-side.y * v.x, v.z), Vec2::new(side.z * v.x, v.y)].map(|p| p * per_m)
@@ -87,7 +87,7 @@ fn sides(lookup: &Lookup, per_m: f32, wrap: [Wrap; 2]) -> [Place; 3] {
         places = far.map(|p| Vec2::new(wrap[0].near(p.x * per_m), wrap[1].near(p.y * per_m)));
     }
     let width = lookup.width_local * per_m;
-    core::array::from_fn(|i| Place { uv: places[i], width, long: longs[i] })
+    core::array::from_fn(|i| TextureFootprint { uv: places[i], width, long: longs[i] })
 }
 
 /// Continuation of a texture outside 0–1 along one axis.

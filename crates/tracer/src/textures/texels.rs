@@ -116,7 +116,7 @@ impl Store<Vec3> {
 
 impl Store<f32> {
     /// Numbers of 0 to 1 in bytes.
-    pub(super) fn of_bytes(texels: Vec<u8>) -> Self {
+    pub(super) fn from_bytes(texels: Vec<u8>) -> Self {
         Self::Bytes { texels, linear: table(|i| f32::from(i) / 255.0) }
     }
 }
@@ -159,7 +159,7 @@ pub enum Channel {
 
 impl Channel {
     /// The channel of a colour.
-    pub(super) fn of(self, [r, g, b]: [f32; 3]) -> f32 {
+    pub(super) fn value(self, [r, g, b]: [f32; 3]) -> f32 {
         match self {
             Self::Red => r,
             Self::Green => g,
@@ -219,10 +219,10 @@ mod tests {
     #[test]
     fn luminance_keeps_greys_and_weighs_colours() {
         for grey in [0.0, 0.2, 1.0, 1.0_f32.next_down()] {
-            assert_eq!(Channel::Luminance.of([grey; 3]), grey);
+            assert_eq!(Channel::Luminance.value([grey; 3]), grey);
         }
         // Y of the primaries: IEC 61966-2-1 with this crate's white, 0.2127, 0.7152, 0.0722.
-        assert!((Channel::Luminance.of([0.0, 1.0, 0.0]) - 0.7152).abs() < 1e-4);
-        assert_eq!(Channel::Blue.of([0.1, 0.2, 0.3]), 0.3);
+        assert!((Channel::Luminance.value([0.0, 1.0, 0.0]) - 0.7152).abs() < 1e-4);
+        assert_eq!(Channel::Blue.value([0.1, 0.2, 0.3]), 0.3);
     }
 }

@@ -6,22 +6,22 @@ use etendue::Error;
 use etendue_core::quantity::{Quantity, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::exr::{
-    ExrChannel, ExrFile, Samples as Stored, SpectralImage, WithVariance, band_weights, parse_channel_name, read_exr,
+    ExrChannel, ExrFile, ExrSamples as Stored, SpectralImage, WithVariance, band_weights, parse_channel_name, read_exr,
     spectral_of,
 };
 
 use super::facts::{self, FileLayers, SideCar};
-use crate::found::FoundFile;
-use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
+use crate::found::ResultFile;
+use crate::layer::{LayerKind, Layer, NamedPlane, Role, Samples};
 
 /// Parts of a digital number, in the order of the signal path; others follow in their own order.
 const PARTS: [&str; 10] =
     ["signal", "shot", "dark", "fixed_pattern", "blooming", "smear", "transfer", "read", "quantisation", "saturated"];
 /// Header entries that are not useful on the page.
-const SILENT: [&str; 3] = ["layout", "quantity", "units"];
+const HIDDEN_ENTRIES: [&str; 3] = ["layout", "quantity", "units"];
 const VARIANCE: &str = "variance.";
 
-pub(super) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers, Error> {
+pub(super) fn layers(file: &ResultFile, side_car: &SideCar) -> Result<FileLayers, Error> {
     let exr = read_exr(&file.path).map_err(Error::input)?;
     let facts = facts(&exr);
     let layers = if file.stem == "signal_breakdown" {
@@ -34,8 +34,8 @@ pub(super) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers,
 
 fn facts(exr: &ExrFile) -> BTreeMap<String, String> {
     let named = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
-    let told = named.filter(|(name, _)| !SILENT.contains(name));
-    told.map(|(name, text)| (name.to_owned(), text.clone())).collect()
+    let shown = named.filter(|(name, _)| !HIDDEN_ENTRIES.contains(name));
+    shown.map(|(name, text)| (name.to_owned(), text.clone())).collect()
 }
 
 /// All channels of a file as parts of one number.
@@ -47,14 +47,14 @@ fn parts(exr: ExrFile, unit: String) -> Layer {
     let planes = channels.into_iter().map(|channel| NamedPlane::value(channel.name, exact(channel.samples))).collect();
     let meaning =
         "the sum of all parts but `saturated` is (DN − black) / gain; `saturated` is 1 at the white level".to_owned();
-    Layer { name: "signal_breakdown".to_owned(), kind: Kind::Parts, unit, meaning, size, planes }
+    Layer { name: "signal_breakdown".to_owned(), kind: LayerKind::Parts, unit, meaning, size, planes }
 }
 
-fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>, Error> {
+fn all(file: &ResultFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>, Error> {
     let is_spectral = |channel: &ExrChannel| parse_channel_name(&channel.name).is_some();
     let mut layers = Vec::new();
     let [quantity, unit] = side_car.entry(&file.name);
-    let of_file = if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
+    let unit_prefix = if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
     let stated = exr.attributes.get("etendue:units").cloned();
     let stated = stated.unwrap_or_else(|| side_car.entry(&file.name)[1].to_owned());
     let spectral = exr.channels.iter().any(is_spectral);
@@ -66,10 +66,10 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
     let follows = |name: &str| spectral && ["R", "G", "B"].contains(&name);
     let others = exr.channels.into_iter().filter(|channel| !is_spectral(channel)).filter(|c| !follows(&c.name));
     for (name, channels) in grouped(others) {
-        let (unit, more) = facts::of_layer(&stated, &name);
+        let (unit, more) = facts::layer_words(&stated, &name);
         let first = name.split('.').next().unwrap_or(&name);
         let own = attributes.get(&format!("etendue:{first}")).cloned();
-        let meaning = own.unwrap_or_else(|| if more.is_empty() { of_file.clone() } else { more });
+        let meaning = own.unwrap_or_else(|| if more.is_empty() { unit_prefix.clone() } else { more });
         let (kind, planes) = kind(&name, channels, side_car);
         layers.push(Layer { name, kind, unit, meaning, size, planes });
     }
@@ -85,11 +85,11 @@ fn attributed(exr: &ExrFile) -> bool {
 fn grouped(channels: impl Iterator<Item = ExrChannel>) -> Vec<(String, Vec<ExrChannel>)> {
     let mut groups: Vec<(String, Vec<ExrChannel>)> = Vec::new();
     for channel in channels {
-        let bare = channel.name.strip_prefix(VARIANCE).unwrap_or(&channel.name);
-        let layer = match bare.rsplit_once('.') {
+        let base_name = channel.name.strip_prefix(VARIANCE).unwrap_or(&channel.name);
+        let layer = match base_name.rsplit_once('.') {
             Some((layer, _)) => layer.to_owned(),
-            None if ["R", "G", "B", "A"].contains(&bare) => "colour".to_owned(),
-            None => bare.to_owned(),
+            None if ["R", "G", "B", "A"].contains(&base_name) => "colour".to_owned(),
+            None => base_name.to_owned(),
         };
         match groups.iter_mut().find(|(name, _)| *name == layer) {
             Some((_, group)) => group.push(channel),
@@ -99,19 +99,19 @@ fn grouped(channels: impl Iterator<Item = ExrChannel>) -> Vec<(String, Vec<ExrCh
     groups
 }
 
-fn kind(layer: &str, channels: Vec<ExrChannel>, side_car: &SideCar) -> (Kind, Vec<NamedPlane>) {
+fn kind(layer: &str, channels: Vec<ExrChannel>, side_car: &SideCar) -> (LayerKind, Vec<NamedPlane>) {
     let letters: Vec<String> =
         channels.iter().map(|c| c.name.rsplit_once('.').map_or(c.name.as_str(), |(_, last)| last).to_owned()).collect();
     let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
     let kind = match (&letters[..], &channels[0].samples) {
-        (["ID"], Stored::Uint(ids)) => Kind::Identity { names: facts::names(layer, ids, side_car) },
-        (["X", "Y", "Z"], _) => Kind::Vector { is_unit: ["N", "direction"].contains(&layer) },
-        (["X", "Y"], _) => Kind::Flow,
-        (["Z"], _) => Kind::Length,
+        (["ID"], Stored::Uint(ids)) => LayerKind::Identity { names: facts::names(layer, ids, side_car) },
+        (["X", "Y", "Z"], _) => LayerKind::Vector { is_unit: ["N", "direction"].contains(&layer) },
+        (["X", "Y"], _) => LayerKind::Flow,
+        (["Z"], _) => LayerKind::Length,
         (all, _) if ["R", "G", "B"].iter().all(|letter| all.contains(letter)) => {
-            return (Kind::Colour, colours(channels));
+            return (LayerKind::Colour, colours(channels));
         }
-        _ => Kind::Number,
+        _ => LayerKind::Number,
     };
     (kind, channels.into_iter().map(plane).collect())
 }
@@ -139,24 +139,24 @@ fn plane(channel: ExrChannel) -> NamedPlane {
 fn exact(samples: Stored) -> Samples {
     match samples {
         Stored::Half(values) | Stored::Float(values) => Samples::Exact(values),
-        Stored::Uint(values) => Samples::Whole(values),
+        Stored::Uint(values) => Samples::Integers(values),
     }
 }
 
-fn spectrum(file: &FoundFile, exr: &ExrFile, stated: &str) -> Result<Layer, Error> {
+fn spectrum(file: &ResultFile, exr: &ExrFile, stated: &str) -> Result<Layer, Error> {
     let spectral = spectral_of(&file.path, exr).map_err(Error::input)?;
     let mut meaning = "means over the bands".to_owned();
     spectral.notes.iter().for_each(|note| meaning += &format!("; {note}"));
-    let ((bands, planes), of_quantity) = match spectral.image {
+    let ((bands, planes), default_unit) = match spectral.image {
         SpectralImage::Radiance(image) => (cube(image), etendue_core::quantity::Radiance::UNIT),
         SpectralImage::Irradiance(image) => (cube(image), etendue_core::quantity::Irradiance::UNIT),
     };
-    let kind = Kind::Spectrum {
+    let kind = LayerKind::Spectrum {
         centres_nm: (0..bands.count()).map(|band| bands.centre_nm(band)).collect(),
         width_nm: bands.width_nm(),
         weights: band_weights(bands),
     };
-    let unit = facts::written(if stated.is_empty() { of_quantity } else { stated });
+    let unit = facts::written(if stated.is_empty() { default_unit } else { stated });
     Ok(Layer { name: file.stem.clone(), kind, unit, meaning, size: (exr.width, exr.height), planes })
 }
 

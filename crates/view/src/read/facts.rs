@@ -7,12 +7,12 @@ use etendue::Error;
 use etendue_io::{exr::VISIBILITY, inspect::identity_colour, sidecar};
 use serde_json::Value;
 
-use crate::layer::{Layer, Name};
+use crate::layer::{Layer, NamedIdentifier};
 
 /// A side-car `camera.json`, or nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SideCar {
-    said: Value,
+    json: Value,
 }
 
 impl SideCar {
@@ -20,17 +20,17 @@ impl SideCar {
     ///
     /// # Errors
     /// If it exists but is not JSON.
-    pub(crate) fn of(folder: &Path) -> Result<Self, Error> {
-        let about = folder.parent().filter(|_| folder.ends_with("undistorted"));
-        let files = [Some(folder), about].into_iter().flatten().map(|folder| folder.join("camera.json"));
+    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
+        let parent = folder.parent().filter(|_| folder.ends_with("undistorted"));
+        let files = [Some(folder), parent].into_iter().flatten().map(|folder| folder.join("camera.json"));
         let Some(file) = files.into_iter().find(|file| file.is_file()) else { return Ok(Self::default()) };
-        let said = sidecar::read(&file).map_err(Error::input)?;
-        Ok(Self { said })
+        let json = sidecar::read(&file).map_err(Error::input)?;
+        Ok(Self { json })
     }
 
     /// Returns the value at a path, `null` if there is none.
     pub(super) fn at(&self, path: &[&str]) -> &Value {
-        path.iter().fold(&self.said, |value, key| &value[*key])
+        path.iter().fold(&self.json, |value, key| &value[*key])
     }
 
     /// Returns quantity and unit of a file; empty if there are none.
@@ -41,11 +41,11 @@ impl SideCar {
 }
 
 /// The identifiers of a plane of this name, each with its name, if known, and its colour.
-pub(super) fn names(layer: &str, ids: &[u32], side_car: &SideCar) -> Vec<Name> {
+pub(super) fn names(layer: &str, ids: &[u32], side_car: &SideCar) -> Vec<NamedIdentifier> {
     let known = known(layer, side_car);
-    let there: BTreeSet<u32> = ids.iter().copied().collect();
-    let name = |id| Name { id, name: known.get(&id).cloned().unwrap_or_default(), colour: identity_colour(id) };
-    there.into_iter().map(name).collect()
+    let present: BTreeSet<u32> = ids.iter().copied().collect();
+    let name = |id| NamedIdentifier { id, name: known.get(&id).cloned().unwrap_or_default(), colour: identity_colour(id) };
+    present.into_iter().map(name).collect()
 }
 
 fn known(layer: &str, side_car: &SideCar) -> BTreeMap<u32, String> {
@@ -84,24 +84,24 @@ fn numbered(text: &str, between: &str, after: &str) -> BTreeMap<u32, String> {
 
 /// The unit of a layer, and further statements about it, from a header's `units`: `depth, P: m; flow: px; velocity: m/s, world`,
 /// or one unit for all.
-pub(super) fn of_layer(stated: &str, layer: &str) -> (String, String) {
+pub(super) fn layer_words(stated: &str, layer: &str) -> (String, String) {
     let is_named = |names: &str| {
         let mut names = names.split(',').map(str::trim);
         names.any(|name| layer.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
     };
-    let mut of_all = None;
+    let mut default_words = None;
     for clause in stated.split(';').map(str::trim) {
         match clause.split_once(':') {
-            Some((names, said)) if is_named(names) => {
-                let (unit, more) = said.split_once(',').unwrap_or((said, ""));
+            Some((names, unit_text)) if is_named(names) => {
+                let (unit, more) = unit_text.split_once(',').unwrap_or((unit_text, ""));
                 return (written(unit.trim()), more.trim().to_owned());
             }
             Some(_) => {}
             // A list refers to several layers, and does not state which.
-            None => of_all = of_all.or(Some(clause).filter(|unit| !unit.contains(", "))),
+            None => default_words = default_words.or(Some(clause).filter(|unit| !unit.contains(", "))),
         }
     }
-    (written(of_all.unwrap_or("")), String::new())
+    (written(default_words.unwrap_or("")), String::new())
 }
 
 /// Formats a unit for display: `W.m^-2.sr^-1.nm^-1` is W·m⁻²·sr⁻¹·nm⁻¹, `e` is e⁻, `1` is empty.
@@ -126,25 +126,25 @@ mod tests {
 
     #[test]
     fn identities_have_the_names_that_files_state() {
-        let side_car = SideCar::of(std::path::Path::new("")).expect("none");
-        let told =
+        let side_car = SideCar::read(std::path::Path::new("")).expect("none");
+        let actual =
             |layer| names(layer, &[3, 1, 1, 0], &side_car).into_iter().map(|n| (n.id, n.name)).collect::<Vec<_>>();
-        let seen = [(0, "not known"), (1, "seen"), (3, "outside the picture")].map(|(id, name)| (id, name.to_owned()));
-        assert_eq!(told("visibility.forward"), seen);
-        assert_eq!(told("instance")[1], (1, String::new()));
+        let expected = [(0, "not known"), (1, "seen"), (3, "outside the picture")].map(|(id, name)| (id, name.to_owned()));
+        assert_eq!(actual("visibility.forward"), expected);
+        assert_eq!(actual("instance")[1], (1, String::new()));
         assert_eq!(numbered("0: no ray; 1: the principal ray", "; ", ": ")[&1], "the principal ray");
     }
 
     #[test]
     fn each_layer_has_its_unit() {
         let truth = "depth, distance, P: m; N: 1; ID: identity, 0 is the background";
-        assert_eq!(["depth", "P", "N", "instance"].map(|layer| of_layer(truth, layer).0), ["m", "m", "", ""]);
+        assert_eq!(["depth", "P", "N", "instance"].map(|layer| layer_words(truth, layer).0), ["m", "m", "", ""]);
         let motion = "flow: px; motion_vector: px/s; scene_flow: m, camera frames; velocity: m/s, world; time: s";
-        assert_eq!(of_layer(motion, "flow.forward").0, "px");
-        assert_eq!(of_layer(motion, "scene_flow.forward"), ("m".to_owned(), "camera frames".to_owned()));
-        assert_eq!(of_layer("px; the column here minus that", "disparity").0, "px");
-        assert_eq!(of_layer("W.m^-2.sr^-1.nm^-1", "S0").0, "W·m⁻²·sr⁻¹·nm⁻¹");
-        assert_eq!(of_layer("1, e^2, e^2", "samples").0, "");
+        assert_eq!(layer_words(motion, "flow.forward").0, "px");
+        assert_eq!(layer_words(motion, "scene_flow.forward"), ("m".to_owned(), "camera frames".to_owned()));
+        assert_eq!(layer_words("px; the column here minus that", "disparity").0, "px");
+        assert_eq!(layer_words("W.m^-2.sr^-1.nm^-1", "S0").0, "W·m⁻²·sr⁻¹·nm⁻¹");
+        assert_eq!(layer_words("1, e^2, e^2", "samples").0, "");
         assert_eq!([written("e"), written("1"), written("DN")], ["e⁻", "", "DN"]);
     }
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use etendue::Error;
 use etendue_io::correspondence::read_flow;
 
-use crate::found::FoundFile;
+use crate::found::ResultFile;
 
 pub(crate) use facts::{FileLayers, SideCar};
 
@@ -17,7 +17,7 @@ pub(crate) use facts::{FileLayers, SideCar};
 ///
 /// # Errors
 /// If it is damaged, or not of a kind that its name indicates.
-pub(crate) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers, Error> {
+pub(crate) fn layers(file: &ResultFile, side_car: &SideCar) -> Result<FileLayers, Error> {
     let ending = file.name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     if ending == "exr" {
         return exr::layers(file, side_car);

@@ -4,14 +4,14 @@
 use etendue::Error;
 use etendue_core::{Plane, quantity::OpticalFlow};
 use etendue_io::inspect::{ObjectBox, identity_colour, read_boxes};
-use etendue_io::photograph::{Channel, Encoding, Photograph, read_photograph};
+use etendue_io::photograph::{PhotographChannel, Encoding, Photograph, read_photograph};
 use serde_json::{Value, json};
 
 use super::facts::{self, SideCar};
-use crate::found::FoundFile;
-use crate::layer::{Kind, Layer, NamedPlane, Samples};
+use crate::found::ResultFile;
+use crate::layer::{LayerKind, Layer, NamedPlane, Samples};
 
-pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error> {
+pub(super) fn picture_layer(file: &ResultFile, side_car: &SideCar) -> Result<Layer, Error> {
     let photograph = read_photograph(&file.path).map_err(Error::input)?;
     let size = (photograph.width, photograph.height);
     let [quantity, stated] = side_car.entry(&file.name);
@@ -19,22 +19,22 @@ pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Laye
         (Some(raw), ..) => {
             let filters =
                 Some((raw.filters.columns, raw.filters.channels.clone())).filter(|(_, names)| names.len() > 1);
-            let kind = Kind::Raw { black: raw.black_level_dn, white: raw.white_level_dn, filters };
+            let kind = LayerKind::Raw { black: raw.black_level_dn, white: raw.white_level_dn, filters };
             (kind, "DN".to_owned(), format!("exposure {} s", raw.exposure_s))
         }
-        (None, 3.., None) => (Kind::Colour, facts::written(stated), quantity.to_owned()),
-        (None, _, None) => (Kind::Number, facts::written(stated), quantity.to_owned()),
+        (None, 3.., None) => (LayerKind::Colour, facts::written(stated), quantity.to_owned()),
+        (None, _, None) => (LayerKind::Number, facts::written(stated), quantity.to_owned()),
         // Depth and disparity as images.
         (None, 1 | 2, Some(_)) if !stated.is_empty() && !stated.ends_with("bits") => {
-            (Kind::Number, stated.to_owned(), quantity.to_owned())
+            (LayerKind::Number, stated.to_owned(), quantity.to_owned())
         }
         // A raw without stated levels.
         (None, 1 | 2, Some(_)) if photograph.stated.encoding == Encoding::Linear => {
-            (Kind::Number, "DN".to_owned(), format!("linear ({})", photograph.stated.reason))
+            (LayerKind::Number, "DN".to_owned(), format!("linear ({})", photograph.stated.reason))
         }
         (None, _, Some(full)) => {
             let stated = &photograph.stated;
-            let kind = Kind::Picture { full, encoding: stated.encoding.name() };
+            let kind = LayerKind::Picture { full, encoding: stated.encoding.name() };
             (kind, "DN".to_owned(), format!("{} ({})", stated.encoding.name(), stated.reason))
         }
     };
@@ -45,11 +45,11 @@ pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Laye
 fn planes(photograph: Photograph) -> Vec<NamedPlane> {
     let full = photograph.full_scale;
     let shown = photograph.channels.into_iter().filter(|channel| channel.name != "A");
-    let plane = |Channel { name, samples }: Channel| {
+    let plane = |PhotographChannel { name, samples }: PhotographChannel| {
         let samples = match full {
             Some(full) if full <= 255.0 => Samples::Bytes(samples.iter().map(|v| *v as u8).collect()),
             Some(full) if full <= 65_535.0 => Samples::Words(samples.iter().map(|v| *v as u16).collect()),
-            Some(_) => Samples::Whole(samples.iter().map(|v| *v as u32).collect()),
+            Some(_) => Samples::Integers(samples.iter().map(|v| *v as u32).collect()),
             None => Samples::Exact(samples),
         };
         NamedPlane::value(name, samples)
@@ -57,11 +57,11 @@ fn planes(photograph: Photograph) -> Vec<NamedPlane> {
     shown.map(plane).collect()
 }
 
-pub(super) fn flow_layer(file: &FoundFile, flow: &Plane<OpticalFlow>) -> Layer {
+pub(super) fn flow_layer(file: &ResultFile, flow: &Plane<OpticalFlow>) -> Layer {
     let component = |axis: usize| Samples::Exact(flow.samples().iter().map(|vector| vector[axis]).collect());
     Layer {
         name: file.stem.clone(),
-        kind: Kind::Flow,
+        kind: LayerKind::Flow,
         unit: "px".to_owned(),
         meaning: "position in the other frame minus position in this one, x right, y down; NaN: not known".to_owned(),
         size: (flow.width(), flow.height()),
@@ -69,11 +69,11 @@ pub(super) fn flow_layer(file: &FoundFile, flow: &Plane<OpticalFlow>) -> Layer {
     }
 }
 
-pub(super) fn boxes_layer(file: &FoundFile) -> Result<Layer, Error> {
+pub(super) fn boxes_layer(file: &ResultFile) -> Result<Layer, Error> {
     let boxes = read_boxes(&file.path).map_err(Error::input)?;
     Ok(Layer {
         name: file.stem.clone(),
-        kind: Kind::Boxes { objects: boxes.objects.iter().map(object).collect() },
+        kind: LayerKind::Boxes { objects: boxes.objects.iter().map(object).collect() },
         unit: "px".to_owned(),
         meaning: "solid lines around visible parts, dashed lines around whole objects".to_owned(),
         size: (boxes.width_px, boxes.height_px),

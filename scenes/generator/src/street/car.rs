@@ -98,15 +98,15 @@ impl Shape {
     fn stations(&self) -> Vec<f64> {
         let [front, rear] = self.ends;
         let length = front - rear;
-        let even = (1..24).map(|i| rear + length * f64::from(i) / 24.0);
+        let regular = (1..24).map(|i| rear + length * f64::from(i) / 24.0);
         let ends = [0.0, 0.012, 0.035, 0.08].into_iter().flat_map(|s| [rear + s, front - s]);
         let arches = self.axles.into_iter().flat_map(|axle| self.arch_stations(axle));
         let glass = self.side_glass.iter().flatten().copied();
         let windows = self.windscreen.into_iter().chain(self.rear_window.into_iter().flatten());
         let must: Vec<f64> =
             arches.chain(glass).chain(windows).chain(self.gaps.iter().flat_map(|x| [*x, x + GAP_M])).collect();
-        let apart = |x: f64| must.iter().all(|m| (m - x).abs() > 0.05);
-        let mut all: Vec<f64> = even.filter(|x| apart(*x)).chain(ends).chain(must.iter().copied()).collect();
+        let is_separate = |x: f64| must.iter().all(|m| (m - x).abs() > 0.05);
+        let mut all: Vec<f64> = regular.filter(|x| is_separate(*x)).chain(ends).chain(must.iter().copied()).collect();
         all.sort_by(f64::total_cmp);
         all.dedup_by(|a, b| (*a - *b).abs() < 0.002);
         all

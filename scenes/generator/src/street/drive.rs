@@ -61,8 +61,8 @@ pub(super) fn scene(street: &Description) -> String {
 /// A car in a frame of its own.
 fn car(driver: &Driver, street: &Description, text: &mut String) {
     let Driver { object, at: [x, y], heading_deg, speed_m_s } = driver;
-    let way = if *heading_deg == 0.0 { 1.0 } else { -1.0 };
-    let end = x + way * speed_m_s * LENGTH_S;
+    let sign = if *heading_deg == 0.0 { 1.0 } else { -1.0 };
+    let end = x + sign * speed_m_s * LENGTH_S;
     let _ = write!(
         text,
         "\n[[frames]]\nname = \"{object}\"\nkeys = [\n  \
@@ -98,7 +98,7 @@ fn person((name, at, heading_deg, speed_m_s): (&str, [f64; 3], f64, f64), street
         180.0 => (-1.0, 0.0),
         _ => (0.0, -1.0),
     };
-    let way = speed_m_s * LENGTH_S;
+    let distance = speed_m_s * LENGTH_S;
     let mesh = format!("walk-{name}");
     let rate_hz = number(walk::rate_hz(speed_m_s));
     let _ = write!(
@@ -112,8 +112,8 @@ fn person((name, at, heading_deg, speed_m_s): (&str, [f64; 3], f64, f64), street
         "\n{}keys = [\n  {{ time_s = 0, position_m = [{x}, {y}, {z}], rotation_deg = [{heading_deg}, 0, 0] }},\n  \
          {{ time_s = {LENGTH_S}, position_m = [{:.2}, {:.2}, {z}], rotation_deg = [{heading_deg}, 0, 0] }},\n]\n",
         walking(name, &mesh, street),
-        x + dx * way,
-        y + dy * way
+        x + dx * distance,
+        y + dy * distance
     );
 }
 
@@ -151,14 +151,14 @@ fn lamps(text: &mut String) {
          illuminant = \"LED-B5\"\ninstances = [\n",
     );
     let oncoming = DRIVERS.iter().filter(|driver| driver.heading_deg == 180.0);
-    for (driver, [_, _, ahead, apart, height]) in oncoming.zip(ONCOMING) {
+    for (driver, [_, _, ahead, spacing, height]) in oncoming.zip(ONCOMING) {
         for side in [0.5, -0.5] {
             let _ = writeln!(
                 text,
                 "  {{ frame = \"{}\", position_m = [{:.3}, {:.3}, {height}] }},",
                 driver.object,
                 ahead + 0.05,
-                side * apart
+                side * spacing
             );
         }
     }

@@ -68,9 +68,9 @@ pub(super) fn night_scene() -> String {
          [[lights]]\nname = \"other-low-beam\"\ntype = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"right\"\n\
          illuminant = \"LED-B5\"\ninstances = [\n",
     );
-    for [x, y, ahead, apart, height] in ONCOMING {
+    for [x, y, ahead, spacing, height] in ONCOMING {
         for side in [-0.5, 0.5] {
-            let at = [x - ahead - 0.05, y + side * apart, height].map(|v| (v * 1000.0).round() / 1000.0);
+            let at = [x - ahead - 0.05, y + side * spacing, height].map(|v| (v * 1000.0).round() / 1000.0);
             let _ =
                 writeln!(text, "  {{ position_m = [{}, {}, {}], rotation_deg = [180, 0, 0] }},", at[0], at[1], at[2]);
         }
@@ -107,9 +107,9 @@ pub(super) fn wet_night_scene() -> String {
 }
 
 /// A job that renders one of the scenes.
-pub(super) fn job(about: &str, scene: &str, camera: &str) -> String {
+pub(super) fn job(comment: &str, scene: &str, camera: &str) -> String {
     format!(
-        "# {about} Made by scenes/generator.\n\
+        "# {comment} Made by scenes/generator.\n\
          format = 1\n\
          scene = \"{scene}\"\n\n\
          [[cameras]]\n\

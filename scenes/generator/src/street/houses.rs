@@ -2,7 +2,7 @@
 
 use super::house::{Ground, House, Roof};
 use super::road::{FRONT_Y, KERB_M, REACH_X};
-use crate::description::{Description, Spot};
+use crate::description::{Description, Placement};
 
 /// Names and shapes of the kinds of houses.
 fn kinds() -> [(&'static str, House); 7] {
@@ -134,7 +134,7 @@ pub(super) fn add(street: &mut Description) {
     let mut x = REACH_X[0] + 2.0;
     for &house in RIGHT {
         let width = kinds[house.0].1.width;
-        add_house(street, &kinds, house, Spot::new(x + width, FRONT_Y[0], KERB_M, 180.0));
+        add_house(street, &kinds, house, Placement::new(x + width, FRONT_Y[0], KERB_M, 180.0));
         x += width;
     }
     x = REACH_X[0] + 4.0;
@@ -143,24 +143,24 @@ pub(super) fn add(street: &mut Description) {
         if x + width > PARK_X[0] && x < PARK_X[1] {
             x = PARK_X[1];
         }
-        add_house(street, &kinds, house, Spot::new(x, FRONT_Y[1], KERB_M, 0.0));
+        add_house(street, &kinds, house, Placement::new(x, FRONT_Y[1], KERB_M, 0.0));
         x += width;
     }
     x = 12.0;
     for &house in BEHIND_PARK {
-        add_house(street, &kinds, house, Spot::new(x, 38.0, KERB_M, 0.0));
+        add_house(street, &kinds, house, Placement::new(x, 38.0, KERB_M, 0.0));
         x += kinds[house.0].1.width;
     }
     let mut y = 41.0;
     for &house in BESIDE_PARK {
-        add_house(street, &kinds, house, Spot::new(62.0, y, KERB_M, -90.0));
+        add_house(street, &kinds, house, Placement::new(62.0, y, KERB_M, -90.0));
         y -= kinds[house.0].1.width;
     }
     let (mut far, mut near) = (28.0, -28.0);
     for &house in ACROSS {
         let width = kinds[house.0].1.width;
-        add_house(street, &kinds, house, Spot::new(REACH_X[1] + 16.0, far, KERB_M, -90.0));
-        add_house(street, &kinds, house, Spot::new(REACH_X[0] - 2.0, near, KERB_M, 90.0));
+        add_house(street, &kinds, house, Placement::new(REACH_X[1] + 16.0, far, KERB_M, -90.0));
+        add_house(street, &kinds, house, Placement::new(REACH_X[0] - 2.0, near, KERB_M, 90.0));
         far -= width;
         near += width;
     }
@@ -170,7 +170,7 @@ fn add_house(
     street: &mut Description,
     kinds: &[(&'static str, House)],
     house: (usize, &'static str, &'static str),
-    spot: Spot,
+    spot: Placement,
 ) {
     let (kind, wall, board) = house;
     let mesh = kinds[kind].0;

@@ -4,7 +4,7 @@ use super::furniture::{self as things, Board};
 use super::road::{self, KERB_M, LANE_M, NOSE_X, PARKING_Y, REACH_X};
 use super::tree::Growth;
 use super::{fleet, person};
-use crate::description::{Description, Spot};
+use crate::description::{Description, Placement};
 use crate::random::RandomStream;
 use glam::DVec3;
 use rand::RngExt;
@@ -22,19 +22,19 @@ pub(super) fn ground(street: &mut Description) {
     ];
     for (name, class, mesh) in flat {
         street.mesh(name, mesh);
-        street.object(name, class, vec![Spot::new(0.0, 0.0, 0.0, 0.0)]);
+        street.object(name, class, vec![Placement::new(0.0, 0.0, 0.0, 0.0)]);
     }
     street.mesh("kerb", road::kerb());
     street.object("kerb", "sidewalk", kerbs());
 }
 
 /// Kerbs along both sides; at the crossing's nose the right one steps out to the lane.
-fn kerbs() -> Vec<Spot> {
+fn kerbs() -> Vec<Placement> {
     let tens = (0..22).map(|i| REACH_X[0] + 10.0 * f64::from(i));
     let right = tens.clone().filter(|x| *x + 10.0 <= NOSE_X[0] || *x >= NOSE_X[1] - 10.0);
-    let left = tens.map(|x| Spot::new(x + 10.0, LANE_M, 0.0, 180.0));
-    let nose = [Spot::new(NOSE_X[0], -LANE_M - 0.1, 0.0, 0.0), Spot::new(NOSE_X[1] - 10.0, -LANE_M - 0.1, 0.0, 0.0)];
-    right.map(|x| Spot::new(x, PARKING_Y, 0.0, 0.0)).chain(left).chain(nose).collect()
+    let left = tens.map(|x| Placement::new(x + 10.0, LANE_M, 0.0, 180.0));
+    let nose = [Placement::new(NOSE_X[0], -LANE_M - 0.1, 0.0, 0.0), Placement::new(NOSE_X[1] - 10.0, -LANE_M - 0.1, 0.0, 0.0)];
+    right.map(|x| Placement::new(x, PARKING_Y, 0.0, 0.0)).chain(left).chain(nose).collect()
 }
 
 /// Trees and hedges.
@@ -50,7 +50,7 @@ pub(super) fn greenery(street: &mut Description) {
     let mut plant = |x: f64, y: f64, z: f64| {
         let kind = dice.random_range(0..2);
         let scale = (dice.random_range::<f64, _>(0.9..1.15) * 100.0).round() / 100.0;
-        trees[kind].push(Spot { scale, ..Spot::new(x, y, z, 10.0 * f64::from(dice.random_range(0..36))) });
+        trees[kind].push(Placement { scale, ..Placement::new(x, y, z, 10.0 * f64::from(dice.random_range(0..36))) });
     };
     for i in 0..15 {
         let x = -46.0 + 14.0 * f64::from(i);
@@ -83,8 +83,8 @@ pub(super) fn greenery(street: &mut Description) {
     let [first, second] = trees;
     street.object("tree-a", "vegetation", first);
     street.object("tree-b", "vegetation", second);
-    street.object("island", "sidewalk", ISLANDS_X.map(|x| Spot::new(x, -4.35, 0.0, 0.0)).to_vec());
-    street.object("hedge", "vegetation", [19.5, 28.5, 39.0].map(|x| Spot::new(x, 7.6, KERB_M, 0.0)).to_vec());
+    street.object("island", "sidewalk", ISLANDS_X.map(|x| Placement::new(x, -4.35, 0.0, 0.0)).to_vec());
+    street.object("hedge", "vegetation", [19.5, 28.5, 39.0].map(|x| Placement::new(x, 7.6, KERB_M, 0.0)).to_vec());
 }
 
 /// Tree islands in the parking lane.
@@ -93,38 +93,38 @@ const ISLANDS_X: [f64; 5] = [-8.2, 48.2, 71.0, 93.8, 116.6];
 /// Lamps, signs, bins, bollards, a bench.
 pub(super) fn furniture(street: &mut Description) {
     street.mesh("lamp-post", things::lamp_post());
-    let right = (0..9).map(|i| Spot::new(-39.0 + 25.0 * f64::from(i), -5.8, KERB_M, 0.0));
+    let right = (0..9).map(|i| Placement::new(-39.0 + 25.0 * f64::from(i), -5.8, KERB_M, 0.0));
     street.object("lamp-post", "pole", right.collect());
     street.mesh("bollard", things::bollard());
-    street.object("bollard", "pole", [13.2, 14.6, 21.4, 22.8].map(|x| Spot::new(x, -3.75, KERB_M, 0.0)).to_vec());
+    street.object("bollard", "pole", [13.2, 14.6, 21.4, 22.8].map(|x| Placement::new(x, -3.75, KERB_M, 0.0)).to_vec());
     street.mesh("bin", things::bin());
-    street.object("bin", "pole", vec![Spot::new(10.4, -5.85, KERB_M, 0.0), Spot::new(29.2, 7.0, KERB_M, 0.0)]);
+    street.object("bin", "pole", vec![Placement::new(10.4, -5.85, KERB_M, 0.0), Placement::new(29.2, 7.0, KERB_M, 0.0)]);
     street.mesh("bench", things::bench());
-    street.object("bench", "pole", vec![Spot::new(35.0, 6.7, KERB_M, 180.0)]);
+    street.object("bench", "pole", vec![Placement::new(35.0, 6.7, KERB_M, 180.0)]);
     signs(street);
 }
 
 fn signs(street: &mut Description) {
     let limit = (Board::Round, 0.30, 2.45, "sign-limit");
     let crossing = (Board::Square, 0.30, 2.45, "sign-crossing");
-    let posts: [(&'static str, Vec<things::Sign>, Vec<Spot>); 5] = [
-        ("board-limit", vec![limit], vec![Spot::new(9.5, -5.75, KERB_M, 0.0)]),
+    let posts: [(&'static str, Vec<things::Sign>, Vec<Placement>); 5] = [
+        ("board-limit", vec![limit], vec![Placement::new(9.5, -5.75, KERB_M, 0.0)]),
         (
             "board-crossing",
             vec![crossing],
-            vec![Spot::new(15.4, -3.85, KERB_M, 0.0), Spot::new(20.6, 3.75, KERB_M, 180.0)],
+            vec![Placement::new(15.4, -3.85, KERB_M, 0.0), Placement::new(20.6, 3.75, KERB_M, 180.0)],
         ),
         (
             "board-priority",
             vec![(Board::Diamond, 0.30, 2.4, "sign-priority")],
-            vec![Spot::new(26.2, -5.75, KERB_M, 0.0)],
+            vec![Placement::new(26.2, -5.75, KERB_M, 0.0)],
         ),
         (
             "board-no-parking",
             vec![(Board::Round, 0.21, 2.3, "sign-no-parking")],
-            vec![Spot::new(11.4, 3.75, KERB_M, 180.0), Spot::new(66.0, -5.75, KERB_M, 0.0)],
+            vec![Placement::new(11.4, 3.75, KERB_M, 180.0), Placement::new(66.0, -5.75, KERB_M, 0.0)],
         ),
-        ("board-danger", vec![(Board::Triangle, 0.45, 2.4, "sign-danger")], vec![Spot::new(43.0, -5.75, KERB_M, 0.0)]),
+        ("board-danger", vec![(Board::Triangle, 0.45, 2.4, "sign-danger")], vec![Placement::new(43.0, -5.75, KERB_M, 0.0)]),
     ];
     let mut standing = Vec::new();
     for (mesh, boards, spots) in posts {
@@ -141,7 +141,7 @@ pub(super) fn traffic(street: &mut Description) {
     street.mesh("saloon", fleet::saloon().mesh());
     street.mesh("hatchback", fleet::hatchback().mesh());
     street.mesh("van", fleet::van().mesh());
-    let parked = |x: f64| Spot::new(x, -4.32, 0.0, 0.0);
+    let parked = |x: f64| Placement::new(x, -4.32, 0.0, 0.0);
     let parking: [(&'static str, &'static str, &'static str, Vec<f64>); 10] = [
         ("hatchback", "paint-red", "plate-2", vec![37.0, 65.4]),
         ("hatchback", "paint-white", "plate-3", vec![116.0]),
@@ -166,11 +166,11 @@ pub(super) fn traffic(street: &mut Description) {
 /// Cars under way, whose lamps are materials of their own.
 fn driving(street: &mut Description) {
     let cars = [
-        ("saloon", "paint-blue", "plate-1", Spot::new(29.5, -1.6, 0.0, 0.0)),
-        ("hatchback", "paint-white", "plate-3", Spot::new(25.5, 1.7, 0.0, 180.0)),
-        ("van", "paint-white", "plate-1", Spot::new(52.0, 1.65, 0.0, 180.0)),
-        ("saloon", "paint-black", "plate-2", Spot::new(74.0, 1.7, 0.0, 180.0)),
-        ("saloon", "paint-red", "plate-1", Spot::new(66.0, -1.65, 0.0, 0.0)),
+        ("saloon", "paint-blue", "plate-1", Placement::new(29.5, -1.6, 0.0, 0.0)),
+        ("hatchback", "paint-white", "plate-3", Placement::new(25.5, 1.7, 0.0, 180.0)),
+        ("van", "paint-white", "plate-1", Placement::new(52.0, 1.65, 0.0, 180.0)),
+        ("saloon", "paint-black", "plate-2", Placement::new(74.0, 1.7, 0.0, 180.0)),
+        ("saloon", "paint-red", "plate-1", Placement::new(66.0, -1.65, 0.0, 0.0)),
     ];
     for (mesh, paint, plate, spot) in cars {
         let name = format!("{mesh}-{}-driving", paint.trim_start_matches("paint-"));
@@ -183,10 +183,10 @@ fn driving(street: &mut Description) {
 fn people(street: &mut Description) {
     street.mesh("walker", person::walker(0.62));
     let people = [
-        ("walker", "coat-red", "trousers", Spot::new(13.4, -6.6, KERB_M, 0.0)),
-        ("walker", "coat-blue", "trousers-beige", Spot::new(18.4, 3.75, KERB_M, -90.0)),
-        ("walker", "coat-grey", "trousers", Spot::new(31.0, 6.0, KERB_M, 180.0)),
-        ("walker", "coat-blue", "trousers", Spot::new(38.0, -6.9, KERB_M, 180.0)),
+        ("walker", "coat-red", "trousers", Placement::new(13.4, -6.6, KERB_M, 0.0)),
+        ("walker", "coat-blue", "trousers-beige", Placement::new(18.4, 3.75, KERB_M, -90.0)),
+        ("walker", "coat-grey", "trousers", Placement::new(31.0, 6.0, KERB_M, 180.0)),
+        ("walker", "coat-blue", "trousers", Placement::new(38.0, -6.9, KERB_M, 180.0)),
     ];
     for (i, (mesh, coat, trousers, spot)) in people.into_iter().enumerate() {
         let dress = vec![("coat", coat), ("trousers", trousers)];

@@ -39,12 +39,12 @@ pub(super) fn files() -> Vec<File> {
 
 /// Vertices and faces by material.
 #[derive(Default)]
-struct Body {
+struct WalkerMesh {
     vertices: Vec<DVec3>,
     faces: Vec<(&'static str, Vec<usize>)>,
 }
 
-impl Body {
+impl WalkerMesh {
     /// A surface through closed rings of points, with both ends; counter-clockwise rings along their direction face outwards.
     fn loft(&mut self, slots: &[&'static str], rings: &[Vec<DVec3>]) {
         let (first, count) = (self.vertices.len(), rings[0].len());
@@ -98,8 +98,8 @@ impl Body {
 }
 
 /// The walker at a part of the cycle, looking towards +x, the left foot ahead at 0.
-fn walker(phase: f64) -> Body {
-    let (mut body, rise) = (Body::default(), DVec3::Z * rise_m(phase));
+fn walker(phase: f64) -> WalkerMesh {
+    let (mut body, rise) = (WalkerMesh::default(), DVec3::Z * rise_m(phase));
     for (side, phase) in [(1.0, phase), (-1.0, phase + 0.5)] {
         leg(&mut body, side, phase - phase.floor(), rise);
     }
@@ -146,7 +146,7 @@ fn ankle(side: f64, phase: f64) -> DVec3 {
 }
 
 /// A leg with its shoe, and the arm of the same side, which swings the other way.
-fn leg(body: &mut Body, side: f64, phase: f64, rise: DVec3) {
+fn leg(body: &mut WalkerMesh, side: f64, phase: f64, rise: DVec3) {
     let p = DVec3::new;
     let (hip, ankle) = (p(0.0, 0.095 * side, 0.875) + rise, ankle(side, phase));
     // The knee lies ahead of the line from hip to ankle, where two bones of one length meet.
@@ -170,12 +170,12 @@ fn leg(body: &mut Body, side: f64, phase: f64, rise: DVec3) {
 mod tests {
     use super::*;
 
-    fn volume_m3(body: &Body) -> f64 {
-        let of_face = |(_, face): &(_, Vec<usize>)| {
+    fn volume_m3(body: &WalkerMesh) -> f64 {
+        let face_volume = |(_, face): &(_, Vec<usize>)| {
             let at = |i: usize| body.vertices[face[i]];
             (1..face.len() - 1).map(|i| at(0).dot(at(i).cross(at(i + 1))) / 6.0).sum::<f64>()
         };
-        body.faces.iter().map(of_face).sum()
+        body.faces.iter().map(face_volume).sum()
     }
 
     /// Some 0.07 m³ of a grown person, limbs within the trunk counted twice; the phases differ by their knees only.

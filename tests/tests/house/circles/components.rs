@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::house::Arrows;
+use super::house::ImportedNames;
 
 /// Groups of two files or more, each of which leads to every other.
-pub(crate) fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
+pub(crate) fn circles(arrows: &ImportedNames) -> Vec<Vec<String>> {
     let mut placed = BTreeSet::new();
     let mut circles = Vec::new();
     for file in arrows.keys() {
@@ -23,15 +23,15 @@ pub(crate) fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
 }
 
 /// The files to which the arrows lead from one, itself only by a circle.
-fn reached(arrows: &Arrows, from: &str) -> BTreeSet<String> {
-    let mut reached = BTreeSet::new();
+fn reached(arrows: &ImportedNames, from: &str) -> BTreeSet<String> {
+    let mut visited = BTreeSet::new();
     let mut open = vec![from.to_owned()];
     while let Some(file) = open.pop() {
         for to in arrows.get(&file).into_iter().flat_map(|to| to.keys()) {
-            if reached.insert(to.clone()) {
+            if visited.insert(to.clone()) {
                 open.push(to.clone());
             }
         }
     }
-    reached
+    visited
 }

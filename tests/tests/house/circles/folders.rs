@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::house::Arrows;
+use super::house::ImportedNames;
 
 /// The arrows between the direct children of every folder, by the folder: a child is a file or a folder with all that is in it (`x.rs` and `x/` are one),
 /// and a name is that which a file of one child takes from a file of the other.
-pub(crate) fn arrows_by_folder(arrows: &Arrows) -> BTreeMap<String, Arrows> {
-    let mut folders: BTreeMap<String, Arrows> = BTreeMap::new();
+pub(crate) fn arrows_by_folder(arrows: &ImportedNames) -> BTreeMap<String, ImportedNames> {
+    let mut folders: BTreeMap<String, ImportedNames> = BTreeMap::new();
     for (from, to) in arrows {
         for (to, names) in to {
             let Some(step) = Step::between(from, to) else { continue };

@@ -8,7 +8,7 @@ use super::source::{Import, Source};
 type Module = Vec<String>;
 
 /// The names that one file takes from each other one.
-pub(crate) type Arrows = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
+pub(crate) type ImportedNames = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
 
 /// One crate.
 pub(crate) struct House {
@@ -17,7 +17,7 @@ pub(crate) struct House {
 }
 
 /// Where a path leads.
-enum End {
+enum PathEnd {
     /// To an item that this module's file defines.
     Item(Module),
     Module(Module),
@@ -34,13 +34,13 @@ impl House {
             house.files.insert(module.clone(), format!("{folder}{path}"));
             house.sources.insert(module, Source::read(text));
         }
-        let of_tests = |module: &Module| {
+        let is_test = |module: &Module| {
             (1..=module.len()).any(|n| {
                 let parent = house.sources.get(&module[..n - 1]);
                 parent.is_some_and(|parent| parent.tests.contains(&module[n - 1]))
             })
         };
-        let tests: Vec<Module> = house.files.keys().filter(|module| of_tests(module)).cloned().collect();
+        let tests: Vec<Module> = house.files.keys().filter(|module| is_test(module)).cloned().collect();
         for module in tests {
             house.files.remove(&module);
             house.sources.remove(&module);
@@ -49,10 +49,10 @@ impl House {
     }
 
     /// Who takes which names from whom.
-    pub(crate) fn arrows(&self) -> Arrows {
-        let mut arrows = Arrows::new();
+    pub(crate) fn arrows(&self) -> ImportedNames {
+        let mut arrows = ImportedNames::new();
         for (module, source) in &self.sources {
-            for (end, name) in self.taken(module, source) {
+            for (end, name) in self.imported_names(module, source) {
                 if end != *module {
                     let to = arrows.entry(self.files[module].clone()).or_default();
                     to.entry(self.files[&end].clone()).or_default().insert(name);
@@ -63,10 +63,10 @@ impl House {
     }
 
     /// Each module whose file a file depends on, with the name that it takes.
-    fn taken(&self, module: &Module, source: &Source) -> Vec<(Module, String)> {
+    fn imported_names(&self, module: &Module, source: &Source) -> Vec<(Module, String)> {
         let imports = source.imports.iter().flat_map(|import| self.imported(module, source, import));
         let paths = source.paths.iter().filter_map(|path| match self.follow(module, path, &mut Vec::new()) {
-            End::Item(end) => Some((end, path.last().cloned().unwrap_or_default())),
+            PathEnd::Item(end) => Some((end, path.last().cloned().unwrap_or_default())),
             _ => None,
         });
         imports.chain(paths).collect()
@@ -74,15 +74,15 @@ impl House {
 
     fn imported(&self, module: &Module, source: &Source, import: &Import) -> Vec<(Module, String)> {
         let item = |name: &String, path: &[String]| match self.follow(module, path, &mut Vec::new()) {
-            End::Item(end) => Some((end, name.clone())),
+            PathEnd::Item(end) => Some((end, name.clone())),
             _ => None,
         };
         match &import.name {
-            Some(name) if import.handed_on && !source.words.contains(name) => Vec::new(),
+            Some(name) if import.re_exported && !source.words.contains(name) => Vec::new(),
             Some(name) => item(name, &import.path).into_iter().collect(),
             None => {
                 let each = |word: &String| item(word, &[import.path.clone(), vec![word.clone()]].concat());
-                let End::Module(from) = self.follow(module, &import.path, &mut Vec::new()) else { return Vec::new() };
+                let PathEnd::Module(from) = self.follow(module, &import.path, &mut Vec::new()) else { return Vec::new() };
                 source.words.iter().filter(|word| self.binds(&from, word)).filter_map(each).collect()
             }
         }
@@ -95,12 +95,12 @@ impl House {
     }
 
     /// Follows a path that a module's file says to the file that defines its end, through what others hand on.
-    fn follow(&self, from: &Module, path: &[String], seen: &mut Vec<(Module, Vec<String>)>) -> End {
-        let here = (from.clone(), path.to_vec());
-        if seen.contains(&here) {
-            return End::Elsewhere;
+    fn follow(&self, from: &Module, path: &[String], visited: &mut Vec<(Module, Vec<String>)>) -> PathEnd {
+        let step = (from.clone(), path.to_vec());
+        if visited.contains(&step) {
+            return PathEnd::Elsewhere;
         }
-        seen.push(here);
+        visited.push(step);
         let mut module = from.clone();
         let mut rest = path;
         while let [first, after @ ..] = rest {
@@ -116,19 +116,19 @@ impl House {
         while let [first, after @ ..] = rest {
             let child = [module.as_slice(), std::slice::from_ref(first)].concat();
             if !self.files.contains_key(&child) {
-                return self.item(&module, rest, named || module != *from, seen);
+                return self.item(&module, rest, named || module != *from, visited);
             }
             (module, rest) = (child, after);
         }
-        End::Module(module)
+        PathEnd::Module(module)
     }
 
     /// What a name means in a module: an item of its file, or what an import of it binds. Behind a path that names the module it is
     /// the file's in any case (a macro may define it).
-    fn item(&self, module: &Module, rest: &[String], named: bool, seen: &mut Vec<(Module, Vec<String>)>) -> End {
-        let Some(source) = self.sources.get(module) else { return End::Elsewhere };
+    fn item(&self, module: &Module, rest: &[String], named: bool, visited: &mut Vec<(Module, Vec<String>)>) -> PathEnd {
+        let Some(source) = self.sources.get(module) else { return PathEnd::Elsewhere };
         if source.defines.contains(&rest[0]) {
-            return End::Item(module.clone());
+            return PathEnd::Item(module.clone());
         }
         for import in &source.imports {
             let path = match &import.name {
@@ -137,16 +137,16 @@ impl House {
                 _ => continue,
             };
             let glob = import.name.is_none();
-            if glob && !self.glob_binds(module, &import.path, &rest[0], seen) {
+            if glob && !self.glob_binds(module, &import.path, &rest[0], visited) {
                 continue;
             }
-            return self.follow(module, &path, seen);
+            return self.follow(module, &path, visited);
         }
-        if named { End::Item(module.clone()) } else { End::Elsewhere }
+        if named { PathEnd::Item(module.clone()) } else { PathEnd::Elsewhere }
     }
 
-    fn glob_binds(&self, module: &Module, path: &[String], name: &str, seen: &mut Vec<(Module, Vec<String>)>) -> bool {
-        matches!(self.follow(module, path, seen), End::Module(from) if self.binds(&from, name))
+    fn glob_binds(&self, module: &Module, path: &[String], name: &str, visited: &mut Vec<(Module, Vec<String>)>) -> bool {
+        matches!(self.follow(module, path, visited), PathEnd::Module(from) if self.binds(&from, name))
     }
 }
 

@@ -9,7 +9,7 @@ pub(crate) mod tokens;
 
 use std::collections::BTreeMap;
 
-use house::{Arrows, House};
+use house::{ImportedNames, House};
 
 /// The only circles: files, and why they may stand in one. Those of folders are circles of these files alone.
 const EXCEPTIONS: &[(&[&str], &str)] = &[
@@ -35,7 +35,7 @@ fn is_allowed(circle: &[String]) -> bool {
 }
 
 /// What ties the files of a circle.
-fn ties(circle: &[String], arrows: &Arrows) -> String {
+fn ties(circle: &[String], arrows: &ImportedNames) -> String {
     let mut text = String::new();
     for from in circle {
         for (to, names) in arrows[from].iter().filter(|(to, _)| circle.contains(to)) {
@@ -48,35 +48,35 @@ fn ties(circle: &[String], arrows: &Arrows) -> String {
 
 #[test]
 fn no_files_import_each_other_in_a_circle() {
-    let mut faults = String::new();
+    let mut violations = String::new();
     for (folder, files) in crates() {
         let arrows = House::new(&folder, &files).arrows();
         for (n, circle) in components::circles(&arrows).iter().filter(|circle| !is_allowed(circle)).enumerate() {
-            faults.push_str(&format!("\n{folder} circle {}: {} files{}", n + 1, circle.len(), ties(circle, &arrows)));
+            violations.push_str(&format!("\n{folder} circle {}: {} files{}", n + 1, circle.len(), ties(circle, &arrows)));
         }
     }
-    assert!(faults.is_empty(), "files that import each other in a circle:{faults}");
+    assert!(violations.is_empty(), "files that import each other in a circle:{violations}");
 }
 
 #[test]
 fn no_folders_import_each_other_in_a_circle() {
-    let mut faults = String::new();
+    let mut violations = String::new();
     for (folder, files) in crates() {
         let arrows = House::new(&folder, &files).arrows();
         for (parent, arrows) in folders::arrows_by_folder(&arrows) {
             for circle in components::circles(&arrows) {
                 let files: Vec<String> = circle.iter().map(|child| format!("{parent}{child}.rs")).collect();
                 if !is_allowed(&files) {
-                    faults.push_str(&format!("\n{parent} {}:{}", circle.join(" and "), ties(&circle, &arrows)));
+                    violations.push_str(&format!("\n{parent} {}:{}", circle.join(" and "), ties(&circle, &arrows)));
                 }
             }
         }
     }
-    assert!(faults.is_empty(), "folders that import each other in a circle:{faults}");
+    assert!(violations.is_empty(), "folders that import each other in a circle:{violations}");
 }
 
 /// Arrows of a small crate, to see that the test sees.
-fn small(files: &[(&str, &str)]) -> Arrows {
+fn small(files: &[(&str, &str)]) -> ImportedNames {
     let files: Vec<(String, String)> = files.iter().map(|(p, t)| ((*p).to_owned(), (*t).to_owned())).collect();
     House::new("", &files).arrows()
 }
@@ -103,7 +103,7 @@ fn a_module_that_only_hands_on_is_no_part_of_a_circle() {
 /// The circles of a small crate's folders, each after the folder that it stands in.
 fn small_folder_circles(files: &[(&str, &str)]) -> Vec<(String, Vec<String>)> {
     let folders = folders::arrows_by_folder(&small(files));
-    let circles = |(folder, arrows): (String, Arrows)| {
+    let circles = |(folder, arrows): (String, ImportedNames)| {
         components::circles(&arrows).into_iter().map(move |circle| (folder.clone(), circle))
     };
     folders.into_iter().flat_map(circles).collect()

@@ -10,7 +10,7 @@ pub(crate) struct Import {
     pub(crate) path: Vec<String>,
     pub(crate) name: Option<String>,
     /// `pub use`: handed on, and an arrow only where the file itself says the name.
-    pub(crate) handed_on: bool,
+    pub(crate) re_exported: bool,
 }
 
 /// One file.
@@ -42,7 +42,7 @@ impl Source {
                 _ => {}
             }
             at += if token.is("use") {
-                source.take_use(&tokens[at + 1..], is_handed_on(&tokens[..at]))
+                source.take_use(&tokens[at + 1..], is_re_exported(&tokens[..at]))
             } else if token.is("mod") {
                 2
             } else if let Some(word) = token.word() {
@@ -56,11 +56,11 @@ impl Source {
     }
 
     /// Takes the imports after `use`; gives the tokens taken, that word included.
-    fn take_use(&mut self, tokens: &[Token], handed_on: bool) -> usize {
+    fn take_use(&mut self, tokens: &[Token], re_exported: bool) -> usize {
         let end = tokens.iter().position(|t| t.is_mark(';')).unwrap_or(tokens.len());
         let mut imports = Vec::new();
         tree(&tokens[..end], &[], &mut imports);
-        self.imports.extend(imports.into_iter().map(|(path, name)| Import { path, name, handed_on }));
+        self.imports.extend(imports.into_iter().map(|(path, name)| Import { path, name, re_exported }));
         end + 2
     }
 
@@ -93,7 +93,7 @@ impl Source {
 }
 
 /// Whether `pub` or `pub(…)` stands before.
-fn is_handed_on(before: &[Token]) -> bool {
+fn is_re_exported(before: &[Token]) -> bool {
     match before {
         [.., last] if last.is("pub") => true,
         [.., last] if last.is_mark(')') => {

@@ -112,11 +112,11 @@ fn quote(text: &[char]) -> Option<usize> {
 }
 
 fn without_tests(tokens: &[Token]) -> (Vec<Token>, Vec<String>) {
-    let (mut kept, mut tests) = (Vec::new(), Vec::new());
+    let (mut remaining, mut tests) = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < tokens.len() {
         let Some(attribute) = test_attribute(&tokens[at..]) else {
-            kept.push(tokens[at].clone());
+            remaining.push(tokens[at].clone());
             at += 1;
             continue;
         };
@@ -127,7 +127,7 @@ fn without_tests(tokens: &[Token]) -> (Vec<Token>, Vec<String>) {
         }
         at += attribute + length;
     }
-    (kept, tests)
+    (remaining, tests)
 }
 
 /// Length of `#[cfg(test)]` or `#[cfg(all(test, …))]` if it begins here.

@@ -118,7 +118,7 @@ fn out_of_focus(extreme: &str, focus_m: &str, m: f64) -> Row {
 }
 
 /// How long a picture that is spread over blur circles may take, s by the clock of a busy machine: some hundred times what it does.
-const LONGEST_S: f64 = 60.0;
+const MAX_TIME_S: f64 = 60.0;
 
 /// The camera on the route at the pupil, square.
 fn camera_at_pupil(focus_m: &str, size_px: u32) -> Job {
@@ -134,10 +134,10 @@ fn at_pupil(extreme: &str, focus_m: &str, m: f64, size_px: u32) -> Row {
     let light = |m: f64| 1.0 / (1.0 + 16.0 * (1.0 + m) * (1.0 + m));
     let in_focus = electrons(&camera());
     let start = Instant::now();
-    let found = electrons(&camera_at_pupil(focus_m, size_px)) / in_focus / (light(m) / light(0.0012)) - 1.0;
-    let is_quick = start.elapsed().as_secs_f64() < LONGEST_S;
-    let expected = format!("light as 1/(1 + 4 N² (1 + m)²) (relative error), in less than {LONGEST_S} s");
-    let row = Row::at_most(extreme, &expected, found.abs(), 2e-2);
+    let actual = electrons(&camera_at_pupil(focus_m, size_px)) / in_focus / (light(m) / light(0.0012)) - 1.0;
+    let is_quick = start.elapsed().as_secs_f64() < MAX_TIME_S;
+    let expected = format!("light as 1/(1 + 4 N² (1 + m)²) (relative error), in less than {MAX_TIME_S} s");
+    let row = Row::at_most(extreme, &expected, actual.abs(), 2e-2);
     Row { holds: row.holds && is_quick, ..row }
 }
 
@@ -154,30 +154,30 @@ fn lamp_at_pupil() -> Row {
         .replaced("materials = [{ name = \"white\", type = \"diffuse\", reflectance = 0.8 }]", lamp)
         .replaced("radiance_w_m2_sr_nm = 0.01", "radiance_w_m2_sr_nm = 0")
         .replaced("size_m = [100, 100]", "size_m = [0.01, 0.01]");
-    let share = (LAMP_PX / STORED_PX) * (LAMP_PX / STORED_PX);
+    let fraction = (LAMP_PX / STORED_PX) * (LAMP_PX / STORED_PX);
     let row = Row::at_most(
         "the same, a light of 10 × 10 px in darkness, 64 × 64 px with a margin of 16 px: 1 500 px",
         "the mean of the stored image in every pixel (docs/lenses.md; relative error), and a warning of the plan",
-        (electrons(&lamp) / electrons(&wall) / share - 1.0).abs(),
+        (electrons(&lamp) / electrons(&wall) / fraction - 1.0).abs(),
         2e-2,
     );
-    let told = lamp.plan().remarks.iter().any(|remark| remark.text.contains("16 px are stored around the image"));
-    Row { holds: row.holds && told, ..row }
+    let is_noted = lamp.plan().notes.iter().any(|remark| remark.text.contains("16 px are stored around the image"));
+    Row { holds: row.holds && is_noted, ..row }
 }
 
 /// A job that is refused, with the message, which must name something.
 fn refused(extreme: &str, expected: &str, job: &Job, named: &str) -> Row {
-    let found = job.compiled().err().unwrap_or_else(|| "no fault was found".to_owned());
+    let message = job.compiled().err().unwrap_or_else(|| "no fault was found".to_owned());
     Row {
         extreme: extreme.to_owned(),
         expected: expected.to_owned(),
-        holds: found.contains(named) && found.lines().count() == 1,
-        found: found.replace('|', "\\|"),
+        holds: message.contains(named) && message.lines().count() == 1,
+        found: message.replace('|', "\\|"),
     }
 }
 
 fn sizes() -> Vec<Row> {
-    let of = |width: u32, height: u32| {
+    let sized_job = |width: u32, height: u32| {
         camera()
             .replaced("width_px = 16", &format!("width_px = {width}"))
             .replaced("height_px = 16", &format!("height_px = {height}"))
@@ -189,12 +189,12 @@ fn sizes() -> Vec<Row> {
     };
     let lit = "light in every pixel (pixels without)";
     vec![
-        Row::at_most("an image of 1 × 1 px", lit, bad(&of(1, 1), 1), 0.0),
+        Row::at_most("an image of 1 × 1 px", lit, bad(&sized_job(1, 1), 1), 0.0),
         Row::at_most(
             "an image of 65 535 × 64 px, pixels of 0.1 µm",
             lit,
             bad(
-                &of(65_535, 64)
+                &sized_job(65_535, 64)
                     .replaced("pixel_pitch_um = 3", "pixel_pitch_um = 0.1")
                     .replaced("exposure_s = 0.001", "exposure_s = 1"),
                 65_535 * 64,
@@ -241,7 +241,7 @@ fn electronics() -> Vec<Row> {
     ]);
     let one_electron = numbers(&one_electron.shot());
     let shot = photon.shot();
-    let (expected, got) =
+    let (expected, actual) =
         (shot.electrons().iter().map(|e| f64::from(*e)).sum::<f64>(), numbers(&shot).iter().sum::<f64>() / 100.0);
     vec![
         Row::at_most(
@@ -265,8 +265,8 @@ fn electronics() -> Vec<Row> {
         Row {
             extreme: format!("{expected:.2} photons in a frame of 65 536 pixels"),
             expected: "an integer, Poisson: within four deviations".to_owned(),
-            found: format!("{got} electrons"),
-            holds: got.fract() == 0.0 && (got - expected).abs() <= 4.0 * expected.sqrt() + 1.0,
+            found: format!("{actual} electrons"),
+            holds: actual.fract() == 0.0 && (actual - expected).abs() <= 4.0 * expected.sqrt() + 1.0,
         },
         Row::at_most(
             "−50 °C, doubling every 8 K",
@@ -298,6 +298,6 @@ fn cameras() {
     let mut rows = optics();
     rows.extend(sizes());
     rows.extend(electronics());
-    let about = "A camera of 6 mm in front of a white wall, 1 ms, 16 × 16 pixels of 3 µm.";
-    check("Cameras", about, &rows);
+    let introduction = "A camera of 6 mm in front of a white wall, 1 ms, 16 × 16 pixels of 3 µm.";
+    check("Cameras", introduction, &rows);
 }

@@ -1,6 +1,6 @@
 //! GGX against mpmath: distribution, masking, reflection, and the facets that are drawn.
 
-use super::numerics::{Known, figures, known, ulp_single, worst};
+use super::numerics::{KnownValues, figures, known, ulp_single, worst};
 use etendue_testkit::page::{Row, check, worst as greatest};
 use etendue_tracer::materials::Ggx;
 use glam::{DVec3, Vec2, Vec3};
@@ -11,7 +11,7 @@ fn vector(at: &[f64], i: usize) -> Vec3 {
 }
 
 fn ggx(at: &[f64]) -> Ggx {
-    Ggx::of(at[0] as f32).expect("no mirror")
+    Ggx::from_alpha(at[0] as f32).expect("no mirror")
 }
 
 /// The point of the cap that a facet was made of, which is drawn evenly over it: the facet stretched to roughness 1, about which the viewer's direction
@@ -24,20 +24,20 @@ fn on_the_cap(alpha: f64, wo: Vec3, facet: DVec3) -> DVec3 {
 }
 
 /// The greatest distance on the cap, of radius 1, between facets that are drawn and the exact ones.
-fn drawn(rows: &[Known]) -> f64 {
-    greatest(rows.iter().map(|Known { at, is }| {
+fn drawn(rows: &[KnownValues]) -> f64 {
+    greatest(rows.iter().map(|KnownValues { arguments: at, values: is }| {
         let (alpha, wo) = (at[0], vector(at, 1));
-        let found = ggx(at).sample(wo, Vec2::new(at[4] as f32, at[5] as f32)).as_dvec3();
+        let sampled = ggx(at).sample(wo, Vec2::new(at[4] as f32, at[5] as f32)).as_dvec3();
         let exact = DVec3::new(is[0][0], is[1][0], is[2][0]);
-        on_the_cap(alpha, wo, found).distance(on_the_cap(alpha, wo, exact))
+        on_the_cap(alpha, wo, sampled).distance(on_the_cap(alpha, wo, exact))
     }))
 }
 
 #[test]
 fn facets() {
     let figures = &figures()["ggx"];
-    let ulps = |name: &str, of: &dyn Fn(&[f64]) -> f32| {
-        worst(&known(&figures[name]), ulp_single, |at| vec![f64::from(of(at))]).0
+    let ulps = |name: &str, function: &dyn Fn(&[f64]) -> f32| {
+        worst(&known(&figures[name]), ulp_single, |at| vec![f64::from(function(at))]).0
     };
     let rows = [
         Row::at_most(
@@ -65,7 +65,7 @@ fn facets() {
             1e-6,
         ),
     ];
-    let about =
+    let introduction =
         "Roughness 10⁻⁴ to 1, compared with mpmath as above; 32 bits, units in the last place of the true value.";
-    check("GGX", about, &rows);
+    check("GGX", introduction, &rows);
 }

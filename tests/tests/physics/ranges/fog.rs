@@ -38,14 +38,14 @@ fn foggy(lamp: &str) -> Job {
 
 /// Mean radiance of all pixels, W·m⁻²·sr⁻¹·nm⁻¹.
 fn radiance(job: &Job) -> f64 {
-    let seen = job.shot().radiance().mean;
-    seen.iter().map(|value| f64::from(*value)).sum::<f64>() / seen.len() as f64
+    let samples = job.shot().radiance().mean;
+    samples.iter().map(|value| f64::from(*value)).sum::<f64>() / samples.len() as f64
 }
 
 /// The integral of a function by Simpson's rule in 2 n steps.
-fn integral(of: impl Fn(f64) -> f64, from: f64, to: f64, n: u32) -> f64 {
+fn integral(function: impl Fn(f64) -> f64, from: f64, to: f64, n: u32) -> f64 {
     let h = (to - from) / f64::from(2 * n);
-    let at = |i: u32| of(from + f64::from(i) * h);
+    let at = |i: u32| function(from + f64::from(i) * h);
     let pair = |i: u32| at(2 * i) + 4.0 * at(2 * i + 1) + at(2 * i + 2);
     (0..n).map(pair).sum::<f64>() * h / 3.0
 }
@@ -60,7 +60,7 @@ fn scattered_once(arriving: impl Fn(f64) -> f64, [ahead_m, aside_m]: [f64; 2]) -
 }
 
 /// A sphere of radiance 1: ∫ exp(−β s) over the solid angle in which it is seen, s as far as its surface there.
-fn of_sphere(distance_m: f64) -> f64 {
+fn sphere_light(distance_m: f64) -> f64 {
     // sin α = (a/d) sin u, u from 0 to 90°: the surface is d cos α − a cos u away, which is smooth to the rim.
     let by_place = |u: f64| {
         let sine = RADIUS_M * sin(u) / distance_m;
@@ -77,14 +77,14 @@ pub(crate) fn lamps_in_fog() -> Vec<Row> {
         let lamp = format!(
             "[[scene.objects]]\nname = \"lamp\"\nmaterial = \"lamp\"\nposition_m = [3, {aside_m}, 0]\nshape = {{ type = \"sphere\", radius_m = {RADIUS_M} }}"
         );
-        radiance(&foggy(&lamp)) / scattered_once(of_sphere, [3.0, aside_m]) - 1.0
+        radiance(&foggy(&lamp)) / scattered_once(sphere_light, [3.0, aside_m]) - 1.0
     };
     let point = "[[scene.lights]]\nname = \"lamp\"\ntype = \"point\"\nposition_m = [3, 0.01, 0]\nilluminant = \"E\"\nintensity_cd = 100\n";
     // Of illuminant E a candela is so many W/sr in each nanometre.
     let bands = Bands::covering(300.0, 1100.0, 5.0).expect("legal bands");
     let lumens_per_watt = observer::xyz_of_bands(&vec![1.0; bands.count()], bands)[1];
-    let of_point = |distance_m: f64| 100.0 / lumens_per_watt * exp(-BETA * distance_m) / (distance_m * distance_m);
-    let point = radiance(&foggy(point)) / scattered_once(of_point, [3.0, 0.01]) - 1.0;
+    let point_lamp = |distance_m: f64| 100.0 / lumens_per_watt * exp(-BETA * distance_m) / (distance_m * distance_m);
+    let point = radiance(&foggy(point)) / scattered_once(point_lamp, [3.0, 0.01]) - 1.0;
     let within = "a ray past a light of 0.5 m in fog";
     vec![
         Row::at_most("a ray 1 cm past a point light in fog", scattered, point.abs(), 1e-2),

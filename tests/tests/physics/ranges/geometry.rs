@@ -67,8 +67,8 @@ fn position_error_m(at_m: [f64; 3]) -> f64 {
         let depth_m = FOCAL_MM / ((row as f64 + 0.5 - 0.4) * PITCH_MM);
         let right_m = (column as f64 + 0.5 - 16.0) * PITCH_MM / FOCAL_MM * depth_m;
         let expected = DVec3::from(at_m) + DVec3::new(depth_m, -right_m, 0.0);
-        let found = [&truth.position, &low].map(|plane| Vec3::from(plane.at(column, row)).as_dvec3());
-        (found[0] + found[1]).distance(expected)
+        let positions = [&truth.position, &low].map(|plane| Vec3::from(plane.at(column, row)).as_dvec3());
+        (positions[0] + positions[1]).distance(expected)
     };
     worst((0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column))).map(distance))
 }
@@ -131,8 +131,8 @@ fn with_mesh(mesh: MeshAsset) -> Job {
 
 /// Pixels without light, or with light that is no finite number.
 fn unlit_or_not_finite(job: &Job) -> usize {
-    let seen = job.shot().irradiance();
-    seen.mean.iter().filter(|v| !v.is_finite() || **v <= 0.0).count()
+    let irradiance = job.shot().irradiance();
+    irradiance.mean.iter().filter(|v| !v.is_finite() || **v <= 0.0).count()
 }
 
 fn degenerate() -> Vec<Row> {
@@ -160,9 +160,9 @@ fn degenerate() -> Vec<Row> {
         "[[scene.objects]]\nname = \"floor2\"\nmaterial = \"matt\"\nshape = { type = \"quad\", size_m = [4e3, 4e3] }";
     let twice = floor(1.0, [0.0; 3], twice);
     let plain = floor(1.0, [0.0; 3], "").shot().irradiance().mean;
-    let changed = |job: &Job, than: &[f32]| {
-        let seen = job.shot().irradiance().mean;
-        worst(seen.iter().zip(than).map(|(a, b)| f64::from((a / b - 1.0).abs())))
+    let changed = |job: &Job, reference: &[f32]| {
+        let irradiance = job.shot().irradiance().mean;
+        worst(irradiance.iter().zip(reference).map(|(a, b)| f64::from((a / b - 1.0).abs())))
     };
     let dark = |n: usize| format!("{n} pixels");
     vec![
@@ -270,6 +270,6 @@ fn geometry() {
     rows.extend(edges());
     rows.extend(degenerate());
     rows.extend(strange_places());
-    let about = "A camera one unit above a floor, from nearly vertical to grazing rays, compared with the closed form; 32-bit planes of ground truth. Depth errors are relative, down to cos θ = 0.01.";
-    check("Geometry", about, &rows);
+    let introduction = "A camera one unit above a floor, from nearly vertical to grazing rays, compared with the closed form; 32-bit planes of ground truth. Depth errors are relative, down to cos θ = 0.01.";
+    check("Geometry", introduction, &rows);
 }

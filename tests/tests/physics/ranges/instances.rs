@@ -12,7 +12,7 @@ const SIDE: usize = 1000;
 const CAMERA_M: f64 = 1000.0;
 const WIDTH: usize = 64;
 /// Half the width of what is seen, as a tangent.
-const HALF: f64 = 0.45;
+const HALF_WIDTH: f64 = 0.45;
 
 /// Height of an instance, m: to a metre, neighbours apart.
 fn height_m(i: usize, j: usize) -> f64 {
@@ -49,7 +49,7 @@ fn job() -> Job {
         up_axis = "z"
         {objects}
         "#,
-        pitch = 2e4 * HALF / WIDTH as f64,
+        pitch = 2e4 * HALF_WIDTH / WIDTH as f64,
     ))
     .with_triangles("cell.obj", &corners, &[[0, 1, 2], [0, 2, 3]])
 }
@@ -58,24 +58,24 @@ fn job() -> Job {
 fn depth_m([along_x, along_y]: [f64; 2]) -> f64 {
     let cell = |slope: f64| (slope * CAMERA_M + SIDE as f64 / 2.0).floor() as usize;
     let around = |at: usize| at.saturating_sub(2)..(at + 3).min(SIDE);
-    let met = |(i, j): (usize, usize)| {
+    let hit = |(i, j): (usize, usize)| {
         let depth = CAMERA_M - height_m(i, j);
         let is_in = |slope: f64, at: usize| (slope * depth + SIDE as f64 / 2.0 - at as f64 - 0.5).abs() < 0.5;
         (is_in(along_x, i) && is_in(along_y, j)).then_some(depth)
     };
     around(cell(along_x))
         .flat_map(|i| around(cell(along_y)).map(move |j| (i, j)))
-        .filter_map(met)
+        .filter_map(hit)
         .fold(f64::INFINITY, f64::min)
 }
 
 /// Whether the test is asked for.
-fn asked() -> bool {
+fn is_requested() -> bool {
     std::env::var_os("ETENDUE_INSTANCES").is_some_and(|value| value == "1")
 }
 
 /// Most memory that this process has held, GB, where the system tells.
-fn most_gb() -> f64 {
+fn max_gb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     line.and_then(|kb| kb.trim().strip_suffix(" kB")?.parse::<f64>().ok()).map_or(0.0, |kb| kb / 1e6)
@@ -83,16 +83,16 @@ fn most_gb() -> f64 {
 
 #[test]
 fn instances() {
-    const MOST_GB: f64 = 8.0;
-    if !asked() {
+    const MAX_GB: f64 = 8.0;
+    if !is_requested() {
         return skipped("10^6 instances", "minutes and 4 GB: just extremes runs it (ETENDUE_INSTANCES=1)");
     }
     let plan = job().plan();
     let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
     let wrong = |(row, column): (usize, usize)| {
-        let slope = |at: usize| HALF * (1.0 - (2 * at + 1) as f64 / WIDTH as f64);
-        let (found, expected) = (f64::from(truth.depth.at(column, row)), depth_m([slope(row), slope(column)]));
-        !(found == expected || (found / expected - 1.0).abs() <= 1e-6)
+        let slope = |at: usize| HALF_WIDTH * (1.0 - (2 * at + 1) as f64 / WIDTH as f64);
+        let (actual, expected) = (f64::from(truth.depth.at(column, row)), depth_m([slope(row), slope(column)]));
+        !(actual == expected || (actual / expected - 1.0).abs() <= 1e-6)
     };
     let pixels = (0..WIDTH).flat_map(|row| (0..WIDTH).map(move |column| (row, column)));
     let missed = pixels.filter(|pixel| wrong(*pixel)).count();
@@ -102,6 +102,6 @@ fn instances() {
         missed as f64,
         0.0,
     );
-    let rows = [Row { holds: row.holds && most_gb() < MOST_GB, ..row }];
+    let rows = [Row { holds: row.holds && max_gb() < MAX_GB, ..row }];
     check("Many instances", "Memory and time by number: docs/robustness.md.", &rows);
 }

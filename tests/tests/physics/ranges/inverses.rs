@@ -50,8 +50,8 @@ fn models() -> Vec<(&'static str, Model)> {
 /// Field angles over that of the edge: close to the axis, all over, close to the edge.
 fn parts() -> impl Iterator<Item = f64> {
     let close = [1e-300, 1e-150, 1e-12, 1e-9, 1e-6, 1e-3];
-    let even = (1..40).map(|i| f64::from(i) / 40.0);
-    close.into_iter().chain(even).chain([1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9])
+    let regular = (1..40).map(|i| f64::from(i) / 40.0);
+    close.into_iter().chain(regular).chain([1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9])
 }
 
 /// So close to the edge an image point may be rounded onto it, where nothing is seen.
@@ -97,6 +97,6 @@ fn image_points_are_the_images_of_what_they_see() {
         }
     };
     let rows: Vec<_> = models().into_iter().map(row).collect();
-    let about = "Directions from 10⁻³⁰⁰ of the field angle off the axis to 10⁻⁹ of it within the edge of the field, in seven azimuths, are projected, unprojected and projected again in 64 bits. Errors are relative to the distance from the centre. Image points within 10⁻⁸ of the edge may be lost.";
-    check("Projections and their inverses", about, &rows);
+    let introduction = "Directions from 10⁻³⁰⁰ of the field angle off the axis to 10⁻⁹ of it within the edge of the field, in seven azimuths, are projected, unprojected and projected again in 64 bits. Errors are relative to the distance from the centre. Image points within 10⁻⁸ of the edge may be lost.";
+    check("Projections and their inverses", introduction, &rows);
 }

@@ -2,8 +2,8 @@
 
 use super::fog::lamps_in_fog;
 use etendue_core::{Bands, Spectral, Wavelengths};
-use etendue_pipeline::render::gather::{Gather, Sums};
-use etendue_pipeline::sizes::film::Layout;
+use etendue_pipeline::render::gather::{ReplicateMoments, ReplicateSums};
+use etendue_pipeline::sizes::film::FilmLayout;
 use etendue_spectra::illuminant;
 use etendue_stats::Moments;
 use etendue_testkit::page::{Row, check, figure, worst};
@@ -47,7 +47,7 @@ fn ball(material: &str, more: &str) -> Job {
     ))
 }
 
-fn seen(job: &Job) -> Vec<f64> {
+fn irradiances(job: &Job) -> Vec<f64> {
     job.shot().irradiance().mean.into_iter().map(f64::from).collect()
 }
 
@@ -68,17 +68,17 @@ fn bad(values: &[f64]) -> f64 {
 const ALL_LIT: &str = "light in every pixel (pixels dark or not finite)";
 
 fn surfaces() -> Vec<Row> {
-    let glass = |index: f64| seen(&ball(&format!("type = \"dielectric\", index = {index}"), ""));
-    let metal = |alpha: f64| seen(&ball(&format!("type = \"conductor\", metal = \"Al\", alpha = {alpha}"), ""));
-    let bare =
+    let glass = |index: f64| irradiances(&ball(&format!("type = \"dielectric\", index = {index}"), ""));
+    let metal = |alpha: f64| irradiances(&ball(&format!("type = \"conductor\", metal = \"Al\", alpha = {alpha}"), ""));
+    let without_ball =
         ball("type = \"diffuse\", reflectance = 0", "").replaced("position_m = [0, 0, 0.5]", "position_m = [0, 0, -5]");
-    let bare = seen(&bare);
+    let without_ball = irradiances(&without_ball);
     let (one, smooth) = (glass(1.0), metal(0.0));
     let mut rows = vec![
         Row::at_most(
             "a sphere of index 1",
             "invisible: the image without it (relative difference of the mean)",
-            (mean(&one) / mean(&bare) - 1.0).abs(),
+            (mean(&one) / mean(&without_ball) - 1.0).abs(),
             1e-2,
         ),
         Row::at_most(
@@ -113,12 +113,12 @@ fn nothing_is_swallowed() -> Row {
         .replaced("max_bounces = 8", &format!("max_bounces = {BOUNCES}"))
         .replaced("radius_m = 0.5", "radius_m = 0.4");
     let radiance = job.shot().radiance();
-    let found = mean(&radiance.mean.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
+    let actual = mean(&radiance.mean.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
     let expected = f64::from(BOUNCES) + 1.0;
     Row::at_most(
         "a closed sphere of albedo 1 that emits inside, 200 bounces",
         "201 times its radiance (relative error)",
-        (found / expected - 1.0).abs(),
+        (actual / expected - 1.0).abs(),
         1e-2,
     )
 }
@@ -137,7 +137,7 @@ fn mirrors() -> Vec<Row> {
         )
     };
     let bounces =
-        |bounces: &str| seen(&ball_between().replaced("max_bounces = 8", &format!("max_bounces = {bounces}")));
+        |bounces: &str| irradiances(&ball_between().replaced("max_bounces = 8", &format!("max_bounces = {bounces}")));
     let (few, many) = (bounces("8"), bounces("1000"));
     let extreme = "two facing mirrors, 1 000 bounces";
     let deeper = "more light than with 8 bounces (ratio of means)";
@@ -156,8 +156,8 @@ fn lamps() -> Vec<Row> {
         ball("type = \"diffuse\", reflectance = 0.5", &lights)
             .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", "")
     };
-    let one = mean(&seen(&dark(lamp(0, 1e5))));
-    let many = mean(&seen(&dark((0..MANY).map(|i| lamp(i, 1e5 / MANY as f64)).collect())));
+    let one = mean(&irradiances(&dark(lamp(0, 1e5))));
+    let many = mean(&irradiances(&dark((0..MANY).map(|i| lamp(i, 1e5 / MANY as f64)).collect())));
     vec![Row::at_most(
         "10⁵ lights at one place, each of 10⁻⁵ of the power",
         "the light of one (relative difference of the mean)",
@@ -168,23 +168,23 @@ fn lamps() -> Vec<Row> {
 
 /// Light of one wavelength, and bands at the ends of the domain.
 fn wavelengths() -> Vec<Row> {
-    let of = |range: &str, radiance: &str| {
+    let band_image = |range: &str, radiance: &str| {
         let sky = format!("environment = {{ type = \"uniform\", {radiance} }}");
         let job = ball("type = \"diffuse\", reflectance = 0.5", "")
             .replaced("wavelength_range_nm = [500, 600]\n        band_width_nm = 100", range);
         job.replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", &sky)
     };
-    let line = of(
+    let line = band_image(
         "wavelength_range_nm = [580, 600]\n        band_width_nm = 20",
         "radiance_w_m2_sr_nm = { spectrum = \"line.csv\" }",
     )
     .with_spectrum("line.csv", &[(588.0, 0.0), (589.0, 1.0), (590.0, 0.0)]);
-    let flat = of("wavelength_range_nm = [580, 600]\n        band_width_nm = 20", "radiance_w_m2_sr_nm = 1");
+    let flat = band_image("wavelength_range_nm = [580, 600]\n        band_width_nm = 20", "radiance_w_m2_sr_nm = 1");
     let ends = |low: u32, high: u32| {
-        of(&format!("wavelength_range_nm = [{low}, {high}]\n        band_width_nm = 5"), "radiance_w_m2_sr_nm = 1")
+        band_image(&format!("wavelength_range_nm = [{low}, {high}]\n        band_width_nm = 5"), "radiance_w_m2_sr_nm = 1")
     };
     // A triangle of base 2 nm in a band of 20 nm: a twentieth of the flat one.
-    let ratio = 20.0 * mean(&seen(&line)) / mean(&seen(&flat));
+    let ratio = 20.0 * mean(&irradiances(&line)) / mean(&irradiances(&flat));
     vec![
         Row::at_most(
             "light of a line 1 nm wide in a band of 20 nm",
@@ -195,7 +195,7 @@ fn wavelengths() -> Vec<Row> {
         Row::at_most(
             "bands from 300 nm and to 1 100 nm",
             ALL_LIT,
-            bad(&seen(&ends(300, 310))) + bad(&seen(&ends(1090, 1100))),
+            bad(&irradiances(&ends(300, 310))) + bad(&irradiances(&ends(1090, 1100))),
             0.0,
         ),
     ]
@@ -207,7 +207,7 @@ fn lamp_in_fog() -> Row {
     Row::at_most(
         "a point light in fog, 10 cm in front of the camera",
         ALL_LIT,
-        bad(&seen(&ball("type = \"diffuse\", reflectance = 0.5", fog))),
+        bad(&irradiances(&ball("type = \"diffuse\", reflectance = 0.5", fog))),
         0.0,
     )
 }
@@ -216,7 +216,7 @@ fn lamp_in_fog() -> Row {
 fn levels() -> Vec<Row> {
     let under = |level: f64| {
         let sky = format!("environment = {{ type = \"uniform\", radiance_w_m2_sr_nm = {level:e} }}");
-        seen(
+        irradiances(
             &ball("type = \"diffuse\", reflectance = 0.5", "")
                 .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", &sky),
         )
@@ -242,18 +242,18 @@ fn sun_in_frame() -> Row {
             .replaced("look_at_m = [0, 0, 0.5]", "look_at_m = [-2.1339746, 0, 1.5]")
             .replaced("focal_length_mm = 20", "focal_length_mm = 500")
             .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", sky);
-        seen(&job.replaced("spp = 64", "spp = 1024"))
+        irradiances(&job.replaced("spp = 64", "spp = 1024"))
     };
     // Illuminant E is even where the observer sees: in 1 000 W/m² each nanometre has as much as a sky of 1 sends from so many steradians.
-    let flat = illuminant::named("E").expect("an illuminant");
+    let flat = illuminant::by_name("E").expect("an illuminant");
     let expected = 1000.0 * flat.band_mean(500.0, 600.0) / flat.integral(300.0, 1100.0);
-    let (lit, even) = (aimed(sun, ""), aimed("", "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }"));
+    let (lit, uniform) = (aimed(sun, ""), aimed("", "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }"));
     let pixel_sr = 1.0 / (500.0 * 500.0);
-    let found = lit.iter().sum::<f64>() * pixel_sr / mean(&even);
+    let actual = lit.iter().sum::<f64>() * pixel_sr / mean(&uniform);
     Row::at_most(
         "the sun in the image, 4.7 px across",
         "the sum of pixels is its irradiance, compared with a uniform sky (relative error)",
-        (found / expected - 1.0).abs(),
+        (actual / expected - 1.0).abs(),
         1e-2,
     )
 }
@@ -270,7 +270,7 @@ fn grazing() -> Vec<Row> {
             .replaced("look_at_m = [0, 0, 0.5]", "look_at_m = [1e4, 0, 0]")
             .replaced("focal_length_mm = 20", "focal_length_mm = 1e6");
         let sky = job.clone().replaced("size_m = [2e5, 2e5]", "size_m = [1e-3, 1e-3]");
-        mean(&seen(&job)) / mean(&seen(&sky))
+        mean(&irradiances(&job)) / mean(&irradiances(&sky))
     };
     // 1 − F to first order, mean of both planes: 2 cos θ Re((1 + N²)/√(N² − 1)) = 2.06 cos θ for N = 1.0 + 6.6i; n is 0.77 to 1.20 over the band.
     vec![
@@ -293,14 +293,14 @@ fn grazing() -> Vec<Row> {
 fn long_sums() -> Vec<Row> {
     const COUNT: u32 = 1_000_000_000;
     // 0.1 has no exact form, so that every sum rounds.
-    let moments = Moments::of((0..COUNT).map(|i| if i % 2 == 0 { 0.1 } else { 0.3 }));
+    let moments = Moments::from_values((0..COUNT).map(|i| if i % 2 == 0 { 0.1 } else { 0.3 }));
     let variance = 0.01 * f64::from(COUNT) / f64::from(COUNT - 1);
     let error = (moments.mean() / 0.2 - 1.0).abs().max((moments.variance().unwrap_or(f64::NAN) / variance - 1.0).abs());
-    let layout = Layout { bands: Bands::covering(500.0, 600.0, 100.0), folded: false, watched: false };
+    let layout = FilmLayout { bands: Bands::covering(500.0, 600.0, 100.0), accumulates_electrons: false, watched: false };
     let wavelengths = Wavelengths { nm: [550.0], pdf: [0.01] };
-    let mut sums = Sums::new(layout);
+    let mut sums = ReplicateSums::new(layout);
     (0..COUNT).for_each(|_| sums.add(0.1, Spectral([0.7]), &wavelengths, None));
-    let mut gather = Gather::new(&layout);
+    let mut gather = ReplicateMoments::new(&layout);
     gather.end_replicate(&mut sums, COUNT);
     let pixel = gather.light(&layout, COUNT, 0).bands()[0];
     // As the sum has it: of floats of 32 bits.
@@ -329,6 +329,6 @@ fn light() {
     rows.push(sun_in_frame());
     rows.extend(grazing());
     rows.extend(long_sums());
-    let about = "A sphere over a floor under a uniform sky, 64 samples.";
-    check("Light", about, &rows);
+    let introduction = "A sphere over a floor under a uniform sky, 64 samples.";
+    check("Light", introduction, &rows);
 }

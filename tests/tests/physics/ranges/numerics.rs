@@ -14,22 +14,22 @@ pub(crate) fn figures() -> Value {
 }
 
 /// Arguments and their values: the nearest double and what is left.
-pub(crate) struct Known {
-    pub(crate) at: Vec<f64>,
-    pub(crate) is: Vec<[f64; 2]>,
+pub(crate) struct KnownValues {
+    pub(crate) arguments: Vec<f64>,
+    pub(crate) values: Vec<[f64; 2]>,
 }
 
-pub(crate) fn known(rows: &Value) -> Vec<Known> {
+pub(crate) fn known(rows: &Value) -> Vec<KnownValues> {
     let number = |value: &Value| value.as_f64().expect("a number");
     let flat = |value: &Value| match value.as_array() {
         Some(values) => values.iter().map(number).collect(),
         None => vec![number(value)],
     };
-    let of = |row: &Value| Known {
-        at: row["at"].as_array().expect("arguments").iter().flat_map(flat).collect(),
-        is: row["is"].as_array().expect("values").iter().map(|v| [number(&v[0]), number(&v[1])]).collect(),
+    let known_values = |row: &Value| KnownValues {
+        arguments: row["at"].as_array().expect("arguments").iter().flat_map(flat).collect(),
+        values: row["is"].as_array().expect("values").iter().map(|v| [number(&v[0]), number(&v[1])]).collect(),
     };
-    let known: Vec<_> = rows.as_array().expect("rows").iter().map(of).collect();
+    let known: Vec<_> = rows.as_array().expect("rows").iter().map(known_values).collect();
     assert!(known.len() > 20, "figures are there");
     known
 }
@@ -46,14 +46,14 @@ pub(crate) fn ulp_single(value: f64) -> f64 {
 }
 
 /// Of all rows the greatest distance, over `unit` of the true value, and where.
-pub(crate) fn worst(rows: &[Known], unit: fn(f64) -> f64, of: impl Fn(&[f64]) -> Vec<f64>) -> (f64, Vec<f64>) {
+pub(crate) fn worst(rows: &[KnownValues], unit: fn(f64) -> f64, function: impl Fn(&[f64]) -> Vec<f64>) -> (f64, Vec<f64>) {
     let mut worst = (0.0, Vec::new());
-    for Known { at, is } in rows {
-        for (found, [value, rest]) in of(at).into_iter().zip(is) {
+    for KnownValues { arguments: at, values: is } in rows {
+        for (actual, [value, rest]) in function(at).into_iter().zip(is) {
             let error = if *value == 0.0 {
-                found.abs() / f64::MIN_POSITIVE
+                actual.abs() / f64::MIN_POSITIVE
             } else {
-                ((found - value) - rest).abs() / unit(*value)
+                ((actual - value) - rest).abs() / unit(*value)
             };
             // A result that is no number is the worst.
             if error.is_nan() || error > worst.0 {
@@ -64,10 +64,10 @@ pub(crate) fn worst(rows: &[Known], unit: fn(f64) -> f64, of: impl Fn(&[f64]) ->
     worst
 }
 
-type One<T> = (&'static str, fn(T) -> T);
-type Two<T> = (&'static str, fn(T, T) -> T);
+type UnaryFunction<T> = (&'static str, fn(T) -> T);
+type BinaryFunction<T> = (&'static str, fn(T, T) -> T);
 
-const DOUBLE: [One<f64>; 14] = [
+const DOUBLE: [UnaryFunction<f64>; 14] = [
     ("sin", double::sin),
     ("cos", double::cos),
     ("tan", double::tan),
@@ -83,8 +83,8 @@ const DOUBLE: [One<f64>; 14] = [
     ("log10", double::log10),
     ("cbrt", double::cbrt),
 ];
-const DOUBLE_OF_TWO: [Two<f64>; 3] = [("pow", double::pow), ("atan2", double::atan2), ("hypot", double::hypot)];
-const SINGLE: [One<f32>; 14] = [
+const DOUBLE_BINARY: [BinaryFunction<f64>; 3] = [("pow", double::pow), ("atan2", double::atan2), ("hypot", double::hypot)];
+const SINGLE: [UnaryFunction<f32>; 14] = [
     ("sin", single::sin),
     ("cos", single::cos),
     ("tan", single::tan),
@@ -100,7 +100,7 @@ const SINGLE: [One<f32>; 14] = [
     ("log10", single::log10),
     ("cbrt", single::cbrt),
 ];
-const SINGLE_OF_TWO: [Two<f32>; 3] = [("pow", single::pow), ("atan2", single::atan2), ("hypot", single::hypot)];
+const SINGLE_BINARY: [BinaryFunction<f32>; 3] = [("pow", single::pow), ("atan2", single::atan2), ("hypot", single::hypot)];
 
 /// What the functions in double and in single precision promise, units in the last place: half a unit is what rounding alone leaves.
 const DOUBLE_ULP: f64 = 2.0;
@@ -124,7 +124,7 @@ fn elementary_functions_keep_their_last_places() {
         let known = known(&figures["double"][name]);
         rows.push(row(name, 64, DOUBLE_ULP, &worst(&known, ulp, |x| vec![f(x[0])])));
     }
-    for (name, f) in DOUBLE_OF_TWO {
+    for (name, f) in DOUBLE_BINARY {
         let known = known(&figures["double"][name]);
         rows.push(row(name, 64, DOUBLE_ULP, &worst(&known, ulp, |x| vec![f(x[0], x[1])])));
     }
@@ -132,22 +132,22 @@ fn elementary_functions_keep_their_last_places() {
         let known = known(&figures["single"][name]);
         rows.push(row(name, 32, SINGLE_ULP, &worst(&known, ulp_single, |x| vec![f(x[0] as f32).into()])));
     }
-    for (name, f) in SINGLE_OF_TWO {
+    for (name, f) in SINGLE_BINARY {
         let known = known(&figures["single"][name]);
         rows.push(row(name, 32, SINGLE_ULP, &worst(&known, ulp_single, |x| vec![f(x[0] as f32, x[1] as f32).into()])));
     }
-    let about = "`core::maths`, with the same bits on every machine, compared with mpmath 1.4.1 at 60 digits (tests/oracles/closed_forms.py). Arguments: 10⁻³⁰⁰ to 10³⁰⁰ (32 bits: 10⁻³⁷ to 10³⁷), angles to 10⁵ and 10⁴, and more next to multiples of π/2, to 1 and to the ends of domains. Found: the largest error in units in the last place of the true value, and its arguments.";
-    check("Elementary functions", about, &rows);
+    let introduction = "`core::maths`, with the same bits on every machine, compared with mpmath 1.4.1 at 60 digits (tests/oracles/closed_forms.py). Arguments: 10⁻³⁰⁰ to 10³⁰⁰ (32 bits: 10⁻³⁷ to 10³⁷), angles to 10⁵ and 10⁴, and more next to multiples of π/2, to 1 and to the ends of domains. Found: the largest error in units in the last place of the true value, and its arguments.";
+    check("Elementary functions", introduction, &rows);
 }
 
 /// The greatest distance of tristimulus values over their sum, and of chromaticities x and y.
-fn off_the_observer(rows: &[Known], spectrum: impl Fn(&[f64]) -> Spectrum) -> f64 {
-    greatest(rows.iter().flat_map(|Known { at, is }| {
+fn observer_error(rows: &[KnownValues], spectrum: impl Fn(&[f64]) -> Spectrum) -> f64 {
+    greatest(rows.iter().flat_map(|KnownValues { arguments: at, values: is }| {
         let [x, y, z] = observer::xyz(&spectrum(at));
         let (sum, exact) = (x + y + z, is[0][0] + is[1][0] + is[2][0]);
-        let found = [x / exact, y / exact, z / exact, x / sum, y / sum];
+        let actual = [x / exact, y / exact, z / exact, x / sum, y / sum];
         let scale = [exact, exact, exact, 1.0, 1.0];
-        core::array::from_fn::<_, 5, _>(|i| (found[i] - is[i][0] / scale[i]).abs())
+        core::array::from_fn::<_, 5, _>(|i| (actual[i] - is[i][0] / scale[i]).abs())
     }))
 }
 
@@ -159,10 +159,10 @@ fn relative(value: f64) -> f64 {
 #[test]
 fn closed_forms_keep_their_digits() {
     let figures = figures();
-    let single = |name: &str, of: &dyn Fn(&[f32]) -> Vec<f32>| {
-        let of =
-            |at: &[f64]| of(&at.iter().map(|v| *v as f32).collect::<Vec<_>>()).into_iter().map(f64::from).collect();
-        worst(&known(&figures[name]), relative, of).0
+    let single = |name: &str, function: &dyn Fn(&[f32]) -> Vec<f32>| {
+        let double_function =
+            |at: &[f64]| function(&at.iter().map(|v| *v as f32).collect::<Vec<_>>()).into_iter().map(f64::from).collect();
+        worst(&known(&figures[name]), relative, double_function).0
     };
     let dielectric = single("dielectric", &|at| fresnel::planes(at[0], at[1]).to_vec());
     let conductor = single("conductor", &|at| vec![fresnel::conductor(at[0], at[1], at[2])]);
@@ -171,9 +171,9 @@ fn closed_forms_keep_their_digits() {
     let difference =
         worst(&known(&figures["ciede2000"]), relative, |at| vec![ciede2000(lab(&at[..3]), lab(&at[3..]))]).0;
     let black_bodies =
-        off_the_observer(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
+        observer_error(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
     let line = |at: &[f64], nm: f64| double::exp(-((nm - at[0]) / at[1]) * ((nm - at[0]) / at[1]));
-    let lines = off_the_observer(&known(&figures["lines"]), |at| Spectrum::from_fn(|nm| line(at, nm)));
+    let lines = observer_error(&known(&figures["lines"]), |at| Spectrum::from_fn(|nm| line(at, nm)));
     let observed = "≤ 1.5·10⁻⁷ of X + Y + Z, and of x and y: spectra and observer have 32 bits (6·10⁻⁸ each)";
     let rows = [
         Row::at_most(
@@ -203,6 +203,6 @@ fn closed_forms_keep_their_digits() {
         ),
         Row::at_most("the same of Gaussian lines at 380 to 780 nm, 1 to 100 nm wide", observed, lines, 1.5e-7),
     ];
-    let about = "Compared with mpmath as above; the largest relative error.";
-    check("Closed forms", about, &rows);
+    let introduction = "Compared with mpmath as above; the largest relative error.";
+    check("Closed forms", introduction, &rows);
 }

@@ -6,7 +6,7 @@ use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{cos, exp};
 use etendue_core::quantity::Irradiance;
 use etendue_core::random::Pixel;
-use etendue_optics::effects::{FilmPart, PointSpread, SpreadBy, SpreadDraw, SpreadImage, SpreadImageParameters};
+use etendue_optics::effects::{FilmPart, PointSpread, SpreadMethod, SpreadRandomNumbers, SpreadImage, SpreadImageParameters};
 use etendue_optics::{Effects, EffectsParameters};
 use etendue_projection::Raster;
 use etendue_testkit::page::{Row, check, worst};
@@ -14,11 +14,11 @@ use glam::DVec2;
 
 const PITCH_UM: f64 = 4.0;
 /// Draws along each axis of the square.
-const DRAWS: usize = 160;
+const SAMPLES_PER_AXIS: usize = 160;
 const RANGE: WavelengthRange = WavelengthRange::new(500.0, 600.0);
 
 /// A picture of so many pixels a side behind a Gaussian of `sigma_px`, sampled `per_px` times a pixel.
-fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spread_by: SpreadBy) -> (Raster, Effects) {
+fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spread_by: SpreadMethod) -> (Raster, Effects) {
     let raster = Raster::centred(side, side, 1e-3 * PITCH_UM).expect("legal");
     let width = 2 * (6.0 * sigma_px * per_px) as usize + 1;
     let at = |i: usize| (DVec2::new((i % width) as f64, (i / width) as f64) - (width / 2) as f64) / per_px;
@@ -39,16 +39,16 @@ fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spr
 
 /// The contrast that displaced samples leave to bars of so many cycles a pixel.
 fn contrast_of_samples(sigma_px: f64, cycles: f64) -> f64 {
-    let (raster, effects) = behind_gaussian((64, 0.0), sigma_px, 24.0, SpreadBy::Samples);
+    let (raster, effects) = behind_gaussian((64, 0.0), sigma_px, 24.0, SpreadMethod::Samples);
     let spread = effects.sample_spread(&raster, RANGE).expect("narrow enough for samples");
     let wave = |i: usize| {
         // A lattice, with a golden-ratio sequence for the choice.
         let choice = (0.618_033_988_75 * i as f64).fract();
-        let place = (DVec2::new((i % DRAWS) as f64, (i / DRAWS) as f64) + 0.5) / DRAWS as f64;
-        let (offset_px, [weight]) = spread.draw(Pixel { x: 32, y: 32 }, &[550.0], SpreadDraw { choice, place });
+        let place = (DVec2::new((i % SAMPLES_PER_AXIS) as f64, (i / SAMPLES_PER_AXIS) as f64) + 0.5) / SAMPLES_PER_AXIS as f64;
+        let (offset_px, [weight]) = spread.sample_offset(Pixel { x: 32, y: 32 }, &[550.0], SpreadRandomNumbers { choice, place });
         f64::from(weight) * cos(TAU * cycles * offset_px.x)
     };
-    (0..DRAWS * DRAWS).map(wave).sum::<f64>() / (DRAWS * DRAWS) as f64
+    (0..SAMPLES_PER_AXIS * SAMPLES_PER_AXIS).map(wave).sum::<f64>() / (SAMPLES_PER_AXIS * SAMPLES_PER_AXIS) as f64
 }
 
 /// Standard deviation of the wide Gaussian, and pixels a side of the picture behind it.
@@ -56,17 +56,17 @@ const WIDE_PX: f64 = 48.0;
 const SIDE: usize = 16;
 
 /// Even light of 1 behind a Gaussian three times as wide as the picture, which has no margin: the largest relative error of a pixel.
-fn even_light_behind_a_wide_one() -> f64 {
-    let (raster, effects) = behind_gaussian((SIDE, 0.0), WIDE_PX, 1.0, SpreadBy::Film);
-    let even = Plane::<Irradiance>::filled(SIDE, SIDE, 1.0);
-    let (spread, _) = effects.prepared(&raster, RANGE, FilmPart::Whole).apply(RANGE, &even, None);
-    let shares: Vec<f64> = (0..SIDE).map(share_from_the_picture).collect();
+fn uniform_light_behind_wide_spread() -> f64 {
+    let (raster, effects) = behind_gaussian((SIDE, 0.0), WIDE_PX, 1.0, SpreadMethod::Film);
+    let uniform = Plane::<Irradiance>::filled(SIDE, SIDE, 1.0);
+    let (spread, _) = effects.prepared(&raster, RANGE, FilmPart::Whole).apply(RANGE, &uniform, None);
+    let fractions: Vec<f64> = (0..SIDE).map(fraction_from_image).collect();
     let pixels = spread.samples().iter().zip(0..);
-    worst(pixels.map(|(v, i)| (f64::from(*v) / (shares[i % SIDE] * shares[i / SIDE]) - 1.0).abs()))
+    worst(pixels.map(|(v, i)| (f64::from(*v) / (fractions[i % SIDE] * fractions[i / SIDE]) - 1.0).abs()))
 }
 
 /// The part of the wide Gaussian, along one axis, that a pixel receives from the pixels of the picture.
-fn share_from_the_picture(pixel: usize) -> f64 {
+fn fraction_from_image(pixel: usize) -> f64 {
     let weight = |offset: f64| exp(-0.5 * (offset / WIDE_PX) * (offset / WIDE_PX));
     let reach = (6.0 * WIDE_PX) as i32;
     let all: f64 = (-reach..=reach).map(|offset| weight(f64::from(offset))).sum();
@@ -89,10 +89,10 @@ fn point_spreads() {
     rows.push(Row::at_most(
         "a Gaussian three times as wide as an image without margin, uniform illumination",
         "the part of the function within the image, in every pixel (relative error)",
-        even_light_behind_a_wide_one(),
+        uniform_light_behind_wide_spread(),
         // Some roundings of f32, in which the spread's picture and the film are held.
         1e-6,
     ));
-    let about = "Narrow point spreads displace samples (`spread_by = \"samples\"`, the default where the film would be wrong, by up to 0.08 at 0.4 px); wide ones are applied to the film.";
-    check("Point spreads", about, &rows);
+    let introduction = "Narrow point spreads displace samples (`spread_by = \"samples\"`, the default where the film would be wrong, by up to 0.08 at 0.4 px); wide ones are applied to the film.";
+    check("Point spreads", introduction, &rows);
 }

@@ -76,7 +76,7 @@ pub struct Dots {
 impl Dots {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Dots { size: self.size.grid(), dot_ratio: self.dot_ratio };
-        self.common.make(console, &self.views.of(self.common.request(chart.into())))
+        self.common.make(console, &self.views.apply_to(self.common.request(chart.into())))
     }
 }
 
@@ -94,7 +94,7 @@ pub struct Checkerboard {
 impl Checkerboard {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Checkerboard { size: self.size.grid() };
-        self.common.make(console, &self.views.of(self.common.request(chart.into())))
+        self.common.make(console, &self.views.apply_to(self.common.request(chart.into())))
     }
 }
 
@@ -115,7 +115,7 @@ pub struct Circles {
 impl Circles {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Circles { size: self.size.grid(), asymmetric: self.asymmetric };
-        self.common.make(console, &self.views.of(self.common.request(chart.into())))
+        self.common.make(console, &self.views.apply_to(self.common.request(chart.into())))
     }
 }
 
@@ -134,7 +134,7 @@ pub struct FlatField {
 impl FlatField {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::FlatField { reflectance: self.reflectance };
-        let series = self.series.asked(None)?;
+        let series = self.series.requested_series(None)?;
         self.common.make(console, &ChartRequest { series, ..self.common.request(chart.into()) })
     }
 }
@@ -153,7 +153,7 @@ pub struct Backlit {
 
 impl Backlit {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let series = self.series.asked(Some(RETRO_LIGHTING))?;
+        let series = self.series.requested_series(Some(RETRO_LIGHTING))?;
         let request = self.common.request(design::Backlit.into());
         self.common.make(console, &ChartRequest { series, dark: self.dark, ..request })
     }

@@ -100,7 +100,7 @@ pub struct Views {
 
 impl Views {
     /// Returns the request with these views.
-    pub fn of(&self, request: ChartRequest) -> ChartRequest {
+    pub fn apply_to(&self, request: ChartRequest) -> ChartRequest {
         ChartRequest { views: self.views, hand_held: self.hand_held, ..request }
     }
 }
@@ -146,10 +146,10 @@ pub struct Series {
 
 impl Series {
     /// Returns the requested series; by default `usual` exposures, except for a camera without electronics.
-    pub fn asked(&self, usual: Option<u32>) -> Result<Option<chart::Series>, Error> {
+    pub fn requested_series(&self, usual: Option<u32>) -> Result<Option<chart::ExposureSeries>, Error> {
         let required = self.exposures.is_some() || self.levels.is_some();
         let exposures = self.exposures(usual).map_err(chart::chart_error)?;
-        Ok(exposures.map(|exposures| chart::Series { exposures, required }))
+        Ok(exposures.map(|exposures| chart::ExposureSeries { exposures, required }))
     }
 
     fn exposures(&self, usual: Option<u32>) -> Result<Option<Exposures>, ChartError> {
@@ -157,7 +157,7 @@ impl Series {
             return Exposures::listed(levels.clone()).map(Some);
         }
         let Some(count) = self.exposures.or(usual) else {
-            return self.idle().map_or(Ok(None), |(name, value)| {
+            return self.option_without_series().map_or(Ok(None), |(name, value)| {
                 Err(ChartError::option(name, value, "has no effect without `exposures`; give their number"))
             });
         };
@@ -167,9 +167,9 @@ impl Series {
     }
 
     /// Returns an option of a series and its value, if there is no series.
-    fn idle(&self) -> Option<(&'static str, String)> {
-        let given = [("lowest", self.lowest), ("highest", self.highest)];
-        let number = given.into_iter().find_map(|(name, value)| Some((name, value?.to_string())));
+    fn option_without_series(&self) -> Option<(&'static str, String)> {
+        let limits = [("lowest", self.lowest), ("highest", self.highest)];
+        let number = limits.into_iter().find_map(|(name, value)| Some((name, value?.to_string())));
         number.or(self.spacing.map(|_| ("spacing", String::new())))
     }
 }

@@ -33,51 +33,51 @@ subcommands! {
     /// curvature, colour
     Lens(lens::LensArgs),
     /// Distortion from one image of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO 17850)
-    Distortion(ShownOrStored<DistortionRequest>),
+    Distortion(StorableMeasurementArgs<DistortionRequest>),
     /// Focal length and principal point, from one image of a chart at a known distance or from several
     #[command(
         after_help = "One image needs --distance-mm; its principal point is assumed at the image centre unless \
         --principal-px states another. The result is the principal distance (camera constant): the focal length for \
         a lens focused at infinity; at a distance D it is longer, f D/(D − f)."
     )]
-    Focal(ShownOrStored<FocalRequest>),
+    Focal(StorableMeasurementArgs<FocalRequest>),
     /// Lateral chromatic displacement of red and blue against green (ISO 19084)
-    Chromatic(Shown<ChromaticRequest>),
+    Chromatic(MeasurementArgs<ChromaticRequest>),
     /// Photon transfer after EMVA 1288: gain, quantum efficiency, dark noise, saturation, linearity, DSNU, PRNU
-    Ptc(ShownOrStored<PtcRequest>),
+    Ptc(StorableMeasurementArgs<PtcRequest>),
     /// Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233)
-    Sfr(Shown<SfrRequest>),
+    Sfr(MeasurementArgs<SfrRequest>),
     /// Tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); camera response from a scene at exposures
     /// with known ratios
-    Oecf(Shown<OecfRequest>),
+    Oecf(MeasurementArgs<OecfRequest>),
     /// Fall-off of a flat field over the radial field position
-    Vignetting(ShownOrStored<VignettingRequest>),
+    Vignetting(StorableMeasurementArgs<VignettingRequest>),
     /// Fall-off of a flat field as a map, and its colour shading (ISO 17957)
-    Shading(Shown<ShadingRequest>),
+    Shading(MeasurementArgs<ShadingRequest>),
     /// Temporal and fixed-pattern noise of a uniform surface (ISO 15739)
-    Noise(Shown<NoiseRequest>),
+    Noise(MeasurementArgs<NoiseRequest>),
     /// Flare: light in the image of light traps (ISO 18844)
-    Flare(Shown<FlareRequest>),
+    Flare(MeasurementArgs<FlareRequest>),
     /// Flicker of a light: frequency, modulation over rows and frames, duty cycle of pulses (IEEE P2020)
-    Flicker(Shown<FlickerRequest>),
+    Flicker(MeasurementArgs<FlickerRequest>),
     /// Colours of a ColorChecker after a fitted matrix, CIEDE2000
-    Colour(Shown<ColourRequest>),
+    Colour(MeasurementArgs<ColourRequest>),
     /// Contrast detection probability of pairs of patches (IEEE P2020)
-    Cdp(Shown<CdpRequest>),
+    Cdp(MeasurementArgs<CdpRequest>),
     /// An estimated depth image against ground truth: bias, error and outliers by range, edges separately
-    Depth(Shown<DepthRequest>),
+    Depth(MeasurementArgs<DepthRequest>),
     /// Increase of the dark current with temperature, by three laws
-    DarkCurrent(Shown<DarkCurrentRequest>),
+    DarkCurrent(MeasurementArgs<DarkCurrentRequest>),
     /// A Siemens star: response over frequency (ISO 12233)
-    Star(Shown<StarRequest>),
+    Star(MeasurementArgs<StarRequest>),
     /// Texture such as dead leaves against its reference: response, artefacts, coherence
-    Texture(Shown<TextureRequest>),
+    Texture(MeasurementArgs<TextureRequest>),
     /// Measurements of two cameras side by side, or a camera file against its measurements; exit status 1 if they differ
     Compare(compare::CompareArgs),
 }
 
 /// A request answered by a report.
-pub trait Measured: Args {
+pub trait MeasurementRequest: Args {
     /// Measures; with `camera_keys` the report contains the results as keys of a camera file.
     fn measure(&self, camera_keys: bool, observer: &dyn Observer) -> Result<Report, Error>;
 }
@@ -116,14 +116,14 @@ measured! {
 
 /// A measurement and the output of its report.
 #[derive(Debug, Args)]
-pub struct Shown<R: Measured> {
+pub struct MeasurementArgs<R: MeasurementRequest> {
     #[command(flatten)]
     request: R,
     #[command(flatten)]
     report: ReportArgs,
 }
 
-impl<R: Measured> Shown<R> {
+impl<R: MeasurementRequest> MeasurementArgs<R> {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         self.report.show(console, &self.request.measure(false, console.observer())?)
     }
@@ -131,7 +131,7 @@ impl<R: Measured> Shown<R> {
 
 /// A measurement of properties that a camera file states.
 #[derive(Debug, Args)]
-pub struct ShownOrStored<R: Measured> {
+pub struct StorableMeasurementArgs<R: MeasurementRequest> {
     #[command(flatten)]
     request: R,
     #[command(flatten)]
@@ -140,7 +140,7 @@ pub struct ShownOrStored<R: Measured> {
     out: CameraOut,
 }
 
-impl<R: Measured> ShownOrStored<R> {
+impl<R: MeasurementRequest> StorableMeasurementArgs<R> {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let report = self.request.measure(self.out.camera_out.is_some(), console.observer())?;
         self.out.write(&report)?;

@@ -4,7 +4,7 @@ use crate::console::Console;
 use clap::Args;
 use etendue::page::report_page;
 use etendue::report::Report;
-use etendue::{Error, Existing, write_file};
+use etendue::{Error, ExistingFiles, write_file};
 use etendue_arguments::{html, svg, toml};
 use std::path::PathBuf;
 
@@ -26,10 +26,10 @@ impl ReportArgs {
     /// Prints a report and draws its plots.
     pub fn show(&self, console: &dyn Console, report: &Report) -> Result<(), Error> {
         if let Some(file) = &self.plot {
-            write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
+            write_file(file, report.svg()?.as_bytes(), ExistingFiles::Replace)?;
         }
         if let Some(file) = &self.html {
-            write_file(file, console.spelled(&report_page(report)).as_bytes(), Existing::Replace)?;
+            write_file(file, console.spelled(&report_page(report)).as_bytes(), ExistingFiles::Replace)?;
         }
         match self.json {
             true => console.print_json(&console.spelled(&format!("{:#}\n", report.json()))),
@@ -54,7 +54,7 @@ impl CameraOut {
     /// Writes the keys of a camera file in a report, if requested.
     pub fn write(&self, report: &Report) -> Result<(), Error> {
         let Some((file, keys)) = self.camera_out.as_ref().zip(report.camera_keys()) else { return Ok(()) };
-        let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
+        let existing = if self.overwrite { ExistingFiles::Replace } else { ExistingFiles::Refuse };
         write_file(file, keys.as_bytes(), existing)
     }
 }

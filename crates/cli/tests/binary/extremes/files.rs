@@ -1,37 +1,37 @@
 //! Invalid files, and files beyond the limits.
 
 use super::refused;
-use crate::bad_input::Spoilt;
+use crate::bad_input::ModifiedJob;
 use crate::limits::png_head;
-use crate::support::{Ran, etendue, text};
+use crate::support::{CommandOutput, etendue, text};
 use etendue_testkit::page::{Row, check};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
 /// Plans the small job with other contents of one of its files.
-fn with_file(name: &str, bytes: &[u8]) -> (Spoilt, Ran) {
-    let spoilt = Spoilt::new();
-    spoilt.write(name, bytes);
-    let ran = etendue(["plan", &spoilt.job()]);
-    (spoilt, ran)
+fn with_file(name: &str, bytes: &[u8]) -> (ModifiedJob, CommandOutput) {
+    let job = ModifiedJob::new();
+    job.write(name, bytes);
+    let output = etendue(["plan", &job.job()]);
+    (job, output)
 }
 
-fn row(extreme: &str, expected: &str, (spoilt, ran): &(Spoilt, Ran)) -> Row {
-    refused(extreme, expected, ran, &[spoilt.folder()])
+fn row(extreme: &str, expected: &str, (job, output): &(ModifiedJob, CommandOutput)) -> Row {
+    refused(extreme, expected, output, &[job.folder()])
 }
 
 /// The first part of a file of the small job.
 fn part(name: &str, of: f64) -> Vec<u8> {
-    let bytes = std::fs::read(Spoilt::new().folder().join(name)).expect("a file of the job");
+    let bytes = std::fs::read(ModifiedJob::new().folder().join(name)).expect("a file of the job");
     bytes[..(bytes.len() as f64 * of) as usize].to_vec()
 }
 
 /// Replaces text in a text file.
-fn spoilt(name: &str, from: &str, to: &str) -> (Spoilt, Ran) {
-    let spoilt = Spoilt::new();
-    spoilt.spoil(name, from, to);
-    let ran = etendue(["plan", &spoilt.job()]);
-    (spoilt, ran)
+fn spoilt(name: &str, from: &str, to: &str) -> (ModifiedJob, CommandOutput) {
+    let job = ModifiedJob::new();
+    job.replace_first(name, from, to);
+    let output = etendue(["plan", &job.job()]);
+    (job, output)
 }
 
 fn empty_and_cut() -> Vec<Row> {
@@ -56,42 +56,42 @@ fn counts() -> Vec<Row> {
         row("nested lists, 5 000 deep", "refused at a depth of 80", &with_file("small.toml", deep.as_bytes())),
         row("a job that is its own base", "the cycle", &with_file("small.toml", bases.as_bytes())),
         {
-            let spoilt = Spoilt::new();
+            let job = ModifiedJob::new();
             let set = format!("{}=1", vec!["a"; 20_000].join("."));
-            let ran = etendue(["plan", &spoilt.job(), "--set", &set]);
-            refused("a key of 20 000 parts", "refused in one line", &ran, &[spoilt.folder()])
+            let output = etendue(["plan", &job.job(), "--set", &set]);
+            refused("a key of 20 000 parts", "refused in one line", &output, &[job.folder()])
         },
     ]
 }
 
 /// A TIFF of one pixel that states big-endian order and is not.
-const WRONG_ENDS: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0";
+const WRONG_BYTE_ORDER: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0";
 
 /// Files at their limits: docs/limits.md.
 fn budgets() -> Vec<Row> {
     let raised = "the limit to raise";
-    let long = |spoilt: &Spoilt| {
-        let job = std::fs::read_to_string(spoilt.job()).expect("the job");
-        spoilt.write("small.toml", format!("{job}# {}\n", " ".repeat(16 << 20)));
-        spoilt.job()
+    let long = |modified: &ModifiedJob| {
+        let job = std::fs::read_to_string(modified.job()).expect("the job");
+        modified.write("small.toml", format!("{job}# {}\n", " ".repeat(16 << 20)));
+        modified.job()
     };
-    let chain = |spoilt: &Spoilt| {
+    let chain = |modified: &ModifiedJob| {
         for i in 0..17 {
             let base = if i == 0 { "small.toml".to_owned() } else { format!("{}.toml", i - 1) };
-            spoilt.write(&format!("{i}.toml"), format!("format = 1\nbase = \"{base}\"\n"));
+            modified.write(&format!("{i}.toml"), format!("format = 1\nbase = \"{base}\"\n"));
         }
-        text(&spoilt.folder().join("16.toml"))
+        text(&modified.folder().join("16.toml"))
     };
-    let planned = |extreme: &str, made: &dyn Fn(&Spoilt) -> String| {
-        let spoilt = Spoilt::new();
-        let ran = etendue(["plan", &made(&spoilt)]);
-        refused(extreme, raised, &ran, &[spoilt.folder()])
+    let planned = |extreme: &str, change: &dyn Fn(&ModifiedJob) -> String| {
+        let modified = ModifiedJob::new();
+        let output = etendue(["plan", &change(&modified)]);
+        refused(extreme, raised, &output, &[modified.folder()])
     };
-    let picture = png_head(40_000, 40_000);
+    let image = png_head(40_000, 40_000);
     vec![
         planned("a job of 17 MB", &long),
         planned("17 files, each based on the next", &chain),
-        row("a PNG of 40 000 × 40 000 px in 70 bytes", raised, &with_file("checker.png", &picture)),
+        row("a PNG of 40 000 × 40 000 px in 70 bytes", raised, &with_file("checker.png", &image)),
     ]
 }
 
@@ -99,7 +99,7 @@ fn numbers() -> Vec<Row> {
     let place = "file, line and key";
     let folder = tempfile::tempdir().expect("a folder");
     let tiff = folder.path().join("ends.tif");
-    std::fs::write(&tiff, WRONG_ENDS).expect("written");
+    std::fs::write(&tiff, WRONG_BYTE_ORDER).expect("written");
     let ends = etendue(["measure", "sfr", &text(&tiff)]);
     vec![
         row("a number of the job is NaN", place, &spoilt("small.toml", "f_number = 2", "f_number = nan")),
@@ -110,10 +110,10 @@ fn numbers() -> Vec<Row> {
 }
 
 fn names_and_paths() -> Vec<Row> {
-    let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "file = \"checker.png\"", "file = \"../../../../etc/passwd\"");
-    let climbing = etendue(["plan", &spoilt.job(), "--sandboxed"]);
-    let linked = Spoilt::new();
+    let job = ModifiedJob::new();
+    job.replace_first("small.toml", "file = \"checker.png\"", "file = \"../../../../etc/passwd\"");
+    let climbing = etendue(["plan", &job.job(), "--sandboxed"]);
+    let linked = ModifiedJob::new();
     let link = linked.folder().join("checker.png");
     std::fs::remove_file(&link).expect("removed");
     symlink("/etc/passwd", &link).expect("a link");
@@ -126,7 +126,7 @@ fn names_and_paths() -> Vec<Row> {
     let device = etendue(["inspect", "/dev/zero"]);
     vec![
         camera,
-        refused("`--sandboxed`, a path through parents", "refused unread", &climbing, &[spoilt.folder()]),
+        refused("`--sandboxed`, a path through parents", "refused unread", &climbing, &[job.folder()]),
         refused("`--sandboxed`, a link to a foreign file", "refused unread", &through, &[linked.folder()]),
         refused("a device instead of a file", "refused: unbounded", &device, &[]),
     ]
@@ -134,8 +134,8 @@ fn names_and_paths() -> Vec<Row> {
 
 fn folders() -> Vec<Row> {
     let render = |out: &Path| {
-        let spoilt = Spoilt::new();
-        etendue(["render", &spoilt.job(), "-o", &text(out), "--spp", "1000000"])
+        let job = ModifiedJob::new();
+        etendue(["render", &job.job(), "-o", &text(out), "--spp", "1000000"])
     };
     let place = tempfile::tempdir().expect("a folder");
     let file = place.path().join("file");
@@ -154,6 +154,6 @@ fn folders() -> Vec<Row> {
 #[test]
 fn files_that_are_none() {
     let parts = [empty_and_cut(), counts(), budgets(), numbers(), names_and_paths(), folders()];
-    let about = "Each is refused with status 2 and nothing is written. Found: the first error. Readers are also fuzzed (docs/evidence/fuzzing.md); docs/limits.md has the limits.";
-    check("Files", about, &parts.concat());
+    let caption = "Each is refused with status 2 and nothing is written. Found: the first error. Readers are also fuzzed (docs/evidence/fuzzing.md); docs/limits.md has the limits.";
+    check("Files", caption, &parts.concat());
 }

@@ -25,16 +25,16 @@ fn unit_in_last_place(exact: f64) -> f64 {
 }
 
 #[track_caller]
-fn close(got: f32, exact: f64, x: Vec2) {
+fn close(actual: f32, exact: f64, x: Vec2) {
     if exact.is_nan() {
-        return assert!(got.is_nan(), "{x:?}: {got}, not NaN");
+        return assert!(actual.is_nan(), "{x:?}: {actual}, not NaN");
     }
     let rounded = exact as f32;
-    if got == rounded {
-        return assert!(got != 0.0 || got.is_sign_negative() == exact.is_sign_negative(), "{x:?}: sign of {got}");
+    if actual == rounded {
+        return assert!(actual != 0.0 || actual.is_sign_negative() == exact.is_sign_negative(), "{x:?}: sign of {actual}");
     }
-    let error = (f64::from(got) - exact).abs() / unit_in_last_place(exact);
-    assert!(error <= BOUND_ULP, "{x:?}: {got} against {exact}, {error} units");
+    let error = (f64::from(actual) - exact).abs() / unit_in_last_place(exact);
+    assert!(error <= BOUND_ULP, "{x:?}: {actual} against {exact}, {error} units");
 }
 
 fn compare(f: fn(f32) -> f32, exact: fn(f64) -> f64, arguments: impl Iterator<Item = f32>) {
@@ -108,7 +108,7 @@ fn powers_and_lengths() {
 /// Expected values from a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
 #[test]
 fn bits_are_pinned() {
-    let got = [
+    let actual = [
         sin(1.0),
         cos(2.5),
         tan(-0.7),
@@ -126,7 +126,7 @@ fn bits_are_pinned() {
         cbrt(-11.0),
         hypot(1.1, -2.3),
     ];
-    assert_eq!(got.map(f32::to_bits), PINNED, "changed bits change every picture: is it meant?");
+    assert_eq!(actual.map(f32::to_bits), PINNED, "changed bits change every picture: is it meant?");
 }
 
 const PINNED: [u32; 16] = [

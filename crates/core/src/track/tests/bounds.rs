@@ -27,7 +27,7 @@ fn bounds_hold_what_moves() {
         let corners = (centre - half, centre + half);
         let bounds = track.bounds_over(interval, corners);
         let ball = track.bounds_of_ball(interval, centre, half.x);
-        let (least, most) = track.stretch_over(interval);
+        let (minimum, maximum) = track.stretch_over(interval);
         let reach = track.local_reach(interval, bounds);
         for moment in 0..40 {
             let part = [0.0, 1.0][moment % 2] * f64::from(u8::from(moment < 2))
@@ -41,7 +41,7 @@ fn bounds_hold_what_moves() {
             let direction = random.cube().normalize();
             assert!(holds(ball, transform.transform_point3(centre + direction * half.x * (1.0 - 1e-12))));
             let length = transform.transform_vector3(direction).length();
-            assert!(length >= least * (1.0 - 1e-12) && length <= most * (1.0 + 1e-12));
+            assert!(length >= minimum * (1.0 - 1e-12) && length <= maximum * (1.0 + 1e-12));
             let anywhere = bounds.0 + (bounds.1 - bounds.0) * (random.cube() * 0.5 + 0.5);
             let local = transform.inverse().transform_point3(anywhere).abs().max_element();
             assert!(local <= reach * (1.0 + 1e-9), "{local} {reach}");
@@ -127,14 +127,14 @@ fn a_moment_and_a_time_beyond_the_keys_have_the_box_itself() {
         let last_s = keys[keys.len() - 1].time_s;
         let moment = random.between(0.0, last_s);
         for interval in [interval(moment, moment), interval(last_s, last_s + 3.0), interval(-4.0, keys[0].time_s)] {
-            let transform = track.still_over(interval).expect("nothing moves");
+            let transform = track.constant_over(interval).expect("nothing moves");
             assert_eq!(transform, track.at(interval.end_s()));
             let (low, high) = track.bounds_over(interval, CUBE);
-            let (exact_low, exact_high) = Track::still(transform).bounds_over(interval, CUBE);
+            let (exact_low, exact_high) = Track::constant(transform).bounds_over(interval, CUBE);
             // Tolerance for rounding: 1e-14 of coordinates to 1e6.
             assert!((low - exact_low).length() < 1e-7 && (high - exact_high).length() < 1e-7);
         }
-        assert_eq!(track.still_over(interval(keys[0].time_s, last_s)), None);
+        assert_eq!(track.constant_over(interval(keys[0].time_s, last_s)), None);
     }
 }
 
@@ -144,9 +144,9 @@ fn a_parked_interval_stands_still() {
     let keys = [(0.0, DVec3::ZERO), (1.0, away), (2.0, away), (3.0, away), (4.0, DVec3::ZERO)];
     let keys = keys.map(|(time_s, place)| key(time_s, place, about_z(1.0)));
     let track = Track::new(&keys, Interpolation::Linear).expect("legal");
-    assert_eq!(track.still_over(interval(1.0, 3.0)), Some(track.at(2.5)));
-    assert_eq!(track.still_over(interval(0.999, 3.0)), None);
-    assert_eq!(track.still_over(interval(1.0, 3.001)), None);
+    assert_eq!(track.constant_over(interval(1.0, 3.0)), Some(track.at(2.5)));
+    assert_eq!(track.constant_over(interval(0.999, 3.0)), None);
+    assert_eq!(track.constant_over(interval(1.0, 3.001)), None);
 }
 
 #[test]
@@ -162,5 +162,5 @@ fn a_scale_through_zero_has_no_inverse() {
     // The curve's slopes at the second and third key take it below zero between them.
     let steep = [10.0, 1.0, 0.1, 10.0];
     assert!(track(&steep, Interpolation::Linear) && !track(&steep, Interpolation::Smooth));
-    assert!(!Track::still(DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0))).is_invertible());
+    assert!(!Track::constant(DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0))).is_invertible());
 }

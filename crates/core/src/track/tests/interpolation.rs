@@ -11,7 +11,7 @@ fn apart(a: DAffine3, b: DAffine3) -> f64 {
     a.to_cols_array().iter().zip(b.to_cols_array()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-fn still_at(key: &Key) -> DAffine3 {
+fn static_at(key: &Key) -> DAffine3 {
     DAffine3::from_scale_rotation_translation(key.scale, key.rotation.normalize(), key.position_m)
 }
 
@@ -21,9 +21,9 @@ fn a_still_track_keeps_its_matrix_bit_for_bit() {
         DMat3::from_cols(DVec3::new(1.0, 0.1, 0.0), DVec3::new(0.3, 1.0, 0.0), DVec3::Z),
         DVec3::new(1e6, 0.1, 0.3),
     );
-    let track = Track::still(sheared);
+    let track = Track::constant(sheared);
     assert_eq!([track.at(-1e9), track.at(0.0), track.at(f64::NAN)], [sheared; 3]);
-    assert_eq!(track.as_still(), Some(sheared));
+    assert_eq!(track.as_constant(), Some(sheared));
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn one_key_and_equal_keys_stand_still() {
             [&[one][..], &[one, Key { time_s: 4.0, ..one }, Key { time_s: 5.0, rotation: -one.rotation, ..one }]]
         {
             let track = Track::new(keys, how).expect("legal");
-            assert_eq!(track.as_still(), Some(still_at(&one)), "{how:?}");
+            assert_eq!(track.as_constant(), Some(static_at(&one)), "{how:?}");
         }
     }
 }
@@ -46,7 +46,7 @@ fn a_track_passes_through_its_keys_and_holds_still_beyond() {
     for _ in 0..200 {
         let (track, keys) = random.track();
         for key in &keys {
-            assert!(apart(track.at(key.time_s), still_at(key)) < 2e-9);
+            assert!(apart(track.at(key.time_s), static_at(key)) < 2e-9);
         }
         let (first, last) = (&keys[0], &keys[keys.len() - 1]);
         assert_eq!(track.at(first.time_s - 5.0), track.at(first.time_s));
@@ -116,7 +116,7 @@ fn smooth_motion_keeps_an_even_acceleration_and_an_even_turn() {
     let track = Track::new(&[0.0, 0.3, 1.0, 1.1, 3.0].map(at), Interpolation::Smooth).expect("legal");
     for i in 0..=300 {
         let t = 0.01 * f64::from(i);
-        assert!(apart(track.at(t), still_at(&at(t))) < 1e-13, "{t}");
+        assert!(apart(track.at(t), static_at(&at(t))) < 1e-13, "{t}");
     }
 }
 
@@ -155,7 +155,7 @@ fn what_comes_first_is_applied_first() {
         let t = random.between(0.0, 4.0);
         assert_eq!(track.after(&first).at(t), track.at(t) * DAffine3::IDENTITY * first);
     }
-    assert_eq!(Track::still(first).after(&first).as_still(), Some(first * first));
+    assert_eq!(Track::constant(first).after(&first).as_constant(), Some(first * first));
 }
 
 #[test]

@@ -14,23 +14,23 @@ fn angles_turn_back_to_the_rotation() {
 
 #[test]
 fn times_before_the_beginning_have_nanoseconds_above_0() {
-    assert_eq!(timestamp((-0.25).into()), Message::default().varint(1, u64::MAX).varint(2, 750_000_000));
-    assert_eq!(timestamp(2.0.into()), Message::default().varint(1, 2).varint(2, 0));
+    assert_eq!(timestamp((-0.25).into()), ProtobufMessage::default().varint(1, u64::MAX).varint(2, 750_000_000));
+    assert_eq!(timestamp(2.0.into()), ProtobufMessage::default().varint(1, 2).varint(2, 0));
 }
 
 #[test]
 fn classes_have_the_kinds_of_the_standard() {
-    assert_eq!(Kind::of("Car", false), Some(Kind::Vehicle(4)));
-    assert_eq!(Kind::of("guard_rail", false), Some(Kind::Stationary(8)));
-    assert_eq!(Kind::of("person", false), Some(Kind::Mover(PEDESTRIAN)));
-    assert_eq!([Kind::of("crate", false), Kind::of("crate", true)], [Some(Kind::Stationary(1)), Some(Kind::Mover(1))]);
-    assert_eq!([Kind::of("road", false), Kind::of("sky", false)], [None, None]);
-    assert_eq!(Kind::Vehicle(12).moving_type(), Some(VEHICLE));
+    assert_eq!(OsiObjectType::from_class("Car", false), Some(OsiObjectType::Vehicle(4)));
+    assert_eq!(OsiObjectType::from_class("guard_rail", false), Some(OsiObjectType::Stationary(8)));
+    assert_eq!(OsiObjectType::from_class("person", false), Some(OsiObjectType::Mover(PEDESTRIAN)));
+    assert_eq!([OsiObjectType::from_class("crate", false), OsiObjectType::from_class("crate", true)], [Some(OsiObjectType::Stationary(1)), Some(OsiObjectType::Mover(1))]);
+    assert_eq!([OsiObjectType::from_class("road", false), OsiObjectType::from_class("sky", false)], [None, None]);
+    assert_eq!(OsiObjectType::Vehicle(12).moving_type(), Some(VEHICLE));
 }
 
 #[test]
 fn names_follow_the_convention() {
-    assert_eq!(of(0.25, [3, 8, 0], 2, 17), "19700101T000000Z_gt_380_6302_2_000017.osi");
+    assert_eq!(trace_name(0.25, [3, 8, 0], 2, 17), "19700101T000000Z_gt_380_6302_2_000017.osi");
     // Time of the convention's own example.
     assert_eq!(stamp(1_629_299_142.0), "20210818T150542Z");
     assert_eq!(stamp(-0.25), "19691231T235959Z");
@@ -42,13 +42,13 @@ fn names_follow_the_convention() {
 /// Examples of the encoding's own description.
 #[test]
 fn bytes_are_those_of_the_description() {
-    assert_eq!(Message::default().varint(1, 150).bytes(), [0x08, 0x96, 0x01]);
-    assert_eq!(Message::default().text(2, "testing").bytes(), [0x12, 0x07, 0x74, 0x65, 0x73, 0x74, 0x69, 0x6e, 0x67]);
-    let inner = Message::default().varint(1, 150);
-    assert_eq!(Message::default().message(3, &inner).bytes(), [0x1a, 0x03, 0x08, 0x96, 0x01]);
+    assert_eq!(ProtobufMessage::default().varint(1, 150).bytes(), [0x08, 0x96, 0x01]);
+    assert_eq!(ProtobufMessage::default().text(2, "testing").bytes(), [0x12, 0x07, 0x74, 0x65, 0x73, 0x74, 0x69, 0x6e, 0x67]);
+    let inner = ProtobufMessage::default().varint(1, 150);
+    assert_eq!(ProtobufMessage::default().message(3, &inner).bytes(), [0x1a, 0x03, 0x08, 0x96, 0x01]);
     assert_eq!(
-        Message::default().varint(1, (-2_i64) as u64).bytes(),
+        ProtobufMessage::default().varint(1, (-2_i64) as u64).bytes(),
         [0x08, 0xfe, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x01]
     );
-    assert_eq!(Message::default().double(1, 1.0).bytes(), [0x09, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f]);
+    assert_eq!(ProtobufMessage::default().double(1, 1.0).bytes(), [0x09, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f]);
 }

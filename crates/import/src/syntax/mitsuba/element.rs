@@ -61,7 +61,7 @@ impl MitsubaElement {
 
     /// Returns an error at this place.
     #[must_use]
-    pub fn fault(&self, what: impl Into<Problem>) -> Error {
+    pub fn error(&self, what: impl Into<Problem>) -> Error {
         Error::at(&self.place.file, self.place.line, what)
     }
 }
@@ -70,7 +70,7 @@ impl MitsubaElement {
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {
-    pub(super) fn of(text: &str) -> Self {
+    pub(super) fn new(text: &str) -> Self {
         Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1).collect())
     }
 
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn bytes_have_their_lines() {
-        let lines = Lines::of("ab\n\nc");
+        let lines = Lines::new("ab\n\nc");
         assert_eq!([0, 2, 3, 4].map(|at| lines.line(at)), [1, 1, 2, 3]);
     }
 }

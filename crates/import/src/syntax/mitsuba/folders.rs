@@ -17,23 +17,23 @@ pub(super) struct Folders {
 }
 
 /// Start of an included file.
-pub(super) struct Mark(usize);
+pub(super) struct IncludeMark(usize);
 
 impl Folders {
     /// Returns the folders of the first file.
-    pub(super) fn beside(file: &Path) -> Self {
+    pub(super) fn new(file: &Path) -> Self {
         Self { now: vec![folder_of(file)], ended: Vec::new() }
     }
 
     /// From now on files are searched first next to `file`, which includes another.
-    pub(super) fn begin(&mut self, file: &Path) -> Mark {
-        let mark = Mark(self.now.len());
+    pub(super) fn begin(&mut self, file: &Path) -> IncludeMark {
+        let mark = IncludeMark(self.now.len());
         self.now.push(folder_of(file));
         mark
     }
 
     /// Ends an included file.
-    pub(super) fn end(&mut self, mark: &Mark) {
+    pub(super) fn end(&mut self, mark: &IncludeMark) {
         self.ended.extend(self.now.drain(mark.0..).skip(1));
     }
 

@@ -23,6 +23,6 @@ pub use element::{MitsubaElement, MitsubaPlace, MitsubaScene};
 ///
 /// # Errors
 /// The first syntax error, with its file and line; a value for a parameter that the files do not name.
-pub fn read_mitsuba(file: &Path, given: &[(String, String)], sandbox: &Sandbox) -> Result<MitsubaScene, Error> {
-    parse::Reading::new(file, given, sandbox).map_err(|told| Error::new(file, told))?.scene(file)
+pub fn read_mitsuba(file: &Path, values: &[(String, String)], sandbox: &Sandbox) -> Result<MitsubaScene, Error> {
+    parse::MitsubaReader::new(file, values, sandbox).map_err(|problem| Error::new(file, problem))?.scene(file)
 }

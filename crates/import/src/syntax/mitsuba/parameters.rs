@@ -8,49 +8,49 @@ use etendue_scene::limits;
 const MAX_NAME: usize = 64;
 
 /// Maximum number of names in a message.
-const MAX_TOLD: usize = 12;
+const MAX_NAMES_SHOWN: usize = 12;
 
-struct Value {
+struct ParameterValue {
     text: String,
     is_given: bool,
     is_used: bool,
 }
 
 pub(super) struct Parameters {
-    values: BTreeMap<String, Value>,
+    values: BTreeMap<String, ParameterValue>,
     /// Lengths of the names.
     lengths: BTreeSet<usize>,
 }
 
 impl Parameters {
     /// Initial values given by the caller, before any file is read.
-    pub(super) fn given(given: &[(String, String)]) -> Result<Self, String> {
-        let mut made = Self { values: BTreeMap::new(), lengths: BTreeSet::new() };
-        for (name, text) in given {
-            check_name(name).map_err(|told| format!("a value is given to a parameter {told}"))?;
-            made.lengths.insert(name.len());
-            let value = Value { text: text.clone(), is_given: true, is_used: false };
-            if made.values.insert(name.clone(), value).is_some() {
+    pub(super) fn from_values(pairs: &[(String, String)]) -> Result<Self, String> {
+        let mut result = Self { values: BTreeMap::new(), lengths: BTreeSet::new() };
+        for (name, text) in pairs {
+            check_name(name).map_err(|problem| format!("a value is given to a parameter {problem}"))?;
+            result.lengths.insert(name.len());
+            let value = ParameterValue { text: text.clone(), is_given: true, is_used: false };
+            if result.values.insert(name.clone(), value).is_some() {
                 return Err(format!("the parameter \"{name}\" has two values; give one"));
             }
         }
-        Ok(made)
+        Ok(result)
     }
 
     /// Handles a `<default>`: the first value of a name applies.
     pub(super) fn default(&mut self, name: String, text: String) -> Result<(), String> {
-        check_name(&name).map_err(|told| format!("<default> {told}"))?;
+        check_name(&name).map_err(|problem| format!("<default> {problem}"))?;
         self.lengths.insert(name.len());
-        self.values.entry(name).or_insert(Value { text, is_given: false, is_used: false });
+        self.values.entry(name).or_insert(ParameterValue { text, is_given: false, is_used: false });
         Ok(())
     }
 
     /// Substitutes the parameters in a value (`$spp`), longest names first. `bytes` counts the resulting text.
-    pub(super) fn put_in(&mut self, value: &str, bytes: &mut u64) -> Result<String, String> {
-        let mut made = String::new();
+    pub(super) fn substitute(&mut self, value: &str, bytes: &mut u64) -> Result<String, String> {
+        let mut result = String::new();
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('$') {
-            made.push_str(before);
+            result.push_str(before);
             let mut names = self.lengths.iter().rev().filter_map(|length| after.get(..*length));
             let Some(name) = names.find(|name| self.values.contains_key(*name)) else {
                 return Err(unknown(after));
@@ -58,13 +58,13 @@ impl Parameters {
             rest = &after[name.len()..];
             if let Some(value) = self.values.get_mut(name) {
                 value.is_used = true;
-                made.push_str(&value.text);
+                result.push_str(&value.text);
                 *bytes += value.text.len().max(1) as u64;
                 limits::DESCRIPTION.check_unpacked(*bytes).map_err(|problem| problem.words)?;
             }
         }
-        made.push_str(rest);
-        Ok(made)
+        result.push_str(rest);
+        Ok(result)
     }
 
     /// Checks, when all files are read, that every given value was used.
@@ -75,7 +75,7 @@ impl Parameters {
         let used: Vec<String> = self.values.iter().filter(|(_, v)| v.is_used).map(|(n, _)| format!("${n}")).collect();
         let known = match used.len() {
             0 => "the scene has no parameters".to_owned(),
-            n if n > MAX_TOLD => format!("its parameters are {}, …", used[..MAX_TOLD].join(", ")),
+            n if n > MAX_NAMES_SHOWN => format!("its parameters are {}, …", used[..MAX_NAMES_SHOWN].join(", ")),
             _ => format!("its parameters are {}", used.join(", ")),
         };
         Err(format!(
@@ -140,20 +140,20 @@ pub(super) const TAGS: &[&str] = &[
 /// Current spelling (`int_ior`) of a name of a version before 2 (`intIOR`): a run of capitals after a lower-case letter is separated by an underscore and
 /// lower-cased.
 pub(super) fn modern(name: &str) -> String {
-    let mut made = String::with_capacity(name.len() + 4);
+    let mut result = String::with_capacity(name.len() + 4);
     let mut letters = name.chars().peekable();
     while let Some(c) = letters.next() {
-        made.push(c);
+        result.push(c);
         if c.is_ascii_lowercase() && letters.peek().is_some_and(char::is_ascii_uppercase) {
-            made.push('_');
+            result.push('_');
             while let Some(capital) = letters.next_if(char::is_ascii_uppercase) {
-                made.push(capital.to_ascii_lowercase());
+                result.push(capital.to_ascii_lowercase());
             }
             // Mitsuba's own loop skips the letter after the run.
-            made.extend(letters.next());
+            result.extend(letters.next());
         }
     }
-    made
+    result
 }
 
 /// Word of a file, shortened for a message.

@@ -17,7 +17,7 @@ const MAX_INCLUDES: usize = 16;
 const MAX_DEPTH: usize = 64;
 
 /// State while files are read.
-pub(super) struct Reading<'a> {
+pub(super) struct MitsubaReader<'a> {
     folders: Folders,
     sandbox: &'a Sandbox,
     /// Bytes of all files so far.
@@ -37,15 +37,15 @@ struct OpenFile {
 }
 
 impl OpenFile {
-    fn fault(&self, node: &Node<'_, '_>, what: String) -> Error {
+    fn error(&self, node: &Node<'_, '_>, what: String) -> Error {
         Error::at(&self.path, self.lines.line(node.range().start), what)
     }
 }
 
-impl<'a> Reading<'a> {
-    pub(super) fn new(file: &Path, given: &[(String, String)], sandbox: &'a Sandbox) -> Result<Self, String> {
-        let parameters = Parameters::given(given)?;
-        Ok(Self { folders: Folders::beside(file), sandbox, bytes: 0, parameters, count: 0 })
+impl<'a> MitsubaReader<'a> {
+    pub(super) fn new(file: &Path, values: &[(String, String)], sandbox: &'a Sandbox) -> Result<Self, String> {
+        let parameters = Parameters::from_values(values)?;
+        Ok(Self { folders: Folders::new(file), sandbox, bytes: 0, parameters, count: 0 })
     }
 
     /// Parses the scene of the first file.
@@ -53,9 +53,9 @@ impl<'a> Reading<'a> {
         let root = self.file(file, 0)?;
         if root.tag != "scene" {
             let tag = root.tag;
-            return Err(root.fault(format!("the root element is <{tag}>; expected <scene>")));
+            return Err(root.error(format!("the root element is <{tag}>; expected <scene>")));
         }
-        self.parameters.check_used().map_err(|told| Error::new(file, told))?;
+        self.parameters.check_used().map_err(|problem| Error::new(file, problem))?;
         Ok(MitsubaScene { root, folders: self.folders.all() })
     }
 
@@ -69,9 +69,9 @@ impl<'a> Reading<'a> {
             Error::at(file, e.pos().row as usize, message)
         })?;
         let root = document.root_element();
-        let mut open = OpenFile { path: file.into(), lines: Lines::of(text), is_old: false, includes };
+        let mut open = OpenFile { path: file.into(), lines: Lines::new(text), is_old: false, includes };
         let version = root.attribute("version").ok_or_else(|| {
-            open.fault(&root, "the root element has no \"version\": not a Mitsuba 3 scene".to_owned())
+            open.error(&root, "the root element has no \"version\": not a Mitsuba 3 scene".to_owned())
         })?;
         let major = version.split('.').next().and_then(|major| major.trim().parse::<u32>().ok());
         open.is_old = match major {
@@ -79,7 +79,7 @@ impl<'a> Reading<'a> {
             _ => {
                 let message =
                     format!("unsupported version \"{}\"; expected at most 3, such as \"3.0.0\"", shortened(version));
-                return Err(open.fault(&root, message));
+                return Err(open.error(&root, message));
             }
         };
         self.element(&root, &open, 0)
@@ -87,7 +87,7 @@ impl<'a> Reading<'a> {
 
     fn element(&mut self, node: &Node<'_, '_>, file: &OpenFile, depth: usize) -> Result<MitsubaElement, Error> {
         if depth >= MAX_DEPTH {
-            return Err(file.fault(node, format!("elements are nested more than {MAX_DEPTH} levels deep")));
+            return Err(file.error(node, format!("elements are nested more than {MAX_DEPTH} levels deep")));
         }
         let word = match node.tag_name().name() {
             "lookAt" => "lookat",
@@ -95,14 +95,14 @@ impl<'a> Reading<'a> {
         };
         let Some(&tag) = TAGS.iter().find(|tag| **tag == word) else {
             return Err(
-                file.fault(node, format!("unknown element <{}>: Mitsuba scenes do not have it", shortened(word)))
+                file.error(node, format!("unknown element <{}>: Mitsuba scenes do not have it", shortened(word)))
             );
         };
         let attributes = node
             .attributes()
             .map(|attribute| {
-                let value = self.parameters.put_in(attribute.value(), &mut self.bytes);
-                let value = value.map_err(|told| file.fault(node, told))?;
+                let value = self.parameters.substitute(attribute.value(), &mut self.bytes);
+                let value = value.map_err(|problem| file.error(node, problem))?;
                 let is_parameter = attribute.name() == "name" && !matches!(tag, "default" | "alias" | "include");
                 let value = if file.is_old && is_parameter { modern(&value) } else { value };
                 Ok((attribute.name().into(), value.into()))
@@ -117,7 +117,7 @@ impl<'a> Reading<'a> {
             if child.is_element() {
                 self.child(&child, file, depth, &mut element.children)?;
             } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
-                return Err(file.fault(&child, format!("text in <{tag}>; expected only elements")));
+                return Err(file.error(&child, format!("text in <{tag}>; expected only elements")));
             }
         }
         if file.is_old && tag == "bsdf" && element.kind() == "diffuse" {
@@ -136,22 +136,22 @@ impl<'a> Reading<'a> {
     ) -> Result<(), Error> {
         let element = self.element(node, file, depth + 1)?;
         let needed = |name: &str| {
-            let told = || element.fault(format!("<{}> has no \"{name}\"", element.tag));
-            element.attribute(name).map(str::to_owned).ok_or_else(told)
+            let missing = || element.error(format!("<{}> has no \"{name}\"", element.tag));
+            element.attribute(name).map(str::to_owned).ok_or_else(missing)
         };
         match element.tag {
             "default" => {
                 let (name, value) = (needed("name")?, needed("value")?);
-                self.parameters.default(name, value).map_err(|told| element.fault(told))?;
+                self.parameters.default(name, value).map_err(|reason| element.error(reason))?;
             }
             "path" if depth > 0 => {
-                return Err(element.fault("<path> is in another element; expected it at the top level of the scene"));
+                return Err(element.error("<path> is in another element; expected it at the top level of the scene"));
             }
             "path" => {
                 let is_folder =
                     |path: &Path| self.sandbox.check(path).map(|()| path.is_dir()).map_err(|problem| problem.words);
                 let added = self.folders.add(&needed("value")?, &file.path, is_folder);
-                added.map_err(|told| element.fault(told))?;
+                added.map_err(|reason| element.error(reason))?;
             }
             "include" => {
                 let included = self.included(&needed("filename")?, &element, file)?;
@@ -168,12 +168,12 @@ impl<'a> Reading<'a> {
     fn included(&mut self, name: &str, at: &MitsubaElement, file: &OpenFile) -> Result<MitsubaElement, Error> {
         let mark = self.folders.begin(&file.path);
         let path = self.folders.find(name);
-        self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
+        self.sandbox.check(&path).map_err(|why| at.error(format!("<include filename=\"{name}\">: {why}")))?;
         if file.includes + 1 >= MAX_INCLUDES {
             let message = format!(
                 "includes are nested more than {MAX_INCLUDES} levels deep; check for files that include each other"
             );
-            return Err(at.fault(message));
+            return Err(at.error(message));
         }
         let included = self.file(&path, file.includes + 1);
         self.folders.end(&mark);

@@ -30,10 +30,10 @@ pub type TakeDirective<'a> = dyn FnMut(PbrtDirective, PbrtPlace<'_>) -> Result<(
 /// The first error, with its file and line: a syntax error, or that of `take`.
 pub fn read_pbrt(file: &Path, sandbox: &Sandbox, take: &mut TakeDirective<'_>) -> Result<(), Error> {
     let folder = file.parent().unwrap_or(Path::new("")).to_owned();
-    Reading { folder, sandbox, bytes: 0, take }.file(file, 0)
+    PbrtReader { folder, sandbox, bytes: 0, take }.file(file, 0)
 }
 
-struct Reading<'a, 'b> {
+struct PbrtReader<'a, 'b> {
     /// Folder of the first file: paths of included files are relative to it.
     folder: PathBuf,
     sandbox: &'a Sandbox,
@@ -42,17 +42,17 @@ struct Reading<'a, 'b> {
     take: &'a mut TakeDirective<'b>,
 }
 
-impl Reading<'_, '_> {
+impl PbrtReader<'_, '_> {
     fn file(&mut self, file: &Path, depth: usize) -> Result<(), Error> {
         let bytes = read_bytes(file, "scene")?;
         self.bytes += bytes.len() as u64;
-        limits::MESH.check_unpacked(self.bytes).map_err(|told| Error::new(file, told))?;
+        limits::MESH.check_unpacked(self.bytes).map_err(|problem| Error::new(file, problem))?;
         let mut parser = Parser::new(decode_text(file, &bytes)?);
-        while let Some((line, directive)) = parser.next().map_err(|(line, told)| Error::at(file, line, told))? {
+        while let Some((line, directive)) = parser.next().map_err(|(line, problem)| Error::at(file, line, problem))? {
             match directive {
                 PbrtDirective::Include(name) => self.include(file, line, &name, depth)?,
                 directive => {
-                    (self.take)(directive, PbrtPlace { file, line }).map_err(|told| Error::at(file, line, told))?;
+                    (self.take)(directive, PbrtPlace { file, line }).map_err(|problem| Error::at(file, line, problem))?;
                 }
             }
         }

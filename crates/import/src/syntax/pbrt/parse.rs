@@ -2,11 +2,11 @@
 
 use std::cell::Cell;
 
-use super::token::{Fault, PbrtDirective, PbrtParameter, PbrtValues, Token, Tokens};
+use super::token::{SyntaxError, PbrtDirective, PbrtParameter, PbrtValues, Token, Tokens};
 
 /// Arguments of a directive.
 #[derive(Clone, Copy)]
-enum Form {
+enum ArgumentForm {
     Plain,
     Numbers(usize),
     Named,
@@ -19,47 +19,47 @@ enum Form {
     Word,
 }
 
-const DIRECTIVES: &[(&str, Form)] = &[
-    ("Accelerator", Form::Typed),
-    ("ActiveTransform", Form::Word),
-    ("AreaLightSource", Form::Typed),
-    ("Attribute", Form::Typed),
-    ("AttributeBegin", Form::Plain),
-    ("AttributeEnd", Form::Plain),
-    ("Camera", Form::Typed),
-    ("ColorSpace", Form::Named),
-    ("ConcatTransform", Form::Numbers(16)),
-    ("CoordSysTransform", Form::Named),
-    ("CoordinateSystem", Form::Named),
-    ("Film", Form::Typed),
-    ("Identity", Form::Plain),
-    ("Import", Form::Include),
-    ("Include", Form::Include),
-    ("Integrator", Form::Typed),
-    ("LightSource", Form::Typed),
-    ("LookAt", Form::Numbers(9)),
-    ("MakeNamedMaterial", Form::Typed),
-    ("MakeNamedMedium", Form::Typed),
-    ("Material", Form::Typed),
-    ("MediumInterface", Form::MediumInterface),
-    ("NamedMaterial", Form::Named),
-    ("ObjectBegin", Form::Named),
-    ("ObjectEnd", Form::Plain),
-    ("ObjectInstance", Form::Named),
-    ("Option", Form::Setting),
-    ("PixelFilter", Form::Typed),
-    ("ReverseOrientation", Form::Plain),
-    ("Rotate", Form::Numbers(4)),
-    ("Sampler", Form::Typed),
-    ("Scale", Form::Numbers(3)),
-    ("Shape", Form::Typed),
-    ("Texture", Form::Texture),
-    ("Transform", Form::Numbers(16)),
-    ("TransformBegin", Form::Plain),
-    ("TransformEnd", Form::Plain),
-    ("TransformTimes", Form::Numbers(2)),
-    ("Translate", Form::Numbers(3)),
-    ("WorldBegin", Form::Plain),
+const DIRECTIVES: &[(&str, ArgumentForm)] = &[
+    ("Accelerator", ArgumentForm::Typed),
+    ("ActiveTransform", ArgumentForm::Word),
+    ("AreaLightSource", ArgumentForm::Typed),
+    ("Attribute", ArgumentForm::Typed),
+    ("AttributeBegin", ArgumentForm::Plain),
+    ("AttributeEnd", ArgumentForm::Plain),
+    ("Camera", ArgumentForm::Typed),
+    ("ColorSpace", ArgumentForm::Named),
+    ("ConcatTransform", ArgumentForm::Numbers(16)),
+    ("CoordSysTransform", ArgumentForm::Named),
+    ("CoordinateSystem", ArgumentForm::Named),
+    ("Film", ArgumentForm::Typed),
+    ("Identity", ArgumentForm::Plain),
+    ("Import", ArgumentForm::Include),
+    ("Include", ArgumentForm::Include),
+    ("Integrator", ArgumentForm::Typed),
+    ("LightSource", ArgumentForm::Typed),
+    ("LookAt", ArgumentForm::Numbers(9)),
+    ("MakeNamedMaterial", ArgumentForm::Typed),
+    ("MakeNamedMedium", ArgumentForm::Typed),
+    ("Material", ArgumentForm::Typed),
+    ("MediumInterface", ArgumentForm::MediumInterface),
+    ("NamedMaterial", ArgumentForm::Named),
+    ("ObjectBegin", ArgumentForm::Named),
+    ("ObjectEnd", ArgumentForm::Plain),
+    ("ObjectInstance", ArgumentForm::Named),
+    ("Option", ArgumentForm::Setting),
+    ("PixelFilter", ArgumentForm::Typed),
+    ("ReverseOrientation", ArgumentForm::Plain),
+    ("Rotate", ArgumentForm::Numbers(4)),
+    ("Sampler", ArgumentForm::Typed),
+    ("Scale", ArgumentForm::Numbers(3)),
+    ("Shape", ArgumentForm::Typed),
+    ("Texture", ArgumentForm::Texture),
+    ("Transform", ArgumentForm::Numbers(16)),
+    ("TransformBegin", ArgumentForm::Plain),
+    ("TransformEnd", ArgumentForm::Plain),
+    ("TransformTimes", ArgumentForm::Numbers(2)),
+    ("Translate", ArgumentForm::Numbers(3)),
+    ("WorldBegin", ArgumentForm::Plain),
 ];
 
 /// Word of a file, shortened for a message.
@@ -81,7 +81,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The next directive and its line; `None` at the end.
-    pub(super) fn next(&mut self) -> Result<Option<(usize, PbrtDirective)>, Fault> {
+    pub(super) fn next(&mut self) -> Result<Option<(usize, PbrtDirective)>, SyntaxError> {
         let Some((line, token)) = self.tokens.take()? else { return Ok(None) };
         let Token::Word(word) = token else {
             return Err((line, "expected a directive such as `Shape`, found a value".to_owned()));
@@ -92,44 +92,44 @@ impl<'a> Parser<'a> {
         self.arguments(name, *form, line).map(|directive| Some((line, directive)))
     }
 
-    fn arguments(&mut self, name: &'static str, form: Form, line: usize) -> Result<PbrtDirective, Fault> {
+    fn arguments(&mut self, name: &'static str, form: ArgumentForm, line: usize) -> Result<PbrtDirective, SyntaxError> {
         Ok(match form {
-            Form::Plain => PbrtDirective::Plain(name),
-            Form::Numbers(count) => PbrtDirective::Numbers(name, self.some_numbers(name, count, line)?),
-            Form::Named => PbrtDirective::Named(name, self.text(name)?.to_owned()),
-            Form::Typed => PbrtDirective::Typed(name, self.text(name)?.to_owned(), self.parameters()?),
-            Form::Texture => {
+            ArgumentForm::Plain => PbrtDirective::Plain(name),
+            ArgumentForm::Numbers(count) => PbrtDirective::Numbers(name, self.some_numbers(name, count, line)?),
+            ArgumentForm::Named => PbrtDirective::Named(name, self.text(name)?.to_owned()),
+            ArgumentForm::Typed => PbrtDirective::Typed(name, self.text(name)?.to_owned(), self.parameters()?),
+            ArgumentForm::Texture => {
                 let words = [self.text(name)?, self.text(name)?, self.text(name)?].map(str::to_owned);
                 PbrtDirective::Texture(words, self.parameters()?)
             }
-            Form::MediumInterface => {
+            ArgumentForm::MediumInterface => {
                 let inside = self.text(name)?.to_owned();
                 let has_outside = matches!(self.tokens.peek()?, Some((_, Token::Text(_))));
                 let outside = if has_outside { self.text(name)?.to_owned() } else { inside.clone() };
                 PbrtDirective::MediumInterface([inside, outside])
             }
-            Form::Setting => {
+            ArgumentForm::Setting => {
                 let setting = self.parameter()?;
                 PbrtDirective::Setting(setting.ok_or_else(|| (line, "`Option` has no parameter".to_owned()))?)
             }
-            Form::Include => PbrtDirective::Include(self.text(name)?.to_owned()),
-            Form::Word => match self.tokens.take()? {
+            ArgumentForm::Include => PbrtDirective::Include(self.text(name)?.to_owned()),
+            ArgumentForm::Word => match self.tokens.take()? {
                 Some((_, Token::Word(word) | Token::Text(word))) => PbrtDirective::Named(name, word.to_owned()),
                 _ => return Err((line, format!("`{name}` has no argument"))),
             },
         })
     }
 
-    fn text(&mut self, of: &str) -> Result<&'a str, Fault> {
+    fn text(&mut self, subject: &str) -> Result<&'a str, SyntaxError> {
         match self.tokens.take()? {
             Some((_, Token::Text(text))) => Ok(text),
-            Some((line, _)) => Err((line, format!("`{of}` expects a quoted string here"))),
-            None => Err((self.tokens.line(), format!("the file ends within `{of}`: it may be truncated"))),
+            Some((line, _)) => Err((line, format!("`{subject}` expects a quoted string here"))),
+            None => Err((self.tokens.line(), format!("the file ends within `{subject}`: it may be truncated"))),
         }
     }
 
     /// Numbers of a transform, with or without brackets.
-    fn some_numbers(&mut self, of: &str, count: usize, line: usize) -> Result<Vec<f64>, Fault> {
+    fn some_numbers(&mut self, subject: &str, count: usize, line: usize) -> Result<Vec<f64>, SyntaxError> {
         let bracketed = matches!(self.tokens.peek()?, Some((_, Token::Open)));
         if bracketed {
             self.tokens.take()?;
@@ -138,17 +138,17 @@ impl<'a> Parser<'a> {
         while let Some((line, Token::Word(word))) = self.tokens.peek()?
             && numbers.len() < count
         {
-            numbers.push(number(word).map_err(|told| (line, told))?);
+            numbers.push(number(word).map_err(|problem| (line, problem))?);
             self.tokens.take()?;
         }
         let closed = !bracketed || matches!(self.tokens.take()?, Some((_, Token::Close)));
         match numbers.len() == count && closed {
             true => Ok(numbers),
-            false => Err((line, format!("`{of}` has {} numbers; expected {count}", numbers.len()))),
+            false => Err((line, format!("`{subject}` has {} numbers; expected {count}", numbers.len()))),
         }
     }
 
-    fn parameters(&mut self) -> Result<Vec<PbrtParameter>, Fault> {
+    fn parameters(&mut self) -> Result<Vec<PbrtParameter>, SyntaxError> {
         let mut parameters: Vec<PbrtParameter> = Vec::new();
         while let Some(parameter) = self.parameter()? {
             parameters.push(parameter);
@@ -157,7 +157,7 @@ impl<'a> Parser<'a> {
     }
 
     /// `"type name" value` or `"type name" [ values ]`; `None` if none follows.
-    fn parameter(&mut self) -> Result<Option<PbrtParameter>, Fault> {
+    fn parameter(&mut self) -> Result<Option<PbrtParameter>, SyntaxError> {
         let Some((line, Token::Text(head))) = self.tokens.peek()? else { return Ok(None) };
         self.tokens.take()?;
         let mut words = head.split_ascii_whitespace();
@@ -170,19 +170,19 @@ impl<'a> Parser<'a> {
         Ok(Some(PbrtParameter { kind, name, values, used: Cell::new(false) }))
     }
 
-    fn values(&mut self, name: &str, line: usize) -> Result<PbrtValues, Fault> {
+    fn values(&mut self, name: &str, line: usize) -> Result<PbrtValues, SyntaxError> {
         let truncated = || (line, format!("\"{}\" has no values: the file may be truncated", shortened(name)));
         let (first_line, first) = self.tokens.take()?.ok_or_else(truncated)?;
         if first != Token::Open {
-            let mut values = Collected::default();
-            values.add(first).map_err(|told| (first_line, told))?;
+            let mut values = CollectedValues::default();
+            values.add(first).map_err(|problem| (first_line, problem))?;
             return Ok(values.finish());
         }
-        let mut values = Collected::default();
+        let mut values = CollectedValues::default();
         loop {
             match self.tokens.take()?.ok_or_else(truncated)? {
                 (_, Token::Close) => return Ok(values.finish()),
-                (line, token) => values.add(token).map_err(|told| (line, told))?,
+                (line, token) => values.add(token).map_err(|problem| (line, problem))?,
             }
         }
     }
@@ -198,13 +198,13 @@ fn number(word: &str) -> Result<f64, String> {
 
 /// Values of one type.
 #[derive(Default)]
-struct Collected {
+struct CollectedValues {
     numbers: Vec<f64>,
     texts: Vec<String>,
     flags: Vec<bool>,
 }
 
-impl Collected {
+impl CollectedValues {
     fn add(&mut self, token: Token<'_>) -> Result<(), String> {
         match token {
             Token::Text("true") | Token::Word("true") => self.flags.push(true),

@@ -24,7 +24,7 @@ pub(super) struct Tokens<'a> {
 }
 
 /// Error with its line.
-pub(super) type Fault = (usize, String);
+pub(super) type SyntaxError = (usize, String);
 
 /// Returns true for a character that ends a word.
 fn ends_word(c: char) -> bool {
@@ -42,7 +42,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// Returns the next token and its line without taking it; `None` at the end.
-    pub(super) fn peek(&mut self) -> Result<Option<(usize, Token<'a>)>, Fault> {
+    pub(super) fn peek(&mut self) -> Result<Option<(usize, Token<'a>)>, SyntaxError> {
         if self.peeked.is_none() {
             self.peeked = self.read()?;
         }
@@ -50,14 +50,14 @@ impl<'a> Tokens<'a> {
     }
 
     /// Takes the next token and its line; `None` at the end.
-    pub(super) fn take(&mut self) -> Result<Option<(usize, Token<'a>)>, Fault> {
+    pub(super) fn take(&mut self) -> Result<Option<(usize, Token<'a>)>, SyntaxError> {
         match self.peeked.take() {
             Some(token) => Ok(Some(token)),
             None => self.read(),
         }
     }
 
-    fn read(&mut self) -> Result<Option<(usize, Token<'a>)>, Fault> {
+    fn read(&mut self) -> Result<Option<(usize, Token<'a>)>, SyntaxError> {
         self.pass_blanks();
         let line = self.line;
         let Some(first) = self.rest.chars().next() else { return Ok(None) };

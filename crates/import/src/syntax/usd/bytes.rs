@@ -17,7 +17,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Bytes after the position.
-    pub(super) fn left(&self) -> u64 {
+    pub(super) fn remaining(&self) -> u64 {
         self.all.len().saturating_sub(self.at) as u64
     }
 
@@ -30,10 +30,10 @@ impl<'a> Bytes<'a> {
     }
 
     pub(super) fn take(&mut self, count: u64) -> Result<&'a [u8], String> {
-        let count = usize::try_from(count).ok().filter(|_| count <= self.left()).ok_or("the file is truncated")?;
-        let taken = &self.all[self.at..self.at + count];
+        let count = usize::try_from(count).ok().filter(|_| count <= self.remaining()).ok_or("the file is truncated")?;
+        let slice = &self.all[self.at..self.at + count];
         self.at += count;
-        Ok(taken)
+        Ok(slice)
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], String> {
@@ -61,9 +61,9 @@ impl<'a> Bytes<'a> {
     /// Reads a count of items of at least `size` bytes each.
     pub(super) fn count(&mut self, size: u64) -> Result<u64, String> {
         let count = self.u64()?;
-        match count.checked_mul(size.max(1)).is_some_and(|bytes| bytes <= self.left()) {
+        match count.checked_mul(size.max(1)).is_some_and(|bytes| bytes <= self.remaining()) {
             true => Ok(count),
-            false => Err(format!("{count} entries are stated, and {} bytes remain", self.left())),
+            false => Err(format!("{count} entries are stated, and {} bytes remain", self.remaining())),
         }
     }
 }

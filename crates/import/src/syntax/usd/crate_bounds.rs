@@ -107,7 +107,7 @@ impl<'a> Crate<'a> {
     }
 
     /// Decompresses bytes: one byte for the number of chunks, which must be one, and a block.
-    fn unpacked(&mut self, reader: &mut Bytes<'_>, most: u64) -> Result<Vec<u8>, String> {
+    fn unpacked(&mut self, reader: &mut Bytes<'_>, max: u64) -> Result<Vec<u8>, String> {
         let size = reader.count(1)?;
         let packed = reader.take(size)?;
         let [chunks, block @ ..] = packed else { return Err("a compressed block is empty".to_owned()) };
@@ -115,9 +115,9 @@ impl<'a> Crate<'a> {
             return Err("a compressed block has more than 2 GiB, which is not supported".to_owned());
         }
         // The block cannot give more than this, so no more is allocated.
-        let most = most.min((block.len() as u64).saturating_mul(MAX_RATIO));
-        self.spend(most, 1)?;
-        let mut unpacked = vec![0; usize::try_from(most).map_err(|_| "a compressed block is too large")?];
+        let max_bytes = max.min((block.len() as u64).saturating_mul(MAX_RATIO));
+        self.spend(max_bytes, 1)?;
+        let mut unpacked = vec![0; usize::try_from(max_bytes).map_err(|_| "a compressed block is too large")?];
         let size =
             lz4_flex::block::decompress_into(block, &mut unpacked).map_err(|e| format!("a compressed block: {e}"))?;
         unpacked.truncate(size);
@@ -178,22 +178,22 @@ impl<'a> Crate<'a> {
             let mut list = || self.integers(&mut reader, count).and_then(|packed| decoded(&packed, count));
             [list()?, list()?, list()?]
         };
-        let most = usize::try_from(paths).map_err(|_| "too many paths")?;
-        self.paths = vec![0; most];
+        let max = usize::try_from(paths).map_err(|_| "too many paths")?;
+        self.paths = vec![0; max];
         self.walk_paths([&indices, &elements, &jumps])
     }
 
     /// Walks the tree of paths like `openusd`. A jump of 0 means that a sibling follows; −1: a child follows; −2: neither; above 0: a child follows, with a
     /// sibling at that distance. No position is visited twice.
     fn walk_paths(&mut self, [indices, elements, jumps]: [&[i32]; 3]) -> Result<(), String> {
-        let mut seen = vec![false; jumps.len()];
+        let mut visited = vec![false; jumps.len()];
         // Positions, lengths of their parents, and depths; the root has no parent.
         let mut pending = if jumps.is_empty() { Vec::new() } else { vec![(0_usize, None, 0)] };
         while let Some((mut at, mut parent, mut depth)) = pending.pop() {
             loop {
-                let fault = || format!("the path tree is damaged at entry {at}");
-                if std::mem::replace(seen.get_mut(at).ok_or_else(fault)?, true) || depth > MAX_DEPTH {
-                    return Err(fault());
+                let error = || format!("the path tree is damaged at entry {at}");
+                if std::mem::replace(visited.get_mut(at).ok_or_else(error)?, true) || depth > MAX_DEPTH {
+                    return Err(error());
                 }
                 let length = match parent {
                     None => 1,
@@ -201,14 +201,14 @@ impl<'a> Crate<'a> {
                         let token = elements[at].unsigned_abs() as usize;
                         // Braces other than those of variants send `openusd` into a loop.
                         if self.in_paths.get(token) != Some(&true) {
-                            return Err(fault());
+                            return Err(error());
                         }
-                        parent + 1 + self.tokens.get(token).ok_or_else(fault)?
+                        parent + 1 + self.tokens.get(token).ok_or_else(error)?
                     }
                 };
                 self.spend(1, OVERHEAD + length)?;
                 let slot = if parent.is_none() { at } else { indices[at] as u32 as usize };
-                *self.paths.get_mut(slot).ok_or_else(fault)? = length;
+                *self.paths.get_mut(slot).ok_or_else(error)? = length;
                 let above = parent.unwrap_or(length);
                 let jump = jumps[at];
                 let (has_child, has_sibling) = (jump > 0 || jump == -1, jump >= 0);
@@ -248,7 +248,7 @@ fn decoded(packed: &[u8], count: u64) -> Result<Vec<i32>, String> {
     let mut reader = Bytes::new(packed);
     let common = reader.u32()? as i32;
     let codes = reader.take(count.div_ceil(4))?;
-    let (mut last, mut made) = (0_i32, Vec::with_capacity(count as usize));
+    let (mut last, mut unpacked) = (0_i32, Vec::with_capacity(count as usize));
     for i in 0..count as usize {
         let difference = match codes[i / 4] >> (2 * (i % 4)) & 3 {
             0 => common,
@@ -257,9 +257,9 @@ fn decoded(packed: &[u8], count: u64) -> Result<Vec<i32>, String> {
             _ => reader.u32()? as i32,
         };
         last = last.wrapping_add(difference);
-        made.push(last);
+        unpacked.push(last);
     }
-    Ok(made)
+    Ok(unpacked)
 }
 
 #[cfg(test)]

@@ -95,7 +95,7 @@ impl Crate<'_> {
         // Packed integers are decoded through their longest form.
         self.spend(count, if is_packed { 2 * size + 16 } else { size })?;
         if !is_packed {
-            return match count.checked_mul(size).is_some_and(|bytes| bytes <= reader.left()) {
+            return match count.checked_mul(size).is_some_and(|bytes| bytes <= reader.remaining()) {
                 true => Ok(()),
                 false => Err(format!("an array of {count} elements is stated, and the file is too small for it")),
             };

@@ -21,36 +21,36 @@ const CRATE: &[u8] = b"PXR-USDC";
 
 /// Files of a scene.
 #[derive(Clone)]
-pub(super) struct Layers(Rc<Shared>);
+pub(super) struct Layers(Rc<SharedLayers>);
 
-struct Shared {
+struct SharedLayers {
     paths: DefaultResolver,
     sandbox: Sandbox,
     packages: RefCell<HashMap<PathBuf, Rc<Package>>>,
     /// Checked layers, by name.
-    seen: RefCell<HashSet<String>>,
+    read_layers: RefCell<HashSet<String>>,
     bytes: Cell<u64>,
     arcs: RefCell<Arcs>,
     /// First refused file: `openusd` continues without it.
-    fault: RefCell<Option<Error>>,
+    error: RefCell<Option<Error>>,
 }
 
 impl Layers {
     pub(super) fn new(sandbox: &Sandbox) -> Self {
-        Self(Rc::new(Shared {
+        Self(Rc::new(SharedLayers {
             paths: DefaultResolver::new(),
             sandbox: sandbox.clone(),
             packages: RefCell::default(),
-            seen: RefCell::default(),
+            read_layers: RefCell::default(),
             bytes: Cell::new(0),
             arcs: RefCell::default(),
-            fault: RefCell::default(),
+            error: RefCell::default(),
         }))
     }
 
     /// First refused file.
-    pub(super) fn fault(&self) -> Option<Error> {
-        self.0.fault.borrow().clone()
+    pub(super) fn first_error(&self) -> Option<Error> {
+        self.0.error.borrow().clone()
     }
 
     /// Location of a file that a value names, from its resolved path.
@@ -64,7 +64,7 @@ impl Layers {
     }
 
     fn read(&self, file: &Path) -> Result<Vec<u8>, Error> {
-        self.0.sandbox.check(file).map_err(|told| Error::missing(file, told))?;
+        self.0.sandbox.check(file).map_err(|problem| Error::missing(file, problem))?;
         read_bytes(file, "USD")
     }
 
@@ -72,7 +72,7 @@ impl Layers {
         if let Some(known) = self.0.packages.borrow().get(file) {
             return Ok(known.clone());
         }
-        let package = Package::new(self.read(file)?).map_err(|told| Error::new(file, told))?;
+        let package = Package::new(self.read(file)?).map_err(|problem| Error::new(file, problem))?;
         if package.layers().next().is_none() {
             return Err(Error::new(file, format!("the package has no layer; it contains {}", package.shown())));
         }
@@ -86,24 +86,24 @@ impl Layers {
         let (file, bytes) = match split_package_relative_path_outer(resolved) {
             Some((package, name)) if is_package_relative_path(resolved) => {
                 let file = PathBuf::from(package);
-                let found = self.package(&file)?.file(&name).map(<[u8]>::to_vec);
-                let found = found.ok_or_else(|| Error::new(&file, format!("the package has no file \"{name}\"")))?;
-                (file, found)
+                let content = self.package(&file)?.file(&name).map(<[u8]>::to_vec);
+                let content = content.ok_or_else(|| Error::new(&file, format!("the package has no file \"{name}\"")))?;
+                (file, content)
             }
             _ if Path::new(resolved).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("usdz")) => {
-                return Ok(self.package(Path::new(resolved))?.of_layers());
+                return Ok(self.package(Path::new(resolved))?.layers_only());
             }
             _ => (PathBuf::from(resolved), self.read(Path::new(resolved))?),
         };
-        if self.0.seen.borrow().contains(resolved) {
+        if self.0.read_layers.borrow().contains(resolved) {
             return Ok(bytes);
         }
         self.0.bytes.set(self.0.bytes.get() + bytes.len() as u64);
-        limits::MESH.check_unpacked(self.0.bytes.get()).map_err(|told| Error::new(&file, told))?;
+        limits::MESH.check_unpacked(self.0.bytes.get()).map_err(|problem| Error::new(&file, problem))?;
         let checked = if bytes.starts_with(CRATE) { check_crate(&bytes) } else { check_text(&bytes) };
         let checked = checked.and_then(|()| self.check_arcs(&bytes));
-        checked.map_err(|told| Error::new(&file, format!("damaged, or not a supported scene: {told}")))?;
-        self.0.seen.borrow_mut().insert(resolved.to_owned());
+        checked.map_err(|problem| Error::new(&file, format!("damaged, or not a supported scene: {problem}")))?;
+        self.0.read_layers.borrow_mut().insert(resolved.to_owned());
         Ok(bytes)
     }
 }
@@ -112,7 +112,7 @@ impl Layers {
     /// Parses a layer with classes separately, to find circles; the composer reports one that cannot be parsed.
     fn check_arcs(&self, bytes: &[u8]) -> Result<(), String> {
         let is_crate = bytes.starts_with(CRATE);
-        let has = |word: &[u8]| bytes.windows(word.len()).any(|found| found == word);
+        let has = |word: &[u8]| bytes.windows(word.len()).any(|window| window == word);
         // Names of a crate's fields are compressed.
         if !is_crate && !has(b"inherit") && !has(b"specializes") {
             return Ok(());
@@ -155,9 +155,9 @@ impl Resolver for Layers {
         match self.opened(&resolved) {
             Ok(bytes) => Ok(Box::new(io::Cursor::new(bytes))),
             Err(error) => {
-                let told = io::Error::other(error.to_string());
-                self.0.fault.borrow_mut().get_or_insert(error);
-                Err(told)
+                let io_error = io::Error::other(error.to_string());
+                self.0.error.borrow_mut().get_or_insert(error);
+                Err(io_error)
             }
         }
     }

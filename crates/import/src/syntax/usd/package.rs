@@ -29,7 +29,7 @@ pub(super) struct Package {
 impl Package {
     /// Parses a package.
     pub(super) fn new(bytes: Vec<u8>) -> Result<Self, String> {
-        let entries = entries(&bytes).map_err(|told| format!("the package cannot be read: {told}"))?;
+        let entries = entries(&bytes).map_err(|problem| format!("the package cannot be read: {problem}"))?;
         Ok(Self { bytes, entries })
     }
 
@@ -45,11 +45,11 @@ impl Package {
     }
 
     /// Returns a package of the layers alone, without ambiguous content.
-    pub(super) fn of_layers(&self) -> Vec<u8> {
-        let (mut made, mut central) = (Vec::new(), Vec::new());
+    pub(super) fn layers_only(&self) -> Vec<u8> {
+        let (mut archive, mut central) = (Vec::new(), Vec::new());
         let mut count = 0_u16;
         for entry in self.layers().take(usize::from(u16::MAX)) {
-            let (at, data) = (made.len() as u32, &self.bytes[entry.from..entry.to]);
+            let (at, data) = (archive.len() as u32, &self.bytes[entry.from..entry.to]);
             let common = |out: &mut Vec<u8>| {
                 // Version 2.0, stored, a date of 1980.
                 out.extend([20, 0, 0, 0, 0, 0, 0, 0, 0x21, 0]);
@@ -58,10 +58,10 @@ impl Package {
                 out.extend((entry.name.len() as u16).to_le_bytes());
                 out.extend([0, 0]);
             };
-            made.extend(LOCAL.to_le_bytes());
-            common(&mut made);
-            made.extend(entry.name.as_bytes());
-            made.extend(data);
+            archive.extend(LOCAL.to_le_bytes());
+            common(&mut archive);
+            archive.extend(entry.name.as_bytes());
+            archive.extend(data);
             central.extend(CENTRAL.to_le_bytes());
             central.extend([20, 0]);
             common(&mut central);
@@ -70,14 +70,14 @@ impl Package {
             central.extend(entry.name.as_bytes());
             count += 1;
         }
-        let (at, size) = (made.len() as u32, central.len() as u32);
-        made.extend(central);
-        made.extend(END);
-        made.extend([0; 4]);
-        made.extend([count.to_le_bytes(), count.to_le_bytes()].concat());
-        made.extend([size.to_le_bytes(), at.to_le_bytes()].concat());
-        made.extend([0; 2]);
-        made
+        let (at, size) = (archive.len() as u32, central.len() as u32);
+        archive.extend(central);
+        archive.extend(END);
+        archive.extend([0; 4]);
+        archive.extend([count.to_le_bytes(), count.to_le_bytes()].concat());
+        archive.extend([size.to_le_bytes(), at.to_le_bytes()].concat());
+        archive.extend([0; 2]);
+        archive
     }
 
     /// Content, for a message.
@@ -110,13 +110,13 @@ fn entries(bytes: &[u8]) -> Result<Vec<Entry>, String> {
     reader.u32()?;
     let directory = reader.u32()?;
     reader.go(directory.into())?;
-    let mut found: Vec<Entry> = Vec::new();
+    let mut list: Vec<Entry> = Vec::new();
     for _ in 0..count {
-        found.push(entry(bytes, &mut reader)?);
+        list.push(entry(bytes, &mut reader)?);
     }
     // Overlapping files would decompress to more than the package.
-    match found.iter().map(|entry| (entry.to - entry.from) as u64).sum::<u64>() <= bytes.len() as u64 {
-        true => Ok(found),
+    match list.iter().map(|entry| (entry.to - entry.from) as u64).sum::<u64>() <= bytes.len() as u64 {
+        true => Ok(list),
         false => Err("its files are larger than the package".to_owned()),
     }
 }
@@ -146,8 +146,8 @@ fn entry(bytes: &[u8], reader: &mut Bytes<'_>) -> Result<Entry, String> {
         return Err(format!("\"{name}\" is not where its directory says"));
     }
     head.take(22)?;
-    let beside = u64::from(head.u16()?) + u64::from(head.u16()?);
-    head.take(beside)?;
+    let skipped = u64::from(head.u16()?) + u64::from(head.u16()?);
+    head.take(skipped)?;
     let from = head.at;
     head.take(size.into())?;
     Ok(Entry { name, crc, from, to: head.at })

@@ -30,15 +30,15 @@ const OVERHEAD: u64 = 256;
 /// If the file, or a layer of it, cannot be read or is damaged; missing layers are listed in the stage's notes.
 pub fn read_usd(file: &Path, sandbox: &Sandbox) -> Result<UsdStage, Error> {
     // Existence and kind of the file are reported in our own words.
-    sandbox.check(file).map_err(|told| Error::missing(file, told))?;
+    sandbox.check(file).map_err(|problem| Error::missing(file, problem))?;
     if !file.is_file() {
         etendue_io::source::read_bytes(file, "USD")?;
     }
     let real = std::path::absolute(file).map_err(|cause| Error::missing(file, cause.to_string()))?;
-    guarded(file, || Reading { file, layers: Layers::new(sandbox), time: 0.0, prims: 0, bytes: 0 }.stage(&real))
+    guarded(file, || UsdReader { file, layers: Layers::new(sandbox), time: 0.0, prims: 0, bytes: 0 }.stage(&real))
 }
 
-struct Reading<'a> {
+struct UsdReader<'a> {
     file: &'a Path,
     layers: Layers,
     time: f64,
@@ -46,16 +46,16 @@ struct Reading<'a> {
     bytes: u64,
 }
 
-impl Reading<'_> {
-    fn fault(&self, told: impl std::fmt::Display) -> Error {
-        Error::new(self.file, format!("the scene cannot be read: {told}"))
+impl UsdReader<'_> {
+    fn scene_error(&self, problem: impl std::fmt::Display) -> Error {
+        Error::new(self.file, format!("the scene cannot be read: {problem}"))
     }
 
     fn stage(mut self, real: &Path) -> Result<UsdStage, Error> {
         let opened = Stage::builder().resolver(self.layers.clone()).open(&real.to_string_lossy());
         let stage = opened.map_err(|cause| {
-            let place = self.layers.fault().or_else(|| self.place_of_fault(real));
-            place.unwrap_or_else(|| self.fault(format!("{cause:#}")))
+            let place = self.layers.first_error().or_else(|| self.error_place(real));
+            place.unwrap_or_else(|| self.scene_error(format!("{cause:#}")))
         })?;
         self.time = stage.start_time_code();
         let metres = number(&stage, "metersPerUnit");
@@ -69,8 +69,8 @@ impl Reading<'_> {
             _ => UsdAxis::Y,
         };
         let roots = self.children(&stage.prim("/"), 0);
-        if let Some(fault) = self.layers.fault() {
-            return Err(fault);
+        if let Some(first) = self.layers.first_error() {
+            return Err(first);
         }
         let metres_per_unit = metres.unwrap_or(0.01);
         let errors = stage.composition_errors();
@@ -83,7 +83,7 @@ impl Reading<'_> {
     }
 
     /// Line of the error in a text that is not parsed.
-    fn place_of_fault(&self, real: &Path) -> Option<Error> {
+    fn error_place(&self, real: &Path) -> Option<Error> {
         let text = String::from_utf8(etendue_io::source::read_bytes(real, "USD").ok()?).ok()?;
         let mut parser = Parser::new(&text);
         let cause = parser.parse().err()?;
@@ -93,30 +93,30 @@ impl Reading<'_> {
 
     fn children(&mut self, prim: &Prim, depth: usize) -> Result<Vec<UsdPrim>, Error> {
         if depth > MAX_DEPTH {
-            return Err(self.fault(format!("prims are nested more than {MAX_DEPTH} levels deep")));
+            return Err(self.scene_error(format!("prims are nested more than {MAX_DEPTH} levels deep")));
         }
-        let children = prim.children().map_err(|cause| self.fault(words(cause)))?;
-        let mut made = Vec::new();
+        let children = prim.children().map_err(|cause| self.scene_error(words(cause)))?;
+        let mut list = Vec::new();
         for child in children {
-            made.extend(self.prim(&child, depth)?);
+            list.extend(self.prim(&child, depth)?);
         }
-        Ok(made)
+        Ok(list)
     }
 
     /// `None` if it is no prim of the scene.
     fn prim(&mut self, prim: &Prim, depth: usize) -> Result<Option<UsdPrim>, Error> {
         let path = prim.path().as_str().to_owned();
-        let Some(mut made) = self.plain_prim(prim).map_err(|told| self.fault(format!("{path}: {told}")))? else {
+        let Some(mut converted) = self.plain_prim(prim).map_err(|problem| self.scene_error(format!("{path}: {problem}")))? else {
             return Ok(None);
         };
         self.prims += 1;
         if self.prims > MAX_PRIMS {
-            return Err(self.fault(format!(
+            return Err(self.scene_error(format!(
                 "it has more than {MAX_PRIMS} prims, counting each instance; make it smaller, or import parts of it"
             )));
         }
-        made.children = self.children(prim, depth + 1)?;
-        Ok(Some(made))
+        converted.children = self.children(prim, depth + 1)?;
+        Ok(Some(converted))
     }
 
     /// Prim without children; `None` if it is no prim of the scene.
@@ -153,17 +153,17 @@ impl Reading<'_> {
 
     fn attribute(&self, attribute: &Attribute, name: &str) -> Result<UsdAttribute, String> {
         let value = attribute.get_at::<Value>(TimeCode::new(self.time)).map_err(words)?;
-        let mut made =
+        let mut result =
             UsdAttribute { value: value.and_then(|value| plain(value, &self.layers)), ..UsdAttribute::default() };
-        made.varies = attribute.num_time_samples().map_err(words)? > 1;
+        result.varies = attribute.num_time_samples().map_err(words)? > 1;
         if name.starts_with("inputs:") || name.starts_with("outputs:") {
-            made.connections =
+            result.connections =
                 attribute.connections().map_err(words)?.iter().map(|path| path.as_str().to_owned()).collect();
         }
         if name.starts_with("primvars:") || name == "normals" {
-            made.interpolation = word(attribute.get_metadata::<Value>("interpolation").map_err(words)?);
+            result.interpolation = word(attribute.get_metadata::<Value>("interpolation").map_err(words)?);
         }
-        Ok(made)
+        Ok(result)
     }
 }
 

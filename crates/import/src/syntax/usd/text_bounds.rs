@@ -35,9 +35,9 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
             }
             (b'{' | b'(' | b'[', Some(kind)) => {
                 depths[kind] += 1;
-                let most = if kind == 0 { MAX_DEPTH } else { MAX_LISTS };
-                if depths[kind] > most {
-                    let message = format!("prims and values are nested more than {most} levels deep");
+                let max = if kind == 0 { MAX_DEPTH } else { MAX_LISTS };
+                if depths[kind] > max {
+                    let message = format!("prims and values are nested more than {max} levels deep");
                     return Err(format!("line {}: {message}", line(at)));
                 }
             }
@@ -141,8 +141,8 @@ mod tests {
         let texts = ["\"a\"".repeat(400_000), format!("def{}", " \"\"".repeat(300_000)), blanks];
         let (done, is_done) = std::sync::mpsc::channel();
         std::thread::spawn(move || done.send(texts.map(|text| check_text(text.as_bytes()))));
-        let found = is_done.recv_timeout(std::time::Duration::from_secs(20)).expect("an end within 20 s");
-        assert!(found.iter().all(Result::is_ok), "{found:?}");
+        let results = is_done.recv_timeout(std::time::Duration::from_secs(20)).expect("an end within 20 s");
+        assert!(results.iter().all(Result::is_ok), "{results:?}");
     }
 
     #[test]

@@ -163,8 +163,8 @@ impl Arcs {
         let mut is_new = false;
         for path in layer.spec_paths().iter().filter(|path| layer.spec_type(path) == Some(SpecType::Prim)) {
             for field in ["inheritPaths", "specializes"] {
-                let found = layer.try_field(path, field).map_err(|cause| cause.to_string())?;
-                let Some(Value::PathListOp(list)) = found.as_deref() else { continue };
+                let field_value = layer.try_field(path, field).map_err(|cause| cause.to_string())?;
+                let Some(Value::PathListOp(list)) = field_value.as_deref() else { continue };
                 let all = [&list.explicit_items, &list.added_items, &list.prepended_items, &list.appended_items];
                 for target in all.into_iter().flatten() {
                     let own = path.strip_all_variant_selections();

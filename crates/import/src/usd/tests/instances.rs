@@ -1,17 +1,17 @@
 //! Instancers.
 
-use super::Made;
+use super::ConvertedScene;
 
-fn instancer(more: &str, metadata: &str) -> Made {
-    Made::of(&format!(
+fn instancer(more: &str, metadata: &str) -> ConvertedScene {
+    ConvertedScene::new(&format!(
         "def PointInstancer \"i\" {metadata} {{ rel prototypes = </i/Ball> int[] protoIndices = [0, 0, 0] {more}\n\
          point3f[] positions = [(1,0,0), (2,0,0), (3,0,0)] def Sphere \"Ball\" {{ double radius = 1 }} }}\n"
     ))
 }
 
 /// Positions of the spheres along x.
-fn places(made: &Made) -> Vec<f64> {
-    made.scene.objects.iter().map(|o| o.transform.position_m.as_ref().map_or(0.0, |p| p.value[0])).collect()
+fn places(converted: &ConvertedScene) -> Vec<f64> {
+    converted.scene.objects.iter().map(|o| o.transform.position_m.as_ref().map_or(0.0, |p| p.value[0])).collect()
 }
 
 #[test]
@@ -22,8 +22,8 @@ fn inactive_and_invisible_instances_are_left_out() {
 }
 
 #[test]
-fn an_instancer_that_is_not_drawn_is_said() {
-    let made = instancer("token visibility = \"invisible\"", "");
-    assert!(made.scene.objects.is_empty() && made.says("what is invisible"), "{}", made.told);
-    assert!(!made.says("relationship"), "{}", made.told);
+fn an_instancer_that_is_not_drawn_is_reported() {
+    let converted = instancer("token visibility = \"invisible\"", "");
+    assert!(converted.scene.objects.is_empty() && converted.reports("what is invisible"), "{}", converted.report_text);
+    assert!(!converted.reports("relationship"), "{}", converted.report_text);
 }

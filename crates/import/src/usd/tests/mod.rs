@@ -20,15 +20,15 @@ const CARD: &str = "int[] faceVertexCounts = [3, 3] int[] faceVertexIndices = [0
     point3f[] points = [(0,0,0), (1,0,0), (1,2,0), (0,2,0)] uniform token subdivisionScheme = \"none\"";
 
 /// Scene, and its notes.
-struct Made {
+struct ConvertedScene {
     scene: Scene,
-    told: String,
+    report_text: String,
     files: Vec<(String, Vec<u8>)>,
 }
 
-impl Made {
+impl ConvertedScene {
     /// Imports the text of a stage in metres, z upwards; next to it are `letter.png` (colours of 8 bits), `grey.png` and `grey16.png`.
-    fn of(body: &str) -> Self {
+    fn new(body: &str) -> Self {
         Self::in_units(body, 1.0)
     }
 
@@ -47,20 +47,20 @@ impl Made {
         let stage = read_usd(&file, &Sandbox::NONE).expect("a stage");
         let mut importer = Importer::new(&file, place.path(), &stage);
         importer.read().expect("a scene");
-        let told = importer.scenery.report.lines().join("\n");
-        Self { scene: importer.scenery.scene, told, files: importer.scenery.files }
+        let report_text = importer.scenery.report.lines().join("\n");
+        Self { scene: importer.scenery.scene, report_text: told: report_text, files: importer.scenery.files }
     }
 
     /// Name of the material of an object.
     fn material_name(&self, object: &str) -> &str {
-        let found = self.scene.objects.iter().find(|found| found.name.value == object);
-        let material = found.unwrap_or_else(|| panic!("no {object}")).material.as_ref();
+        let object_record = self.scene.objects.iter().find(|entry| entry.name.value == object);
+        let material = object_record.unwrap_or_else(|| panic!("no {object}")).material.as_ref();
         material.map_or("", |name| name.value.as_str())
     }
 
     fn material(&self, object: &str) -> &Material {
         let name = self.material_name(object);
-        self.scene.materials.iter().find(|found| found.name.value == name).expect("a material")
+        self.scene.materials.iter().find(|entry| entry.name.value == name).expect("a material")
     }
 
     /// Luminance of an object's light, cd/m².
@@ -72,13 +72,13 @@ impl Made {
     }
 
     /// Returns true if a note contains the phrase.
-    fn says(&self, phrase: &str) -> bool {
-        self.told.contains(phrase)
+    fn reports(&self, phrase: &str) -> bool {
+        self.report_text.contains(phrase)
     }
 }
 
-fn near(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found}, expected {expected}");
+fn near(actual: f64, expected: f64) {
+    assert!((actual - expected).abs() <= 1e-9 * expected.abs(), "{actual}, expected {expected}");
 }
 
 /// Material of UsdPreviewSurface with these inputs.

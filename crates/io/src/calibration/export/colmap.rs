@@ -6,7 +6,7 @@
 use etendue_core::CameraPose;
 use etendue_projection::{Model, plane::DistortionTerms};
 
-use super::{NamedCamera, Refusal, fisheye, no_model, number, perspective, quaternion, shortest, without_skew};
+use super::{NamedCamera, ExportError, fisheye, no_model, number, perspective, quaternion, shortest, without_skew};
 
 const FORMAT: &str = "COLMAP";
 
@@ -18,7 +18,7 @@ pub const NO_POINTS: &str =
 ///
 /// # Errors
 /// The reason for which COLMAP cannot represent it.
-pub fn camera(camera: &NamedCamera<'_>) -> Result<String, Refusal> {
+pub fn camera(camera: &NamedCamera<'_>) -> Result<String, ExportError> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
     let (name, more) = model(calibration.model())?;
@@ -28,7 +28,7 @@ pub fn camera(camera: &NamedCamera<'_>) -> Result<String, Refusal> {
     Ok(format!("{name} {width} {height} {}", parameters.collect::<Vec<_>>().join(" ")))
 }
 
-fn model(model: &Model) -> Result<(&'static str, Vec<f64>), Refusal> {
+fn model(model: &Model) -> Result<(&'static str, Vec<f64>), ExportError> {
     if let Some(k) = fisheye(model) {
         return Ok(("OPENCV_FISHEYE", k.to_vec()));
     }
@@ -69,7 +69,7 @@ fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Option<(&'static str, Vec<
 #[must_use]
 pub fn cameras(lines: &[String], left_out: &[String]) -> String {
     let mut text = format!("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n# Number of cameras: {}\n", lines.len());
-    left_out.iter().for_each(|told| text.push_str(&format!("# left out: {told}\n")));
+    left_out.iter().for_each(|note| text.push_str(&format!("# left out: {note}\n")));
     for (i, line) in lines.iter().enumerate() {
         text.push_str(&format!("{} {line}\n", i + 1));
     }
@@ -78,7 +78,7 @@ pub fn cameras(lines: &[String], left_out: &[String]) -> String {
 
 /// Image with the pose of its camera.
 #[derive(Clone, Debug)]
-pub struct Image {
+pub struct ColmapImage {
     /// The camera, from 1.
     pub camera: usize,
     /// Pose of the camera in the world.
@@ -89,7 +89,7 @@ pub struct Image {
 
 /// `images.txt`; ids count from 1, and no image has points.
 #[must_use]
-pub fn images(images: &[Image]) -> String {
+pub fn images(images: &[ColmapImage]) -> String {
     let mut text = format!(
         "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; then POINTS2D[] as (X, Y, POINT3D_ID): none\n\
          # Number of images: {}, mean observations per image: 0\n",

@@ -16,7 +16,7 @@ use etendue_core::CameraPose;
 use etendue_projection::{Model, plane::DistortionTerms};
 use glam::{DMat4, DVec3};
 
-use super::{NamedCamera, Refusal, fisheye, list, no_model, number, perspective, quoted, shortest, without_skew};
+use super::{NamedCamera, ExportError, fisheye, list, no_model, number, perspective, quoted, shortest, without_skew};
 
 const FORMAT: &str = "Kalibr";
 
@@ -31,7 +31,7 @@ pub struct Intrinsics {
 
 /// A camera of a chain.
 #[derive(Clone, Debug)]
-pub struct Link<'a> {
+pub struct ChainLink<'a> {
     /// The camera.
     pub camera: NamedCamera<'a>,
     /// Projection: [`intrinsics`].
@@ -42,12 +42,12 @@ pub struct Link<'a> {
 
 /// Writes a chain. `frame` is the name of the frame that carries it, unless that is the world. `left_out` are sentences written above it.
 #[must_use]
-pub fn camchain(frame: Option<&str>, links: &[Link<'_>], left_out: &[String]) -> String {
+pub fn camchain(frame: Option<&str>, links: &[ChainLink<'_>], left_out: &[String]) -> String {
     let mut text = match frame {
         Some(frame) => format!("# T_cam_imu: from the frame {} to the camera's\n", quoted(frame)),
         None => String::new(),
     };
-    left_out.iter().for_each(|told| text.push_str(&format!("# left out: {told}\n")));
+    left_out.iter().for_each(|note| text.push_str(&format!("# left out: {note}\n")));
     for (i, link) in links.iter().enumerate() {
         let Intrinsics { camera_model, intrinsics, distortion_model, distortion } = &link.intrinsics;
         let [width, height] = link.camera.calibration.size_px();
@@ -77,40 +77,40 @@ pub fn camchain(frame: Option<&str>, links: &[Link<'_>], left_out: &[String]) ->
 ///
 /// # Errors
 /// The reason for which Kalibr cannot represent it.
-pub fn intrinsics(camera: &NamedCamera<'_>) -> Result<Intrinsics, Refusal> {
+pub fn intrinsics(camera: &NamedCamera<'_>) -> Result<Intrinsics, ExportError> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
     let matrix = calibration.matrix().to_opencv();
-    let mut said = model(calibration.model())?;
-    said.intrinsics.extend([matrix.fx, matrix.fy, matrix.cx, matrix.cy]);
-    Ok(said)
+    let mut result = model(calibration.model())?;
+    result.intrinsics.extend([matrix.fx, matrix.fy, matrix.cx, matrix.cy]);
+    Ok(result)
 }
 
 /// Model with its own parameters, without focal lengths and centre.
-fn model(model: &Model) -> Result<Intrinsics, Refusal> {
-    let said = |camera_model, own: &[f64], distortion_model, distortion: &[f64]| {
+fn model(model: &Model) -> Result<Intrinsics, ExportError> {
+    let build = |camera_model, own: &[f64], distortion_model, distortion: &[f64]| {
         let (intrinsics, distortion) = (own.to_vec(), distortion.to_vec());
         Ok(Intrinsics { camera_model, intrinsics, distortion_model, distortion })
     };
     if let Some(k) = fisheye(model) {
-        return said("pinhole", &[], "equi", &k);
+        return build("pinhole", &[], "equi", &k);
     }
     if let Some(k) = perspective(model).filter(|k| shortest(k, &[4]).is_some()) {
-        return said("pinhole", &[], "radtan", &k[..4]);
+        return build("pinhole", &[], "radtan", &k[..4]);
     }
     match model {
-        Model::FieldOfView(m) => said("pinhole", &[], "fov", &[m.omega_rad()]),
+        Model::FieldOfView(m) => build("pinhole", &[], "fov", &[m.omega_rad()]),
         Model::Unified(m) => match m.distortion().terms() {
             DistortionTerms {
                 numerator: [k1, k2, 0.0, 0.0],
                 denominator: [0.0, 0.0, 0.0],
                 tangential: [p1, p2],
                 prism: [0.0, 0.0, 0.0, 0.0],
-            } => said("omni", &[m.xi()], "radtan", &[k1, k2, p1, p2]),
+            } => build("omni", &[m.xi()], "radtan", &[k1, k2, p1, p2]),
             _ => Err(no_model(FORMAT, model)),
         },
-        Model::ExtendedUnified(m) => said("eucm", &[m.alpha(), m.beta()], "none", &[]),
-        Model::DoubleSphere(m) => said("ds", &[m.xi(), m.alpha()], "none", &[]),
+        Model::ExtendedUnified(m) => build("eucm", &[m.alpha(), m.beta()], "none", &[]),
+        Model::DoubleSphere(m) => build("ds", &[m.xi(), m.alpha()], "none", &[]),
         _ => Err(no_model(FORMAT, model)),
     }
 }

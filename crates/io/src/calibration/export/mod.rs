@@ -14,7 +14,7 @@ pub mod colmap;
 pub mod kalibr;
 pub mod ros;
 
-use etendue_projection::{Calibration, Model, Sense, model::Ideal, plane::DistortionTerms};
+use etendue_projection::{Calibration, Model, DistortionDirection, model::Ideal, plane::DistortionTerms};
 use glam::{DMat3, DQuat};
 
 /// Camera with its name.
@@ -27,10 +27,10 @@ pub struct NamedCamera<'a> {
 }
 
 /// Reason for which a format cannot represent a camera: the rest of a sentence that begins with the camera.
-pub type Refusal = String;
+pub type ExportError = String;
 
 /// Refusal of a camera whose model a format does not have.
-fn no_model(format: &str, model: &Model) -> Refusal {
+fn no_model(format: &str, model: &Model) -> ExportError {
     match model {
         Model::Perspective(_) => format!("{format} has no perspective model with this number of coefficients"),
         _ => format!("{format} has no model for its projection"),
@@ -38,7 +38,7 @@ fn no_model(format: &str, model: &Model) -> Refusal {
 }
 
 /// Refuses a skew, which no format supports.
-fn without_skew(format: &str, calibration: &Calibration) -> Result<(), Refusal> {
+fn without_skew(format: &str, calibration: &Calibration) -> Result<(), ExportError> {
     match calibration.matrix().skew {
         0.0 => Ok(()),
         skew => Err(format!("{format} cannot represent the skew of {skew} px in its camera matrix")),
@@ -49,7 +49,7 @@ fn without_skew(format: &str, calibration: &Calibration) -> Result<(), Refusal> 
 fn perspective(model: &Model) -> Option<[f64; 14]> {
     match model {
         Model::Ideal(Ideal::Rectilinear) => Some([0.0; 14]),
-        Model::Radial(radial) if radial.sense() == Sense::IdealToObserved => {
+        Model::Radial(radial) if radial.sense() == DistortionDirection::IdealToObserved => {
             let ([k1, k2], unit) = (radial.coefficients(), radial.unit_mm());
             let mut c = [0.0; 14];
             (c[0], c[1]) = (k1 / (unit * unit), k2 / (unit * unit * unit * unit));

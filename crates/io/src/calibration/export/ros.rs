@@ -13,7 +13,7 @@ use etendue_core::CameraPose;
 use etendue_projection::Model;
 
 use super::{
-    NamedCamera, Refusal, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
+    NamedCamera, ExportError, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
 };
 
 const FORMAT: &str = "ROS";
@@ -22,7 +22,7 @@ const FORMAT: &str = "ROS";
 ///
 /// # Errors
 /// The reason for which ROS cannot represent it.
-pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, Refusal> {
+pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, ExportError> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
     let (model, coefficients) = distortion(calibration.model())?;
@@ -45,7 +45,7 @@ pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, Refu
     ))
 }
 
-fn distortion(model: &Model) -> Result<(&'static str, Vec<f64>), Refusal> {
+fn distortion(model: &Model) -> Result<(&'static str, Vec<f64>), ExportError> {
     if let Some(k) = fisheye(model) {
         return Ok(("equidistant", k.to_vec()));
     }
@@ -81,7 +81,7 @@ pub fn static_transforms(transforms: &[StaticTransform<'_>], left_out: &[String]
     let mut text = String::from(
         "# Where frames are fixed: translation (m) and rotation take points of the child to the parent.\n",
     );
-    left_out.iter().for_each(|told| text.push_str(&format!("# left out: {told}\n")));
+    left_out.iter().for_each(|note| text.push_str(&format!("# left out: {note}\n")));
     if transforms.is_empty() {
         text.push_str("transforms: []\n");
         return text;

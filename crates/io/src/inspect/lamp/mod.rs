@@ -22,9 +22,9 @@ pub(super) fn report(file: &Path) -> Result<FileReport, Error> {
     report.state("lamps", format!("{}, {} W", lamp.lamps, lamp.watts));
     tilt(&lamp, &mut report);
     passing_beam::state(&lamp, &mut report);
-    report.channels.push(ChannelReport::of("intensity (cd)", "text", lamp.candela.iter().copied()));
+    report.channels.push(ChannelReport::new("intensity (cd)", "text", lamp.candela.iter().copied()));
     report.notes.extend(lamp.report.iter().cloned());
-    report.preview = Some(plot::of(&lamp));
+    report.preview = Some(plot::draw(&lamp));
     Ok(report)
 }
 
@@ -60,8 +60,8 @@ fn light(lamp: &PhotometryAsset, report: &mut FileReport) {
 
 fn stated(lamp: &PhotometryAsset, flux: f64) -> String {
     match (lamp.rated_lumens, lamp.output_ratio, lamp.stated_flux_lm()) {
-        (Some(rated), Some(share), Some(stated)) => {
-            format!("{stated:.1} lm ({rated} lm of the lamps × light output ratio {share}); ratio {:.4}", flux / stated)
+        (Some(rated), Some(fraction), Some(stated)) => {
+            format!("{stated:.1} lm ({rated} lm of the lamps × light output ratio {fraction}); ratio {:.4}", flux / stated)
         }
         (Some(rated), None, _) => format!("{rated} lm of the lamps; ratio {:.4}", flux / rated),
         _ => "none: absolute photometry".to_owned(),
@@ -85,8 +85,8 @@ fn tilt(lamp: &PhotometryAsset, report: &mut FileReport) {
         Tilt::None => {}
         Tilt::Measured(degrees) => report.state("tilt during measurement", format!("{degrees}°")),
         Tilt::Table { geometry, factors } => {
-            let told: Vec<String> = factors.iter().map(|(degrees, factor)| format!("{degrees}°: {factor}")).collect();
-            report.state("tilt", format!("lamp-to-luminaire geometry {geometry}; {}", told.join(", ")));
+            let entries: Vec<String> = factors.iter().map(|(degrees, factor)| format!("{degrees}°: {factor}")).collect();
+            report.state("tilt", format!("lamp-to-luminaire geometry {geometry}; {}", entries.join(", ")));
         }
     }
 }

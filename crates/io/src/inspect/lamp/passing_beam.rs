@@ -7,7 +7,7 @@ use super::FileReport;
 
 /// Required intensity at a point, cd.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limit {
+pub enum RequiredIntensity {
     /// Minimum.
     AtLeast(f64),
     /// Maximum.
@@ -24,27 +24,27 @@ pub struct BeamTestPoint {
     /// Degrees up.
     pub up_deg: f64,
     /// Requirement.
-    pub limit: Limit,
+    pub limit: RequiredIntensity,
 }
 
-const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: Limit) -> BeamTestPoint {
+const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: RequiredIntensity) -> BeamTestPoint {
     BeamTestPoint { name, right_deg, up_deg, limit }
 }
 
 /// Points for right-hand traffic.
 pub const POINTS: [BeamTestPoint; 9] = [
-    point("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
-    point("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
-    point("75R", 1.15, -0.57, Limit::AtLeast(10_100.0)),
-    point("75L", -3.43, -0.57, Limit::AtMost(10_600.0)),
-    point("50L", -3.43, -0.86, Limit::AtMost(13_200.0)),
-    point("50R", 1.72, -0.86, Limit::AtLeast(10_100.0)),
-    point("50V", 0.0, -0.86, Limit::AtLeast(5_100.0)),
-    point("25L", -9.0, -1.72, Limit::AtLeast(1_700.0)),
-    point("25R", 9.0, -1.72, Limit::AtLeast(1_700.0)),
+    point("B50L", -3.43, 0.57, RequiredIntensity::AtMost(350.0)),
+    point("BR", 2.5, 1.0, RequiredIntensity::AtMost(1750.0)),
+    point("75R", 1.15, -0.57, RequiredIntensity::AtLeast(10_100.0)),
+    point("75L", -3.43, -0.57, RequiredIntensity::AtMost(10_600.0)),
+    point("50L", -3.43, -0.86, RequiredIntensity::AtMost(13_200.0)),
+    point("50R", 1.72, -0.86, RequiredIntensity::AtLeast(10_100.0)),
+    point("50V", 0.0, -0.86, RequiredIntensity::AtLeast(5_100.0)),
+    point("25L", -9.0, -1.72, RequiredIntensity::AtLeast(1_700.0)),
+    point("25R", 9.0, -1.72, RequiredIntensity::AtLeast(1_700.0)),
 ];
 
-impl Limit {
+impl RequiredIntensity {
     /// Returns true if an intensity in cd meets the requirement.
     #[must_use]
     pub fn is_met(self, candela: f64) -> bool {
@@ -64,7 +64,7 @@ impl Limit {
 
 /// Adds the table to the report of a lamp whose grid has a forward direction.
 pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
-    let mut met = [0, 0];
+    let mut passed = [0, 0];
     for BeamTestPoint { name, right_deg: right, up_deg: up, limit } in POINTS {
         let (Some(here), Some(mirrored)) = (lamp.candela_ahead(right, up), lamp.candela_ahead(-right, up)) else {
             return;
@@ -72,12 +72,12 @@ pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
         let verdict = if limit.is_met(here) { "pass" } else { "FAIL" };
         let place = format!("passing beam {name}, {} {}", side(right, "R", "L"), side(up, "U", "D"));
         report.state(&place, format!("{here:.0} cd, {}: {verdict}", limit.words()));
-        met[0] += usize::from(limit.is_met(here));
-        met[1] += usize::from(limit.is_met(mirrored));
+        passed[0] += usize::from(limit.is_met(here));
+        passed[1] += usize::from(limit.is_met(mirrored));
     }
     let count = POINTS.len();
     let message =
-        format!("{} of {count} points pass for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
+        format!("{} of {count} points pass for right-hand, {} of {count} for left-hand traffic", passed[0], passed[1]);
     report.state("passing beam, UN R112/R149 class B", message);
 }
 

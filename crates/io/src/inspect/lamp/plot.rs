@@ -18,7 +18,7 @@ use super::passing_beam;
 use crate::inspect::Preview;
 
 /// Angles (degrees, increasing) and intensities of a section through a lamp.
-type Cut = Vec<(f64, f64)>;
+type PlaneCut = Vec<(f64, f64)>;
 
 /// Sections by name, each with its beam and field angle, degrees.
 pub(super) fn beam_and_field(lamp: &PhotometryAsset) -> Vec<(&'static str, [f64; 2])> {
@@ -26,10 +26,10 @@ pub(super) fn beam_and_field(lamp: &PhotometryAsset) -> Vec<(&'static str, [f64;
         PhotometryAxes::C => vec![("C0–C180", plane(lamp, 0.0)), ("C90–C270", plane(lamp, 90.0))],
         PhotometryAxes::A | PhotometryAxes::B => fan(lamp),
     };
-    cuts.into_iter().map(|(name, cut)| (name, [0.5, 0.1].map(|share| width(&cut, share)))).collect()
+    cuts.into_iter().map(|(name, cut)| (name, [0.5, 0.1].map(|fraction| width(&cut, fraction)))).collect()
 }
 
-fn fan(lamp: &PhotometryAsset) -> Vec<(&'static str, Cut)> {
+fn fan(lamp: &PhotometryAsset) -> Vec<(&'static str, PlaneCut)> {
     let (_, h, v) = lamp.peak();
     let across = lamp.horizontal_deg.iter().map(|angle| (*angle, lamp.candela_at(*angle, v))).collect();
     let up = lamp.vertical_deg.iter().map(|angle| (*angle, lamp.candela_at(h, *angle))).collect();
@@ -37,15 +37,15 @@ fn fan(lamp: &PhotometryAsset) -> Vec<(&'static str, Cut)> {
 }
 
 /// Section of a C plane and the opposite one: angles from the nadir, negative on the other side.
-pub(super) fn plane(lamp: &PhotometryAsset, c: f64) -> Cut {
+pub(super) fn plane(lamp: &PhotometryAsset, c: f64) -> PlaneCut {
     let far = lamp.vertical_deg.iter().rev().filter(|v| **v > 0.0).map(|v| (-v, lamp.candela_at(c + 180.0, *v)));
     far.chain(lamp.vertical_deg.iter().map(|v| (*v, lamp.candela_at(c, *v)))).collect()
 }
 
 /// Full width from the largest value to the first crossing of `share` of it on both sides.
-fn width(cut: &[(f64, f64)], share: f64) -> f64 {
+fn width(cut: &[(f64, f64)], fraction: f64) -> f64 {
     let peak = (0..cut.len()).fold(0, |best, i| if cut[i].1 > cut[best].1 { i } else { best });
-    let level = share * cut[peak].1;
+    let level = fraction * cut[peak].1;
     let up = edge(cut[peak..].iter().copied(), level);
     let down = edge(cut[..=peak].iter().rev().copied(), level);
     up - down
@@ -56,8 +56,8 @@ fn edge(cut: impl Iterator<Item = (f64, f64)>, level: f64) -> f64 {
     let mut before = (0.0, f64::INFINITY);
     for (angle, value) in cut {
         if value < level {
-            let share = (before.1 - level) / (before.1 - value);
-            return before.0 + share * (angle - before.0);
+            let fraction = (before.1 - level) / (before.1 - value);
+            return before.0 + fraction * (angle - before.0);
         }
         before = (angle, value);
     }
@@ -71,7 +71,7 @@ const BLUE: [u8; 3] = [30, 60, 200];
 const PALE: [u8; 3] = [215; 3];
 
 /// Image of a lamp.
-pub(super) fn of(lamp: &PhotometryAsset) -> Preview {
+pub(super) fn draw(lamp: &PhotometryAsset) -> Preview {
     match lamp.axes {
         PhotometryAxes::C => polar(lamp),
         PhotometryAxes::A | PhotometryAxes::B => ahead(lamp),
@@ -83,7 +83,7 @@ fn polar(lamp: &PhotometryAsset) -> Preview {
     let (peak, _, _) = lamp.peak();
     let half = PIXELS as f64 / 2.0;
     let at = |x: f64, y: f64| ((x * x + y * y).sqrt() / (0.95 * half), atan2(x, y).to_degrees());
-    picture(PIXELS, |x, y| {
+    paint(PIXELS, |x, y| {
         let corners = [(0.0, 0.0), (1.5, 0.0), (0.0, 1.5), (1.5, 1.5)].map(|(dx, dy)| at(x - half + dx, y - half + dy));
         let curve = planes.iter().rev().find(|(cut, _)| {
             let inside = corners.map(|(radius, angle)| radius * peak <= value(cut, angle));
@@ -95,8 +95,8 @@ fn polar(lamp: &PhotometryAsset) -> Preview {
 
 /// Rings at quarters and spokes every 30°.
 fn scale(corners: [(f64, f64); 4]) -> [u8; 3] {
-    let differ = |of: fn((f64, f64)) -> f64| {
-        let of_corners = corners.map(of);
+    let differ = |component: fn((f64, f64)) -> f64| {
+        let of_corners = corners.map(component);
         of_corners.iter().any(|cell| *cell != of_corners[0])
     };
     let on_ring = differ(|(radius, _)| (4.0 * radius.min(1.01)).floor());
@@ -121,12 +121,12 @@ fn ahead(lamp: &PhotometryAsset) -> Preview {
     let step = (right - left) / (PIXELS - 1) as f64;
     let rows = (((up - down) / step) as usize + 1).clamp(16, 2 * PIXELS);
     let down_step = (up - down) / (rows - 1) as f64;
-    let share = |h: f64, v: f64| lamp.candela_at(h, v) / peak;
+    let relative = |h: f64, v: f64| lamp.candela_at(h, v) / peak;
     let on = |angle: f64, line: f64, step: f64| (angle - line).abs() <= 0.5 * step;
-    picture(rows, |x, y| {
+    paint(rows, |x, y| {
         let (h, v) = (left + step * x, up - down_step * y);
-        let here = share(h, v);
-        let next = [share(h + step, v), share(h, v - down_step)];
+        let here = relative(h, v);
+        let next = [relative(h + step, v), relative(h, v - down_step)];
         let is_point =
             passing_beam::POINTS.iter().any(|p| on(h, p.right_deg, 3.0 * step) && on(v, p.up_deg, 3.0 * down_step));
         match () {
@@ -139,18 +139,18 @@ fn ahead(lamp: &PhotometryAsset) -> Preview {
 }
 
 /// Three decades down from the peak, darker than the lines.
-fn brightness(share: f64) -> u8 {
-    let decades = if share > 0.0 { log10(share) } else { f64::NEG_INFINITY };
+fn brightness(relative: f64) -> u8 {
+    let decades = if relative > 0.0 { log10(relative) } else { f64::NEG_INFINITY };
     (180.0 * (1.0 + decades / 3.0).clamp(0.0, 1.0)).round() as u8
 }
 
 /// Index of the contour interval of a fraction of the peak.
-fn line(share: f64) -> usize {
+fn line(relative: f64) -> usize {
     const LINES: [f64; 9] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
-    LINES.partition_point(|line| *line <= share)
+    LINES.partition_point(|line| *line <= relative)
 }
 
-fn picture(rows: usize, pixel: impl Fn(f64, f64) -> [u8; 3]) -> Preview {
+fn paint(rows: usize, pixel: impl Fn(f64, f64) -> [u8; 3]) -> Preview {
     let row = |y: usize| (0..PIXELS).map(move |x| (x as f64, y as f64));
     Preview { width: PIXELS, height: rows, rgb: (0..rows).flat_map(row).map(|(x, y)| pixel(x, y)).collect() }
 }

@@ -32,8 +32,8 @@ pub(super) fn numbers<const N: usize>(
     let mut values = match accessor.buffer_view {
         None => {
             // The length of an accessor with only a sparse part is limited by the count of that part.
-            let most = accessor.sparse.as_ref().map_or(0, |sparse| sparse.count.0.saturating_mul(64).max(1 << 16));
-            if accessor.count.0 > most {
+            let max_count = accessor.sparse.as_ref().map_or(0, |sparse| sparse.count.0.saturating_mul(64).max(1 << 16));
+            if accessor.count.0 > max_count {
                 return Err(message("has no data"));
             }
             vec![[0.0; N]; count]
@@ -112,7 +112,7 @@ fn element_size(components: usize, component: ComponentType) -> usize {
 }
 
 fn number_of(bytes: &[u8], component: ComponentType, normalised: bool) -> f64 {
-    let (value, most) = match (component, bytes) {
+    let (value, max_value) = match (component, bytes) {
         (ComponentType::I8, [a]) => (f64::from(*a as i8), f64::from(i8::MAX)),
         (ComponentType::U8, [a]) => (f64::from(*a), f64::from(u8::MAX)),
         (ComponentType::I16, [a, b]) => (f64::from(i16::from_le_bytes([*a, *b])), f64::from(i16::MAX)),
@@ -121,7 +121,7 @@ fn number_of(bytes: &[u8], component: ComponentType, normalised: bool) -> f64 {
         (ComponentType::F32, [a, b, c, d]) => (f64::from(f32::from_le_bytes([*a, *b, *c, *d])), 1.0),
         _ => (f64::NAN, 1.0),
     };
-    if normalised { (value / most).max(-1.0) } else { value }
+    if normalised { (value / max_value).max(-1.0) } else { value }
 }
 
 /// Refuses numbers that are not finite.

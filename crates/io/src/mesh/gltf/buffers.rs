@@ -64,7 +64,7 @@ impl Buffers {
 /// Bytes of a URI, and true if it is a file. A missing file is also searched for by its last name component next to the glTF file.
 pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), Problem> {
     if let Some(bytes) = data_uri(uri) {
-        return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("{what}: {told}").into());
+        return bytes.map(|bytes| (bytes, false)).map_err(|problem| format!("{what}: {problem}").into());
     }
     let path = find(file, uri, what, sandbox)?;
     read_bytes(&path, what)
@@ -81,18 +81,18 @@ fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let stated = folder.join(&name);
-    let beside = Path::new(&name).file_name().map(|name| folder.join(name));
-    for path in [Some(&stated), beside.as_ref()].into_iter().flatten() {
+    let sibling = Path::new(&name).file_name().map(|name| folder.join(name));
+    for path in [Some(&stated), sibling.as_ref()].into_iter().flatten() {
         sandbox.check(path).map_err(|problem| problem.within(format_args!("{what} `{uri}`")))?;
         if path.exists() {
             return Ok(path.clone());
         }
     }
     let stated_path = stated.display();
-    let words = match beside.filter(|b| *b != stated) {
+    let words = match sibling.filter(|b| *b != stated) {
         None => format!("{what} does not exist: no {stated_path}; add this file"),
-        Some(beside) => {
-            format!("{what} does not exist: neither {stated_path} nor {}; add one of these files", beside.display())
+        Some(sibling) => {
+            format!("{what} does not exist: neither {stated_path} nor {}; add one of these files", sibling.display())
         }
     };
     Err(Problem::new(ErrorCode::MissingFile, words))

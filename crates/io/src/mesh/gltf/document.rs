@@ -115,41 +115,41 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
 
 /// KHR_materials_clearcoat.
 pub(super) struct Clearcoat {
-    pub(super) share: f64,
+    pub(super) weight: f64,
     pub(super) roughness: f64,
-    pub(super) has_picture: bool,
+    pub(super) has_image: bool,
 }
 
 /// KHR_materials_sheen.
 pub(super) struct Sheen {
     pub(super) colour: [f64; 3],
     pub(super) roughness: f64,
-    pub(super) has_picture: bool,
+    pub(super) has_image: bool,
 }
 
 /// Returns an extension of a material.
-pub(super) fn of<'a>(material: &'a Material, name: &str) -> Option<&'a Value> {
+pub(super) fn extension<'a>(material: &'a Material, name: &str) -> Option<&'a Value> {
     material.extensions.as_ref()?.others.get(name)
 }
 
 pub(super) fn clearcoat(material: &Material) -> Option<Clearcoat> {
-    let value = of(material, "KHR_materials_clearcoat")?;
+    let value = extension(material, "KHR_materials_clearcoat")?;
     Some(Clearcoat {
-        share: share(value, "clearcoatFactor"),
-        roughness: share(value, "clearcoatRoughnessFactor"),
-        has_picture: ["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]
+        weight: unit_factor(value, "clearcoatFactor"),
+        roughness: unit_factor(value, "clearcoatRoughnessFactor"),
+        has_image: ["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]
             .iter()
             .any(|k| value.get(k).is_some()),
     })
 }
 
 pub(super) fn sheen(material: &Material) -> Option<Sheen> {
-    let value = of(material, "KHR_materials_sheen")?;
+    let value = extension(material, "KHR_materials_sheen")?;
     let colour = numbers(value.get("sheenColorFactor"), [0.0; 3]);
     Some(Sheen {
         colour: colour.map(|v| v.clamp(0.0, 1.0)),
-        roughness: share(value, "sheenRoughnessFactor"),
-        has_picture: ["sheenColorTexture", "sheenRoughnessTexture"].iter().any(|k| value.get(k).is_some()),
+        roughness: unit_factor(value, "sheenRoughnessFactor"),
+        has_image: ["sheenColorTexture", "sheenRoughnessTexture"].iter().any(|k| value.get(k).is_some()),
     })
 }
 
@@ -166,7 +166,7 @@ pub(super) fn normal_texture(texture: &NormalTexture) -> TextureUse {
     TextureUse { texture: texture.index.value(), layout }
 }
 
-fn share(value: &Value, key: &str) -> f64 {
+fn unit_factor(value: &Value, key: &str) -> f64 {
     value.get(key).and_then(Value::as_f64).unwrap_or(0.0).clamp(0.0, 1.0)
 }
 
@@ -215,7 +215,7 @@ pub(super) fn unused(root: &Root) -> Vec<String> {
     let mut report: Vec<String> = counts
         .into_iter()
         .filter(|(count, ..)| *count > 0)
-        .map(|(count, what, told)| format!("{count} {what}: {told}"))
+        .map(|(count, what, note)| format!("{count} {what}: {note}"))
         .collect();
     let unknown: Vec<&str> = root.extensions_used.iter().map(String::as_str).filter(|e| !USED.contains(e)).collect();
     if !unknown.is_empty() {

@@ -7,7 +7,7 @@ use gltf::{json::Root, json::validation::Checked};
 
 use super::super::vertex::{check_corners, check_range, middle_of_far, relative, unit};
 use super::accessor::{finite, numbers};
-use super::nodes::{PlacedMesh, Weights};
+use super::nodes::{PlacedMesh, SkinWeights};
 use super::{buffers::Buffers, material::UvLayout};
 use crate::Problem;
 
@@ -16,7 +16,7 @@ const CORNER_BYTES: u64 = 24;
 const VERTEX_BYTES: u64 = 120;
 
 /// Vertices of a primitive that its triangles use, in the order of first use.
-struct Parts {
+struct PrimitiveVertices {
     positions: Vec<[f64; 3]>,
     /// One per vertex, or none.
     normals: Vec<[f64; 3]>,
@@ -25,7 +25,7 @@ struct Parts {
     triangles: Vec<[u32; 3]>,
     /// Index of each vertex in the file's accessors.
     sources: Vec<usize>,
-    weights: Option<Weights>,
+    weights: Option<SkinWeights>,
 }
 
 /// All placed meshes in the file's axes; `slot_of` gives the slot and texture layout of a material.
@@ -44,10 +44,10 @@ pub(super) fn flatten(
             .flat_map(|m| &m.primitives)
             .any(|p| p.attributes.contains_key(&key))
     };
-    let mut builder = Builder {
+    let mut builder = GltfMeshBuilder {
         has_normals: has(Semantic::Normals),
         has_uvs: (0..8).any(|set| has(Semantic::TexCoords(set))),
-        ..Builder::default()
+        ..GltfMeshBuilder::default()
     };
     for (number, mesh) in root.meshes.iter().enumerate() {
         let places: Vec<&PlacedMesh> = placed.iter().filter(|p| p.mesh == number).collect();
@@ -61,7 +61,7 @@ pub(super) fn flatten(
                 continue;
             }
             let (slot, layout) = slot_of(primitive.material.map(|m| m.value()))?;
-            let parts = Parts::read(root, buffers, primitive, &layout).map_err(message)?;
+            let parts = PrimitiveVertices::read(root, buffers, primitive, &layout).map_err(message)?;
             builder.bare_vertices += if parts.uvs.is_empty() { parts.positions.len() * places.len() } else { 0 };
             for place in &places {
                 builder.add(&parts, place, slot).map_err(message)?;
@@ -99,16 +99,16 @@ fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), Problem> {
     limits::MESH.check_unpacked(bytes)
 }
 
-impl Parts {
+impl PrimitiveVertices {
     fn read(root: &Root, buffers: &Buffers, primitive: &Primitive, layout: &UvLayout) -> Result<Self, Problem> {
-        let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
-        let positions = of(Semantic::Positions).ok_or("has no positions")?;
+        let accessor = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+        let positions = accessor(Semantic::Positions).ok_or("has no positions")?;
         let positions = finite(numbers::<3>(root, buffers, positions, "POSITION")?, "position")?;
-        let normals = match of(Semantic::Normals) {
+        let normals = match accessor(Semantic::Normals) {
             Some(index) => finite(numbers::<3>(root, buffers, index, "NORMAL")?, "normal")?,
             None => Vec::new(),
         };
-        let uvs = match of(Semantic::TexCoords(layout.set)) {
+        let uvs = match accessor(Semantic::TexCoords(layout.set)) {
             Some(index) => finite(numbers::<2>(root, buffers, index, "TEXCOORD")?, "texture coordinates")?,
             None => Vec::new(),
         };
@@ -116,7 +116,7 @@ impl Parts {
             None => (0..positions.len() as u64).collect(),
             Some(index) => numbers::<1>(root, buffers, index, "indices")?.into_iter().map(|[i]| i as u64).collect(),
         };
-        let weights = Weights::read(root, buffers, primitive)?;
+        let weights = SkinWeights::read(root, buffers, primitive)?;
         let mut parts = Self {
             positions: Vec::new(),
             normals: Vec::new(),
@@ -174,7 +174,7 @@ fn triangles<'a>(primitive: &Primitive, corners: &'a [u64]) -> Box<dyn Iterator<
 
 /// Mesh under construction.
 #[derive(Default)]
-struct Builder {
+struct GltfMeshBuilder {
     has_normals: bool,
     has_uvs: bool,
     mesh: MeshAsset,
@@ -183,8 +183,8 @@ struct Builder {
     bare_vertices: usize,
 }
 
-impl Builder {
-    fn add(&mut self, parts: &Parts, place: &PlacedMesh, slot: u16) -> Result<(), Problem> {
+impl GltfMeshBuilder {
+    fn add(&mut self, parts: &PrimitiveVertices, place: &PlacedMesh, slot: u16) -> Result<(), Problem> {
         let to_file = |vertex: usize| match (&place.joints, &parts.weights) {
             (Some(joints), Some(weights)) => weights.blend(parts.sources[vertex], joints),
             _ => Ok(place.to_file),
@@ -199,7 +199,7 @@ impl Builder {
             return Err(format!("the position of vertex {vertex} is not finite; correct the model").into());
         }
         for (vertex, position) in positions.iter().enumerate() {
-            check_range(&position.to_array()).map_err(|told| format!("vertex {vertex}: {told}"))?;
+            check_range(&position.to_array()).map_err(|problem| format!("vertex {vertex}: {problem}"))?;
         }
         let mirrored = place.joints.is_none() && place.to_file.matrix3.determinant() < 0.0;
         let facing = |[a, b, c]: [u32; 3]| {

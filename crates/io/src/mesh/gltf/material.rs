@@ -6,22 +6,22 @@
 use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{
-    COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotOver, SlotSolid,
+    COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotTopLayer, SlotSolid,
     SlotSurface, SlotTransmission,
 };
 use gltf::json::material::{AlphaMode, Material};
 use gltf::{json::Root, json::validation::Checked};
 
-use super::picture::{self, Pictures, TextureUse};
+use super::picture::{self, GltfImages, TextureUse};
 use super::{buffers::Buffers, document};
 use crate::{Problem, Sandbox};
 
 pub(super) use super::picture::UvLayout;
 
 /// Default refractive index of a coat and of clear substances.
-const USUAL_INDEX: f64 = 1.5;
+const DEFAULT_INDEX: f64 = 1.5;
 /// Default cutoff of an opacity mask.
-const USUAL_CUTOFF: f64 = 0.5;
+const DEFAULT_CUTOFF: f64 = 0.5;
 
 /// Materials of the triangles, in the order of first use; `None` is the default material of the specification.
 #[derive(Default)]
@@ -30,10 +30,10 @@ pub(super) struct Materials {
 }
 
 /// Result: the materials of a mesh.
-pub(super) struct Found {
+pub(super) struct MeshMaterials {
     pub(super) slots: Vec<SlotMaterial>,
-    pub(super) pictures: Vec<(PathBuf, ImageAsset)>,
-    pub(super) picture_bytes: Vec<Vec<u8>>,
+    pub(super) images: Vec<(PathBuf, ImageAsset)>,
+    pub(super) image_bytes: Vec<Vec<u8>>,
     pub(super) report: Vec<String>,
 }
 
@@ -55,23 +55,23 @@ impl Materials {
         root: &Root,
         buffers: &Buffers,
         sandbox: &Sandbox,
-    ) -> Result<Found, Problem> {
-        let mut pictures = Pictures::new(file, root, buffers, sandbox);
+    ) -> Result<MeshMaterials, Problem> {
+        let mut images = GltfImages::new(file, root, buffers, sandbox);
         let (mut slots, mut report): (Vec<SlotMaterial>, Vec<String>) = (Vec::new(), Vec::new());
         let silent = Material::default();
         for number in &self.numbers {
             let material = number.and_then(|n| root.materials.get(n)).unwrap_or(&silent);
             let name = name_of(material, *number, &slots);
             let subject = format!("material \"{name}\"");
-            let mut reader = Reader { material, pictures: &mut pictures, notes: Vec::new() };
+            let mut reader = MaterialReader { material, images: &mut images, notes: Vec::new() };
             let layers = reader.layers().map_err(|problem| problem.within(&subject))?;
             let notes = std::mem::take(&mut reader.notes);
             report.push(format!("{subject}: {}", layers.describe()));
             report.extend(notes.into_iter().map(|note| format!("{subject}: {note}")));
             slots.push(SlotMaterial { name, surface: Some(SlotSurface::Layers(Box::new(layers))) });
         }
-        let Pictures { used, files, .. } = pictures;
-        Ok(Found { slots, pictures: used.into_iter().collect(), picture_bytes: files, report })
+        let GltfImages { used, files, .. } = images;
+        Ok(MeshMaterials { slots, images: used.into_iter().collect(), image_bytes: files, report })
     }
 }
 
@@ -96,22 +96,22 @@ fn uses(material: &Material) -> Vec<TextureUse> {
         transmission.and_then(|t| t.transmission_texture.as_ref()),
     ];
     let normals = material.normal_texture.as_ref().map(document::normal_texture);
-    infos.into_iter().flatten().map(TextureUse::of).chain(normals).collect()
+    infos.into_iter().flatten().map(TextureUse::new).chain(normals).collect()
 }
 
 /// Refractive index whose reflectance at normal incidence, (n − 1)²/(n + 1)², is a fraction of that of another.
-fn of_less_reflectance(index: f64, share: f64) -> f64 {
-    let amplitude = (index - 1.0) / (index + 1.0) * share.sqrt();
+fn index_of_scaled_reflectance(index: f64, factor: f64) -> f64 {
+    let amplitude = (index - 1.0) / (index + 1.0) * factor.sqrt();
     (1.0 + amplitude) / (1.0 - amplitude)
 }
 
-struct Reader<'m, 'p, 'a> {
+struct MaterialReader<'m, 'p, 'a> {
     material: &'m Material,
-    pictures: &'p mut Pictures<'a>,
+    images: &'p mut GltfImages<'a>,
     notes: Vec<String>,
 }
 
-impl Reader<'_, '_, '_> {
+impl MaterialReader<'_, '_, '_> {
     fn layers(&mut self) -> Result<SlotLayers, Problem> {
         let (material, pbr) = (self.material, &self.material.pbr_metallic_roughness);
         let factor = pbr.base_color_factor.0.map(|v| f64::from(v).clamp(0.0, 1.0));
@@ -119,22 +119,22 @@ impl Reader<'_, '_, '_> {
         let texture = pbr.base_color_texture.as_ref().map(|info| info.index.value());
         let base = match texture {
             None => SlotColour::LinearSrgb(colour),
-            Some(texture) if colour == [1.0; 3] => SlotColour::Picture(self.pictures.as_it_is(texture, true)?),
+            Some(texture) if colour == [1.0; 3] => SlotColour::Picture(self.images.original(texture, true)?),
             Some(texture) => {
                 let make = |image: &ImageAsset| picture::tinted(image, colour);
-                SlotColour::Picture(self.pictures.made(texture, &format!("times {colour:?}"), false, make)?)
+                SlotColour::Picture(self.images.derived(texture, &format!("times {colour:?}"), false, make)?)
             }
         };
         let is_unlit = material.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
         let metal = if is_unlit {
             SlotNumber::Number(0.0)
         } else {
-            self.of_channel(2, f64::from(pbr.metallic_factor.0), false)?
+            self.channel_number(2, f64::from(pbr.metallic_factor.0), false)?
         };
         let roughness = f64::from(pbr.roughness_factor.0);
-        let alpha = if is_unlit { SlotNumber::Number(1.0) } else { self.of_channel(1, roughness, true)? };
+        let alpha = if is_unlit { SlotNumber::Number(1.0) } else { self.channel_number(1, roughness, true)? };
         let layers = SlotLayers {
-            over: if is_unlit { SlotOver::Nothing } else { self.over(&alpha) },
+            top_layer: if is_unlit { SlotTopLayer::Nothing } else { self.over(&alpha) },
             transmission: self.transmission()?,
             emission: self.emission()?,
             opacity: self.opacity(texture, factor[3])?,
@@ -148,7 +148,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Metalness (blue) or roughness (green) of the metallic-roughness image times its factor; α is the square of the roughness.
-    fn of_channel(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, Problem> {
+    fn channel_number(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, Problem> {
         let factor = factor.clamp(0.0, 1.0);
         let rule = |v: f64| if squared { v * factor * (v * factor) } else { v * factor };
         let info = self.material.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
@@ -168,9 +168,9 @@ impl Reader<'_, '_, '_> {
     ) -> Result<SlotNumber, Problem> {
         let rule = |v: f32| rule(f64::from(v)) as f32;
         let picture = self
-            .pictures
-            .made(texture, &format!("channel {what}"), false, |image| picture::channel(image, channel, rule))?;
-        let only = self.pictures.used.get(&picture.file).and_then(picture::only_value);
+            .images
+            .derived(texture, &format!("channel {what}"), false, |image| picture::channel(image, channel, rule))?;
+        let only = self.images.used.get(&picture.file).and_then(picture::only_value);
         Ok(only.map_or(SlotNumber::Picture(picture), SlotNumber::Number))
     }
 
@@ -178,20 +178,20 @@ impl Reader<'_, '_, '_> {
         let stated = self.material.extensions.as_ref().and_then(|e| e.ior.as_ref()).map(|ior| f64::from(ior.ior.0));
         match stated {
             Some(index) if !(1.0..=4.0).contains(&index) => {
-                self.notes.push(format!("the refractive index (ior) {index} is outside 1 … 4; {USUAL_INDEX} is used"));
-                USUAL_INDEX
+                self.notes.push(format!("the refractive index (ior) {index} is outside 1 … 4; {DEFAULT_INDEX} is used"));
+                DEFAULT_INDEX
             }
-            stated => stated.unwrap_or(USUAL_INDEX),
+            stated => stated.unwrap_or(DEFAULT_INDEX),
         }
     }
 
-    fn over(&mut self, alpha: &SlotNumber) -> SlotOver {
+    fn over(&mut self, alpha: &SlotNumber) -> SlotTopLayer {
         let index = self.index();
         if let Some(sheen) = document::sheen(self.material).filter(|s| s.colour != [0.0; 3]) {
-            if sheen.has_picture {
+            if sheen.has_image {
                 self.notes.push("the sheen textures are not used".to_owned());
             }
-            return SlotOver::Sheen {
+            return SlotTopLayer::Sheen {
                 colour: sheen.colour,
                 alpha: (sheen.roughness * sheen.roughness).clamp(0.1, 1.0),
             };
@@ -203,18 +203,18 @@ impl Reader<'_, '_, '_> {
         }) {
             self.notes.push("the colour and the textures of the specular reflection are not used".to_owned());
         }
-        let index = if factor < 1.0 { of_less_reflectance(index, factor) } else { index };
-        let coat = document::clearcoat(self.material).filter(|coat| coat.share > 0.0);
-        if coat.as_ref().is_some_and(|coat| coat.has_picture) {
+        let index = if factor < 1.0 { index_of_scaled_reflectance(index, factor) } else { index };
+        let coat = document::clearcoat(self.material).filter(|coat| coat.weight > 0.0);
+        if coat.as_ref().is_some_and(|coat| coat.has_image) {
             self.notes.push("the clear-coat textures are not used".to_owned());
         }
         match coat {
             Some(coat) => {
                 let alpha = coat.roughness * coat.roughness;
-                SlotOver::TwoCoats { index: index.clamp(USUAL_INDEX, *COAT_INDICES.end()), share: coat.share, alpha }
+                SlotTopLayer::TwoCoats { index: index.clamp(DEFAULT_INDEX, *COAT_INDICES.end()), fraction: coat.weight, alpha }
             }
-            None if *alpha == SlotNumber::Number(1.0) || !COAT_INDICES.contains(&index) => SlotOver::Nothing,
-            None => SlotOver::Coat { index },
+            None if *alpha == SlotNumber::Number(1.0) || !COAT_INDICES.contains(&index) => SlotTopLayer::Nothing,
+            None => SlotTopLayer::Coat { index },
         }
     }
 
@@ -224,7 +224,7 @@ impl Reader<'_, '_, '_> {
             return Ok(None);
         };
         let factor = f64::from(transmission.transmission_factor.0).clamp(0.0, 1.0);
-        let share = match &transmission.transmission_texture {
+        let fraction = match &transmission.transmission_texture {
             None => SlotNumber::Number(factor),
             Some(info) => self.number(info.index.value(), 0, &format!("0, {factor}"), |v| v * factor)?,
         };
@@ -241,7 +241,7 @@ impl Reader<'_, '_, '_> {
                 "a solid of clear material: the mesh must be closed; the base colour does not tint it".to_owned(),
             ),
         }
-        Ok(Some(SlotTransmission { share, index: self.index(), solid }))
+        Ok(Some(SlotTransmission { fraction, index: self.index(), solid }))
     }
 
     fn emission(&mut self) -> Result<Option<SlotEmission>, Problem> {
@@ -254,15 +254,15 @@ impl Reader<'_, '_, '_> {
         if rgb_cd_m2 == [0.0; 3] {
             return Ok(None);
         }
-        let picture = match &self.material.emissive_texture {
+        let image = match &self.material.emissive_texture {
             None => None,
-            Some(info) => Some(self.pictures.as_it_is(info.index.value(), true)?),
+            Some(info) => Some(self.images.original(info.index.value(), true)?),
         };
-        Ok(Some(SlotEmission { rgb_cd_m2, picture, both_sides: self.material.double_sided }))
+        Ok(Some(SlotEmission { rgb_cd_m2, picture: image, both_sides: self.material.double_sided }))
     }
 
     fn opacity(&mut self, texture: Option<usize>, factor: f64) -> Result<Option<SlotNumber>, Problem> {
-        let cutoff = self.material.alpha_cutoff.map_or(USUAL_CUTOFF, |c| f64::from(c.0));
+        let cutoff = self.material.alpha_cutoff.map_or(DEFAULT_CUTOFF, |c| f64::from(c.0));
         let Checked::Valid(mode) = self.material.alpha_mode else { return Ok(None) };
         let rule = |v: f64| match mode {
             AlphaMode::Opaque => 1.0,
@@ -274,7 +274,7 @@ impl Reader<'_, '_, '_> {
         }
         let is_clear = match texture {
             None => false,
-            Some(texture) => picture::has_opacity(self.pictures.image(texture)?),
+            Some(texture) => picture::has_opacity(self.images.image(texture)?),
         };
         let opacity = match texture.filter(|_| is_clear) {
             None => SlotNumber::Number(rule(1.0)),
@@ -284,23 +284,23 @@ impl Reader<'_, '_, '_> {
     }
 
     fn normals(&mut self) -> Result<Option<(etendue_scene::asset::SlotPicture, f64)>, Problem> {
-        const STRONGEST: f64 = 10.0;
+        const MAX_STRENGTH: f64 = 10.0;
         let Some(map) = &self.material.normal_texture else { return Ok(None) };
         let strength = f64::from(map.scale);
-        if !(0.0..=STRONGEST).contains(&strength) {
-            self.notes.push(format!("the normal map is not used: its scale is {strength}; expected 0 … {STRONGEST}"));
+        if !(0.0..=MAX_STRENGTH).contains(&strength) {
+            self.notes.push(format!("the normal map is not used: its scale is {strength}; expected 0 … {MAX_STRENGTH}"));
             return Ok(None);
         }
-        Ok(Some((self.pictures.as_it_is(map.index.value(), false)?, strength)))
+        Ok(Some((self.images.original(map.index.value(), false)?, strength)))
     }
 
     fn note_unused(&mut self, is_unlit: bool, layers: &SlotLayers) {
         let material = self.material;
         let used = uses(material);
         let others = used.iter().skip(1).filter(|u| u.layout != used[0].layout).count();
-        let has = |name: &str| document::of(material, name).is_some();
+        let has = |name: &str| document::extension(material, name).is_some();
         let is_metal = layers.metal == SlotNumber::Number(1.0);
-        let coated = matches!(layers.over, SlotOver::TwoCoats { .. } | SlotOver::Sheen { .. });
+        let coated = matches!(layers.top_layer, SlotTopLayer::TwoCoats { .. } | SlotTopLayer::Sheen { .. });
         let mut notes = vec![
             (
                 others > 0,

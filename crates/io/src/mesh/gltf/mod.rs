@@ -36,23 +36,23 @@ pub use tracks::{GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfTrack};
 /// Reads a glTF file with its buffers and images, which must lie in `sandbox`.
 pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
-    read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))
+    read(file, &bytes, sandbox).map_err(|problem| Error::new(file, problem))
 }
 
 fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, Problem> {
     let (root, blob) = document::parse(bytes)?;
     let buffers = Buffers::read(file, &root, blob, sandbox)?;
-    let placed = nodes::placed(&root, &buffers)?;
+    let placed = nodes::placed_meshes(&root, &buffers)?;
     let mut materials = Materials::default();
     let mut mesh = flatten::flatten(&root, &buffers, &placed, |index| materials.slot_of(&root, index))?;
-    let found = materials.read(file, &root, &buffers, sandbox)?;
-    mesh.slot_materials = found.slots;
-    mesh.pictures = found.pictures;
-    mesh.report.extend(found.report);
+    let converted = materials.read(file, &root, &buffers, sandbox)?;
+    mesh.slot_materials = converted.slots;
+    mesh.embedded_images = converted.images;
+    mesh.report.extend(converted.report);
     mesh.report.extend(document::unused(&root));
     name_notes(file, &mut mesh.report);
     let parts =
-        std::iter::once(bytes).chain(buffers.external_bytes()).chain(found.picture_bytes.iter().map(Vec::as_slice));
-    mesh.hash = hash::of_parts(parts);
+        std::iter::once(bytes).chain(buffers.external_bytes()).chain(converted.image_bytes.iter().map(Vec::as_slice));
+    mesh.hash = hash::hash_parts(parts);
     Ok(mesh)
 }

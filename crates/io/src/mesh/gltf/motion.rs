@@ -17,7 +17,7 @@ use crate::{Error, Problem, Sandbox, source::read_bytes};
 #[derive(Clone, Debug)]
 pub struct GltfMotion {
     /// Animated nodes, parents before children; `parent` is an index into this list.
-    pub movers: Vec<GltfMover>,
+    pub animated_nodes: Vec<GltfMover>,
     /// Unused content, in sentences.
     pub notes: Vec<String>,
     /// The file without moving nodes, and each of these separately.
@@ -55,20 +55,20 @@ pub struct GltfMover {
 /// Damaged files.
 pub fn read_gltf_motion(file: &Path) -> Result<GltfMotion, Error> {
     let bytes = read_bytes(file, "scene")?;
-    read(file, &bytes).map_err(|told| Error::new(file, told))
+    read(file, &bytes).map_err(|problem| Error::new(file, problem))
 }
 
 fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, Problem> {
     let (root, blob) = document::parse(bytes)?;
-    let (shown, to_file) = nodes::shown(&root)?;
+    let (shown, to_file) = nodes::visible_nodes(&root)?;
     let mut notes = Vec::new();
-    let mut tracks = vec![Tracks::default(); root.nodes.len()];
+    let mut tracks = vec![NodeTracks::default(); root.nodes.len()];
     if !root.animations.is_empty() {
         let buffers = Buffers::read(file, &root, blob.clone(), &Sandbox::NONE)?;
         tracks = all_tracks(&root, &buffers, &mut notes)?;
     }
     let above = parents(&root);
-    for node in held_by_skins(&root, &above) {
+    for node in skin_nodes(&root, &above) {
         if std::mem::take(&mut tracks[node]).is_some() {
             notes.push(format!("the motion of {} is not used: skins keep their rest pose", called(&root, node)));
         }
@@ -93,17 +93,17 @@ fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, Problem> {
         }
     }
     let parts = GltfParts::new(bytes, blob, movers.iter().map(|mover| mover.node).collect(), mover_of)?;
-    Ok(GltfMotion { movers, notes, parts })
+    Ok(GltfMotion { animated_nodes: movers, notes, parts })
 }
 
 #[derive(Clone, Debug, Default)]
-struct Tracks {
+struct NodeTracks {
     translation: Option<GltfTrack<3>>,
     rotation: Option<GltfTrack<4>>,
     scale: Option<GltfTrack<3>>,
 }
 
-impl Tracks {
+impl NodeTracks {
     fn is_some(&self) -> bool {
         self.translation.is_some() || self.rotation.is_some() || self.scale.is_some()
     }
@@ -125,7 +125,7 @@ fn parents(root: &Root) -> Vec<Option<usize>> {
 }
 
 /// Joints, nodes with skins, and all their ancestors.
-fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
+fn skin_nodes(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
     let mut is_held = vec![false; root.nodes.len()];
     let joints = root.skins.iter().flat_map(|skin| &skin.joints).map(|joint| joint.value());
     let skinned = root.nodes.iter().enumerate().filter(|(_, node)| node.skin.is_some()).map(|(number, _)| number);
@@ -138,17 +138,17 @@ fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
     (0..is_held.len()).filter(|node| is_held[*node]).collect()
 }
 
-fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<Tracks>, Problem> {
-    let mut tracks = vec![Tracks::default(); root.nodes.len()];
+fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<NodeTracks>, Problem> {
+    let mut tracks = vec![NodeTracks::default(); root.nodes.len()];
     let mut keys = 0;
     for (number, animation) in root.animations.iter().enumerate() {
-        let told = |problem: Problem| problem.within(format_args!("animation {number}"));
+        let located = |problem: Problem| problem.within(format_args!("animation {number}"));
         for channel in &animation.channels {
             let sampler = animation.samplers.get(channel.sampler.value());
-            let sampler = sampler.ok_or_else(|| told("a channel refers to a sampler that does not exist".into()))?;
+            let sampler = sampler.ok_or_else(|| located("a channel refers to a sampler that does not exist".into()))?;
             let node = tracks.get_mut(channel.target.node.value());
-            let node = node.ok_or_else(|| told("a channel refers to a node that does not exist".into()))?;
-            if !add(root, buffers, channel, sampler, node, &mut keys).map_err(told)? {
+            let node = node.ok_or_else(|| located("a channel refers to a node that does not exist".into()))?;
+            if !add(root, buffers, channel, sampler, node, &mut keys).map_err(located)? {
                 let what = called(root, channel.target.node.value());
                 let note = match channel.target.path {
                     Checked::Valid(Property::MorphTargetWeights) => format!("morph targets of {what} are not used"),
@@ -169,7 +169,7 @@ fn add(
     buffers: &Buffers,
     channel: &Channel,
     sampler: &Sampler,
-    node: &mut Tracks,
+    node: &mut NodeTracks,
     keys: &mut u64,
 ) -> Result<bool, Problem> {
     let Checked::Valid(interpolation) = sampler.interpolation else {
@@ -190,29 +190,29 @@ fn add(
     let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
     let cubic = matches!(interpolation, Interpolation::CubicSpline);
     let steps = matches!(interpolation, Interpolation::Step);
-    let of = |what: &'static str| Values { root, buffers, accessor: sampler.output, what };
+    let values = |what: &'static str| TrackValues { root, buffers, accessor: sampler.output, what };
     match channel.target.path {
         Checked::Valid(Property::Rotation) => {
-            let rotation = track(times, of("rotations"), cubic, steps)?;
+            let rotation = track(times, values("rotations"), cubic, steps)?;
             tracks::check_rotation(&rotation)?;
             node.rotation = Some(rotation);
         }
-        Checked::Valid(Property::Scale) => node.scale = Some(track(times, of("scales"), cubic, steps)?),
-        _ => node.translation = Some(track(times, of("translations"), cubic, steps)?),
+        Checked::Valid(Property::Scale) => node.scale = Some(track(times, values("scales"), cubic, steps)?),
+        _ => node.translation = Some(track(times, values("translations"), cubic, steps)?),
     }
     Ok(true)
 }
 
 /// Values of a channel in a file, with their name in words.
-struct Values<'a> {
+struct TrackValues<'a> {
     root: &'a Root,
     buffers: &'a Buffers,
     accessor: gltf::json::Index<gltf::json::Accessor>,
     what: &'static str,
 }
 
-fn track<const N: usize>(times: Vec<f64>, of: Values<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, Problem> {
-    let values = finite(numbers::<N>(of.root, of.buffers, of.accessor, of.what)?, of.what)?;
+fn track<const N: usize>(times: Vec<f64>, output: TrackValues<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, Problem> {
+    let values = finite(numbers::<N>(output.root, output.buffers, output.accessor, output.what)?, output.what)?;
     tracks::track(times, values, cubic, steps)
 }
 
@@ -223,7 +223,7 @@ fn mover(
     movers: &[GltfMover],
     above: Option<usize>,
     to_file: &[DAffine3],
-    tracks: Tracks,
+    tracks: NodeTracks,
 ) -> Result<GltfMover, Problem> {
     let node = &root.nodes[number];
     let above = above.map_or(DAffine3::IDENTITY, |above| to_file[above]);
@@ -247,7 +247,7 @@ fn mover(
     if rest.2.min_element() <= 0.0 {
         return Err("it is mirrored, or its scale is 0".into());
     }
-    let Tracks { translation, rotation, scale } = tracks;
+    let NodeTracks { translation, rotation, scale } = tracks;
     if scale.as_ref().is_some_and(|track| track.values().any(|v| v.iter().any(|s| *s <= 0.0))) {
         return Err("its scale becomes 0 or negative".into());
     }

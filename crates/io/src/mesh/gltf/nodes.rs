@@ -10,8 +10,8 @@ use super::buffers::Buffers;
 use crate::Problem;
 
 /// The meshes of the scene in the order of their nodes.
-pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, Problem> {
-    let (shown, to_file) = shown(root)?;
+pub(super) fn placed_meshes(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, Problem> {
+    let (shown, to_file) = visible_nodes(root)?;
     let mut placed = Vec::new();
     for number in shown {
         let node = &root.nodes[number];
@@ -27,20 +27,20 @@ pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, 
 
 /// Nodes that the scene shows, in order: those of the default scene, else of the first, else all. Also the transform from the axes of every node of the file to
 /// those of the file.
-pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
+pub(super) fn visible_nodes(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let (roots, to_file) = tree(root)?;
     let scene = root.scene.map_or(0, |scene| scene.value());
     let mut open: Vec<usize> = match root.scenes.get(scene) {
         Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
         None => roots,
     };
-    let mut seen = vec![false; root.nodes.len()];
+    let mut visited = vec![false; root.nodes.len()];
     open.reverse();
     let mut shown = Vec::new();
     while let Some(number) = open.pop() {
         let node =
             root.nodes.get(number).ok_or_else(|| format!("the scene refers to node {number}, which does not exist"))?;
-        if std::mem::replace(&mut seen[number], true) {
+        if std::mem::replace(&mut visited[number], true) {
             return Err(format!("the scene contains node {number} twice; export the file again").into());
         }
         open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
@@ -78,7 +78,7 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let cyclic =
         |number: usize| format!("node {number} is its own descendant, or below a node that is; export the file again");
     let all: Result<_, _> =
-        to_file.into_iter().enumerate().map(|(number, found)| found.ok_or_else(|| cyclic(number))).collect();
+        to_file.into_iter().enumerate().map(|(number, transform)| transform.ok_or_else(|| cyclic(number))).collect();
     Ok((roots, all?))
 }
 
@@ -137,15 +137,15 @@ pub(super) fn joints(
 }
 
 /// Skin weights of a primitive: four joint numbers and four weights per vertex.
-pub(super) struct Weights {
+pub(super) struct SkinWeights {
     joints: Vec<[f64; 4]>,
     weights: Vec<[f64; 4]>,
 }
 
-impl Weights {
+impl SkinWeights {
     pub(super) fn read(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<Self>, Problem> {
-        let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
-        let (Some(joints), Some(weights)) = (of(Semantic::Joints(0)), of(Semantic::Weights(0))) else {
+        let accessor = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+        let (Some(joints), Some(weights)) = (accessor(Semantic::Joints(0)), accessor(Semantic::Weights(0))) else {
             return Ok(None);
         };
         let joints = numbers(root, buffers, joints, "JOINTS_0")?;
@@ -155,19 +155,19 @@ impl Weights {
 
     /// Transform from the bind pose to the file at a vertex: the weighted mean of the joints' transforms.
     pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, Problem> {
-        let told = |problem: &str| {
+        let wrong = |problem: &str| {
             Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export the file again"))
         };
         let (numbers, weights) =
-            self.joints.get(vertex).zip(self.weights.get(vertex)).ok_or_else(|| told("has no joints"))?;
+            self.joints.get(vertex).zip(self.weights.get(vertex)).ok_or_else(|| wrong("has no joints"))?;
         let sum: f64 = weights.iter().sum();
         if sum.is_nan() || sum <= 0.0 {
-            return Err(told("has no joint with a weight above 0"));
+            return Err(wrong("has no joint with a weight above 0"));
         }
         let mut blend = DAffine3::from_cols(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         for (number, weight) in numbers.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
             let joint =
-                joints.get(*number as usize).ok_or_else(|| told("refers to a joint that its skin does not have"))?;
+                joints.get(*number as usize).ok_or_else(|| wrong("refers to a joint that its skin does not have"))?;
             blend.matrix3 += joint.matrix3 * (weight / sum);
             blend.translation += joint.translation * (weight / sum);
         }

@@ -54,7 +54,7 @@ impl GltfParts {
     /// Part of a moving node, scaled by three numbers along its own axes and not moved; for `None` all static nodes. `way` gives the path, from the part's
     /// location, to a resource that the file names; `blob` is the name of its binary chunk there.
     #[must_use]
-    pub fn part(&self, mover: Option<(usize, [f64; 3])>, blob: &str, way: &dyn Fn(&str) -> String) -> Vec<u8> {
+    pub fn part(&self, mover: Option<(usize, [f64; 3])>, blob: &str, path_of: &dyn Fn(&str) -> String) -> Vec<u8> {
         let mut json = self.json.clone();
         let Some(root) = json.as_object_mut() else { return Vec::new() };
         root.remove("animations");
@@ -93,7 +93,7 @@ impl GltfParts {
                 match (entry.get("uri").and_then(Value::as_str), first) {
                     (Some(uri), _) if uri.starts_with("data:") => {}
                     (Some(uri), _) => {
-                        let led = escaped(&way(&unescaped(uri)));
+                        let led = escaped(&path_of(&unescaped(uri)));
                         entry.insert("uri".to_owned(), json!(led));
                     }
                     (None, Some(blob)) if i == 0 && self.blob.is_some() => {

@@ -11,7 +11,7 @@ use gltf::json::texture::{Info, WrappingMode};
 use gltf::{json::Root, json::validation::Checked};
 
 use super::buffers::{Buffers, linked};
-use crate::{Problem, Sandbox, hash, picture::decode_picture};
+use crate::{Problem, Sandbox, hash, picture::decode_image};
 
 /// Texture as used by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl UvLayout {
 }
 
 impl TextureUse {
-    pub(super) fn of(info: &Info) -> Self {
+    pub(super) fn new(info: &Info) -> Self {
         let mut layout = UvLayout { set: info.tex_coord, ..UvLayout::PLAIN };
         if let Some(transform) = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref()) {
             layout = UvLayout {
@@ -57,7 +57,7 @@ impl TextureUse {
 }
 
 /// Images as read, each once, and images made from them.
-pub(super) struct Pictures<'a> {
+pub(super) struct GltfImages<'a> {
     file: &'a Path,
     root: &'a Root,
     buffers: &'a Buffers,
@@ -70,7 +70,7 @@ pub(super) struct Pictures<'a> {
     unpacked: u64,
 }
 
-impl<'a> Pictures<'a> {
+impl<'a> GltfImages<'a> {
     pub(super) fn new(file: &'a Path, root: &'a Root, buffers: &'a Buffers, sandbox: &'a Sandbox) -> Self {
         Self {
             file,
@@ -96,7 +96,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// The same image for a material.
-    pub(super) fn as_it_is(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, Problem> {
+    pub(super) fn original(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, Problem> {
         let number = self.image_of(texture)?;
         let image = self.image(texture)?.clone();
         let name = PathBuf::from(format!("{}#image {number}", self.file.display()));
@@ -104,7 +104,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Image made from that image; `what` describes the operation in words that no other has.
-    pub(super) fn made(
+    pub(super) fn derived(
         &mut self,
         texture: usize,
         what: &str,
@@ -113,11 +113,11 @@ impl<'a> Pictures<'a> {
     ) -> Result<SlotPicture, Problem> {
         let number = self.image_of(texture)?;
         let name = PathBuf::from(format!("{}#image {number}, {what}", self.file.display()));
-        let made = match self.used.get(&name) {
+        let derived = match self.used.get(&name) {
             Some(_) => None,
             None => Some(make(self.image(texture)?)),
         };
-        match made {
+        match derived {
             Some(image) => self.keep(name, image, texture, is_encoded),
             None => Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) }),
         }
@@ -138,8 +138,8 @@ impl<'a> Pictures<'a> {
     }
 
     fn image_of(&self, texture: usize) -> Result<usize, Problem> {
-        let found = self.root.textures.get(texture).ok_or_else(|| format!("texture {texture} does not exist"))?;
-        Ok(found.source.value())
+        let entry = self.root.textures.get(texture).ok_or_else(|| format!("texture {texture} does not exist"))?;
+        Ok(entry.source.value())
     }
 
     /// Limits the total size of all images: materials may make many from one.
@@ -161,14 +161,14 @@ impl<'a> Pictures<'a> {
                     .buffer_views
                     .get(view.value())
                     .ok_or_else(|| format!("{what} refers to a buffer view that does not exist"))?;
-                (self.buffers.view(view).map_err(|told| format!("{what} refers to {told}"))?.to_vec(), false)
+                (self.buffers.view(view).map_err(|problem| format!("{what} refers to {problem}"))?.to_vec(), false)
             }
             (None, None) => return Err(format!("{what} has neither \"uri\" nor \"bufferView\"").into()),
         };
         if bytes.is_empty() {
             return Err(format!("{what} is empty").into());
         }
-        let decoded = decode_picture(Path::new(&what), &bytes).map_err(|error| error.to_string())?;
+        let decoded = decode_image(Path::new(&what), &bytes).map_err(|error| error.to_string())?;
         if is_file {
             self.files.push(bytes);
         }
@@ -178,12 +178,12 @@ impl<'a> Pictures<'a> {
     fn wrap(&self, texture: usize) -> [SlotWrap; 2] {
         let sampler =
             self.root.textures.get(texture).and_then(|t| t.sampler).and_then(|s| self.root.samplers.get(s.value()));
-        let of = |mode: &Checked<WrappingMode>| match mode {
+        let wrap_of = |mode: &Checked<WrappingMode>| match mode {
             Checked::Valid(WrappingMode::ClampToEdge) => SlotWrap::Clamp,
             Checked::Valid(WrappingMode::MirroredRepeat) => SlotWrap::Mirror,
             Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => SlotWrap::Repeat,
         };
-        sampler.map_or([SlotWrap::Repeat; 2], |s| [of(&s.wrap_s), of(&s.wrap_t)])
+        sampler.map_or([SlotWrap::Repeat; 2], |s| [wrap_of(&s.wrap_s), wrap_of(&s.wrap_t)])
     }
 }
 
@@ -211,13 +211,13 @@ pub(super) fn tinted(image: &ImageAsset, factor: [f64; 3]) -> ImageAsset {
         let linear = [r, g, b].map(colour::decode);
         std::array::from_fn(|i| (linear[i] * factor[i] as f32).clamp(0.0, 1.0))
     };
-    of(image, ImagePixels::Rgb32F(pixels(image).map(tint).collect()))
+    with_pixels(image, ImagePixels::Rgb32F(pixels(image).map(tint).collect()))
 }
 
 /// Numbers of one channel, by a rule.
 pub(super) fn channel(image: &ImageAsset, channel: usize, rule: impl Fn(f32) -> f32) -> ImageAsset {
     let number = |p: [f32; 4]| (rule(p[channel]).clamp(0.0, 1.0) * 65_535.0 + 0.5) as u16;
-    of(image, ImagePixels::Gray16(pixels(image).map(number).collect()))
+    with_pixels(image, ImagePixels::Gray16(pixels(image).map(number).collect()))
 }
 
 /// Value of a constant image; `None` if values differ.
@@ -227,6 +227,6 @@ pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
     numbers.iter().all(|n| n == first).then(|| f64::from(*first) / 65_535.0)
 }
 
-fn of(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
-    ImageAsset { width: image.width, height: image.height, pixels, to_rec_709: None, hash: hash::of_bytes(&image.hash) }
+fn with_pixels(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
+    ImageAsset { width: image.width, height: image.height, pixels, to_rec_709: None, hash: hash::hash_bytes(&image.hash) }
 }

@@ -95,12 +95,12 @@ pub enum GltfProjection {
 /// Damaged files, or illegal numbers of a light or camera.
 pub fn read_gltf_stage(file: &Path) -> Result<GltfStage, Error> {
     let bytes = read_bytes(file, "scene")?;
-    read(&bytes).map_err(|told| Error::new(file, told))
+    read(&bytes).map_err(|problem| Error::new(file, problem))
 }
 
 fn read(bytes: &[u8]) -> Result<GltfStage, Problem> {
     let (root, _) = document::parse(bytes)?;
-    let (shown, to_file) = nodes::shown(&root)?;
+    let (shown, to_file) = nodes::visible_nodes(&root)?;
     let mut stage = GltfStage { animations: root.animations.len(), ..GltfStage::default() };
     for number in shown {
         let (node, to_file) = (&root.nodes[number], to_file[number]);
@@ -151,8 +151,8 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, Problem> {
         (Checked::Valid(Type::Spot), Some(spot)) => {
             let (inner_rad, outer_rad) = (f64::from(spot.inner_cone_angle), f64::from(spot.outer_cone_angle));
             // π/2 rounded to 32 bits may exceed it.
-            let most = std::f64::consts::FRAC_PI_2 + 1e-6;
-            match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
+            let max = std::f64::consts::FRAC_PI_2 + 1e-6;
+            match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= max {
                 true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),
                 false => {
                     Err(format!("the cone angles are {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2")

@@ -100,7 +100,7 @@ impl<const N: usize> GltfTrack<N> {
     pub fn at(&self, time_s: f64, between: impl Fn([f64; N], [f64; N], f64) -> [f64; N]) -> [f64; N] {
         let last = self.times_s.len() - 1;
         let next = self.times_s.partition_point(|t| *t <= time_s);
-        let (i, share) = match next {
+        let (i, fraction) = match next {
             0 => (0, 0.0),
             next if next > last => (last, 0.0),
             next => {
@@ -110,13 +110,13 @@ impl<const N: usize> GltfTrack<N> {
         };
         match &self.keys {
             GltfKeys::Step(values) => values[i],
-            GltfKeys::Linear(values) if share == 0.0 => values[i],
-            GltfKeys::Linear(values) => between(values[i], values[i + 1], share),
-            GltfKeys::Cubic(keys) if share == 0.0 => keys[i][1],
+            GltfKeys::Linear(values) if fraction == 0.0 => values[i],
+            GltfKeys::Linear(values) => between(values[i], values[i + 1], fraction),
+            GltfKeys::Cubic(keys) if fraction == 0.0 => keys[i][1],
             GltfKeys::Cubic(keys) => {
                 let step = self.times_s[i + 1] - self.times_s[i];
                 let ([_, v0, b0], [a1, v1, _]) = (keys[i], keys[i + 1]);
-                let (t, t2, t3) = (share, share * share, share * share * share);
+                let (t, t2, t3) = (fraction, fraction * fraction, fraction * fraction * fraction);
                 std::array::from_fn(|n| {
                     (2.0 * t3 - 3.0 * t2 + 1.0) * v0[n]
                         + step * (t3 - 2.0 * t2 + t) * b0[n]
@@ -132,8 +132,8 @@ impl<const N: usize> GltfTrack<N> {
 mod tests {
     use super::*;
 
-    fn straight(a: [f64; 1], b: [f64; 1], share: f64) -> [f64; 1] {
-        [a[0] + share * (b[0] - a[0])]
+    fn straight(a: [f64; 1], b: [f64; 1], fraction: f64) -> [f64; 1] {
+        [a[0] + fraction * (b[0] - a[0])]
     }
 
     #[test]

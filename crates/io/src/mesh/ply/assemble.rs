@@ -2,9 +2,9 @@
 
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
 
-use super::faces::{Face, has_uvs, is_used, polygons, strips};
-use super::header::{Element, Header, shortened};
-use super::input::Input;
+use super::faces::{PlyFace, has_uvs, is_used, polygons, strips};
+use super::header::{PlyElement, PlyHeader, shortened};
+use super::input::PlyInput;
 use crate::Problem;
 use crate::mesh::polygon::{newell, triangulate};
 use crate::mesh::vertex::{check_corners, check_range, middle_of_far, relative, unit};
@@ -13,8 +13,8 @@ const COLOURS: [&str; 8] =
     ["red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"];
 
 /// The mesh of all elements.
-pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, Problem> {
-    let mut builder = Builder::default();
+pub(super) fn mesh(header: &PlyHeader, input: &mut PlyInput<'_>) -> Result<MeshAsset, Problem> {
+    let mut builder = PlyMeshBuilder::default();
     for element in &header.elements {
         match &*element.name {
             "vertex" => builder.vertices(element, input)?,
@@ -32,7 +32,7 @@ pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, 
 
 /// Mesh under construction.
 #[derive(Default)]
-struct Builder {
+struct PlyMeshBuilder {
     vertices: Option<Vertices>,
     mesh: MeshAsset,
     /// Index in the file of each vertex of the mesh, if corners have their own vertices.
@@ -43,8 +43,8 @@ struct Builder {
     unused_elements: Vec<(String, usize)>,
 }
 
-impl Builder {
-    fn vertices(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
+impl PlyMeshBuilder {
+    fn vertices(&mut self, element: &PlyElement, input: &mut PlyInput<'_>) -> Result<(), Problem> {
         let (vertices, unused) = Vertices::read(element, input)?;
         self.vertices = Some(vertices);
         self.unused.extend(unused);
@@ -55,11 +55,11 @@ impl Builder {
         self.vertices.as_ref().ok_or_else(|| "the faces precede the vertices; export the mesh again".into())
     }
 
-    fn faces(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
+    fn faces(&mut self, element: &PlyElement, input: &mut PlyInput<'_>) -> Result<(), Problem> {
         let count = self.known_vertices()?.positions.len();
         // Counted first, so that no list grows.
         let (mut triangles, mut corners) = (0, 0);
-        ahead(input, |ahead| {
+        peek(input, |ahead| {
             polygons(element, ahead, count, |face| {
                 (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
                 Ok(())
@@ -82,7 +82,7 @@ impl Builder {
         check_corners(self.corners)
     }
 
-    fn face(&mut self, face: &Face, own_uvs: bool) -> Result<(), Problem> {
+    fn face(&mut self, face: &PlyFace, own_uvs: bool) -> Result<(), Problem> {
         let first = self.sources.len() as u32; // no more than corners, which are counted
         if own_uvs {
             self.sources.extend(&face.corners);
@@ -96,15 +96,15 @@ impl Builder {
         }
         let positions = &self.vertices.as_ref().ok_or("no vertices")?.positions;
         let polygon: Vec<[f64; 3]> = face.corners.iter().map(|i| positions[*i as usize]).collect();
-        let triangles = triangulate(&polygon).map_err(|fault| fault.of(polygon.len()))?;
+        let triangles = triangulate(&polygon).map_err(|error| error.message(polygon.len()))?;
         self.mesh.triangles.extend(triangles.iter().map(|t| t.map(vertex)));
         Ok(())
     }
 
-    fn strips(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
+    fn strips(&mut self, element: &PlyElement, input: &mut PlyInput<'_>) -> Result<(), Problem> {
         let count = self.known_vertices()?.positions.len();
         let mut triangles = 0;
-        ahead(input, |ahead| {
+        peek(input, |ahead| {
             strips(element, ahead, count, |_| {
                 triangles += 1;
                 Ok(())
@@ -119,7 +119,7 @@ impl Builder {
         })
     }
 
-    fn finish(self, header: &Header) -> Result<MeshAsset, Problem> {
+    fn finish(self, header: &PlyHeader) -> Result<MeshAsset, Problem> {
         let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, .. } = self;
         if mesh.triangles.is_empty() {
             return Err("has no faces (a point cloud?); export it as a mesh".into());
@@ -144,7 +144,7 @@ impl Builder {
             mesh.positions = vertices.positions.iter().map(place).collect();
             (mesh.normals, mesh.uvs) = (vertices.normals, vertices.uvs);
         }
-        mend_normals(&mut mesh);
+        fill_normals(&mut mesh);
         mesh.slots = vec![0; mesh.triangles.len()];
         mesh.slot_materials = vec![SlotMaterial { name: String::new(), surface: None }];
         mesh.report.extend(notes(header, &unused, &unused_elements));
@@ -153,13 +153,13 @@ impl Builder {
 }
 
 /// Reads without moving the input, except to an error, whose line it then states.
-fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), Problem>) -> Result<(), Problem> {
+fn peek<'a>(input: &mut PlyInput<'a>, read: impl FnOnce(&mut PlyInput<'a>) -> Result<(), Problem>) -> Result<(), Problem> {
     let mut ahead = input.clone();
     read(&mut ahead).inspect_err(|_| *input = ahead)
 }
 
 /// Vertices without a usable normal take that of the first triangle that uses them.
-fn mend_normals(mesh: &mut MeshAsset) {
+fn fill_normals(mesh: &mut MeshAsset) {
     let MeshAsset { normals, triangles, positions, report, .. } = mesh;
     if normals.is_empty() {
         return;
@@ -179,7 +179,7 @@ fn mend_normals(mesh: &mut MeshAsset) {
     }
 }
 
-fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Vec<String> {
+fn notes(header: &PlyHeader, unused: &[String], elements: &[(String, usize)]) -> Vec<String> {
     let mut notes = Vec::new();
     let (colours, others): (Vec<&String>, Vec<&String>) = unused.iter().partition(|name| COLOURS.contains(&&***name));
     if !colours.is_empty() {
@@ -189,10 +189,10 @@ fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Ve
         let names: Vec<String> = others.iter().map(|name| shortened(name)).collect();
         notes.push(format!("properties that are not used: {}", names.join(", ")));
     }
-    if let Some(picture) = &header.picture {
+    if let Some(image) = &header.texture_file {
         notes.push(format!(
             "the image `{}` is not used: give it as a texture of the object's material",
-            shortened(picture)
+            shortened(image)
         ));
     }
     notes.extend(elements.iter().map(|(name, count)| format!("{count} elements `{}` are not used", shortened(name))));
@@ -214,7 +214,7 @@ pub(super) struct Vertices {
 
 /// Use of a property: none, or a coordinate.
 #[derive(Clone, Copy)]
-enum Use {
+enum PropertyUse {
     Nothing,
     Position(usize),
     Normal(usize),
@@ -222,14 +222,14 @@ enum Use {
 }
 
 /// Uses of the properties of an element.
-struct Uses {
-    each: Vec<Use>,
+struct PropertyUses {
+    each: Vec<PropertyUse>,
     has_normals: bool,
     has_uvs: bool,
 }
 
-impl Uses {
-    fn of(element: &Element) -> Result<Self, Problem> {
+impl PropertyUses {
+    fn new(element: &PlyElement) -> Result<Self, Problem> {
         let has = |name: &str| element.properties.iter().any(|p| p.name == name && p.count.is_none());
         if let Some(missing) = ["x", "y", "z"].into_iter().find(|name| !has(name)) {
             return Err(format!("the element `vertex` has no property `{missing}`; export the mesh again").into());
@@ -239,10 +239,10 @@ impl Uses {
         let place = |names: &[&str], name: &str| names.iter().position(|n| *n == name);
         let use_of = |name: &str| {
             place(&["x", "y", "z"], name)
-                .map(Use::Position)
-                .or_else(|| place(&["nx", "ny", "nz"], name).filter(|_| has_normals).map(Use::Normal))
-                .or_else(|| uv.and_then(|pair| place(&pair, name)).map(Use::Uv))
-                .unwrap_or(Use::Nothing)
+                .map(PropertyUse::Position)
+                .or_else(|| place(&["nx", "ny", "nz"], name).filter(|_| has_normals).map(PropertyUse::Normal))
+                .or_else(|| uv.and_then(|pair| place(&pair, name)).map(PropertyUse::Uv))
+                .unwrap_or(PropertyUse::Nothing)
         };
         let each = element.properties.iter().map(|p| use_of(&p.name)).collect();
         Ok(Self { each, has_normals, has_uvs: uv.is_some() })
@@ -251,33 +251,33 @@ impl Uses {
 
 impl Vertices {
     /// Reads the element; also returns the names of unused properties.
-    pub(super) fn read(element: &Element, input: &mut Input<'_>) -> Result<(Self, Vec<String>), Problem> {
+    pub(super) fn read(element: &PlyElement, input: &mut PlyInput<'_>) -> Result<(Self, Vec<String>), Problem> {
         input.check_rows(element)?;
         if element.count > u32::MAX as usize {
             return Err(format!("the mesh has {} vertices; at most {} are supported", element.count, u32::MAX).into());
         }
-        let uses = Uses::of(element)?;
-        let of = |has: bool| if has { element.count } else { 0 };
+        let uses = PropertyUses::new(element)?;
+        let capacity = |has: bool| if has { element.count } else { 0 };
         let mut vertices = Self {
             positions: Vec::with_capacity(element.count),
-            normals: Vec::with_capacity(of(uses.has_normals)),
-            uvs: Vec::with_capacity(of(uses.has_uvs)),
+            normals: Vec::with_capacity(capacity(uses.has_normals)),
+            uvs: Vec::with_capacity(capacity(uses.has_uvs)),
         };
         for number in 0..element.count {
             vertices.row(element, &uses, input).map_err(|what| format!("vertex {number}: {what}"))?;
         }
-        let unused = element.properties.iter().zip(&uses.each).filter(|(_, used)| matches!(used, Use::Nothing));
+        let unused = element.properties.iter().zip(&uses.each).filter(|(_, used)| matches!(used, PropertyUse::Nothing));
         Ok((vertices, unused.map(|(p, _)| p.name.clone()).collect()))
     }
 
-    fn row(&mut self, element: &Element, uses: &Uses, input: &mut Input<'_>) -> Result<(), Problem> {
+    fn row(&mut self, element: &PlyElement, uses: &PropertyUses, input: &mut PlyInput<'_>) -> Result<(), Problem> {
         let (mut position, mut normal, mut uv) = ([0.0; 3], [0.0_f64; 3], [0.0_f64; 2]);
         for (property, used) in element.properties.iter().zip(&uses.each) {
             match used {
-                Use::Nothing => input.skip(property)?,
-                Use::Position(axis) => position[*axis] = input.number(property.number)?,
-                Use::Normal(axis) => normal[*axis] = input.number(property.number)?,
-                Use::Uv(axis) => uv[*axis] = input.number(property.number)?,
+                PropertyUse::Nothing => input.skip(property)?,
+                PropertyUse::Position(axis) => position[*axis] = input.number(property.number)?,
+                PropertyUse::Normal(axis) => normal[*axis] = input.number(property.number)?,
+                PropertyUse::Uv(axis) => uv[*axis] = input.number(property.number)?,
             }
         }
         check_range(&position)?;

@@ -1,8 +1,8 @@
 //! Elements that define surfaces: polygons and strips.
 
 use super::super::vertex::check_range;
-use super::header::{Element, Property};
-use super::input::Input;
+use super::header::{PlyElement, PlyProperty};
+use super::input::PlyInput;
 use crate::Problem;
 
 /// Names of the list of a polygon's corners.
@@ -14,31 +14,31 @@ const MAX_CORNERS: usize = 1 << 16;
 
 /// Corners of a polygon or a strip, with their texture coordinates if any.
 #[derive(Debug, Default)]
-pub(super) struct Face {
+pub(super) struct PlyFace {
     pub(super) corners: Vec<u32>,
     /// One per corner, or none.
     pub(super) uvs: Vec<[f32; 2]>,
 }
 
 /// Returns true if a property holds corners or their texture coordinates.
-pub(super) fn is_used(property: &Property) -> bool {
+pub(super) fn is_used(property: &PlyProperty) -> bool {
     property.count.is_some() && (CORNER_NAMES.contains(&&*property.name) || property.name == UV_NAME)
 }
 
 /// Returns true if faces have their own texture coordinates.
-pub(super) fn has_uvs(element: &Element) -> bool {
+pub(super) fn has_uvs(element: &PlyElement) -> bool {
     element.properties.iter().any(|p| p.count.is_some() && p.name == UV_NAME)
 }
 
 /// Reads all faces, passes each to `take`, and moves the input past them.
 pub(super) fn polygons(
-    element: &Element,
-    input: &mut Input<'_>,
+    element: &PlyElement,
+    input: &mut PlyInput<'_>,
     vertices: usize,
-    mut take: impl FnMut(&Face) -> Result<(), Problem>,
+    mut take: impl FnMut(&PlyFace) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
     check(element, input)?;
-    let mut face = Face::default();
+    let mut face = PlyFace::default();
     for number in 0..element.count {
         let mut read = || {
             face.corners.clear();
@@ -66,8 +66,8 @@ pub(super) fn polygons(
 
 /// Reads all strips and passes each triangle to `take`: −1 begins a new strip.
 pub(super) fn strips(
-    element: &Element,
-    input: &mut Input<'_>,
+    element: &PlyElement,
+    input: &mut PlyInput<'_>,
     vertices: usize,
     mut take: impl FnMut([u32; 3]) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
@@ -101,7 +101,7 @@ pub(super) fn strips(
     Ok(())
 }
 
-fn check(element: &Element, input: &Input<'_>) -> Result<(), Problem> {
+fn check(element: &PlyElement, input: &PlyInput<'_>) -> Result<(), Problem> {
     input.check_rows(element)?;
     let lists = element.properties.iter().filter(|p| p.count.is_some() && CORNER_NAMES.contains(&&*p.name)).count();
     match lists {
@@ -112,8 +112,8 @@ fn check(element: &Element, input: &Input<'_>) -> Result<(), Problem> {
 }
 
 fn read_corners(
-    property: &Property,
-    input: &mut Input<'_>,
+    property: &PlyProperty,
+    input: &mut PlyInput<'_>,
     vertices: usize,
     corners: &mut Vec<u32>,
 ) -> Result<(), Problem> {
@@ -132,7 +132,7 @@ fn read_corners(
     Ok(())
 }
 
-fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, Problem> {
+fn corner(index: f64, vertices: usize, input: &PlyInput<'_>) -> Result<u32, Problem> {
     if index >= 0.0 && index < vertices as f64 && index.fract() == 0.0 {
         return Ok(index as u32);
     }
@@ -143,7 +143,7 @@ fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, Problem
     .into())
 }
 
-fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), Problem> {
+fn read_uvs(property: &PlyProperty, input: &mut PlyInput<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), Problem> {
     let length = input.list_length(property)?;
     if !length.is_multiple_of(2) {
         return Err(format!("has {length} texture coordinates; expected two per corner").into());

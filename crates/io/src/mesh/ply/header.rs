@@ -5,7 +5,7 @@ const MAX_HEAD: usize = 1 << 16;
 
 /// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Text,
     Little,
     Big,
@@ -13,7 +13,7 @@ pub(super) enum Encoding {
 
 /// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum PlyNumber {
     I8,
     U8,
     I16,
@@ -26,30 +26,30 @@ pub(super) enum Number {
 
 /// Property of an element.
 #[derive(Clone, Debug)]
-pub(super) struct Property {
+pub(super) struct PlyProperty {
     pub(super) name: String,
     /// Type of its number, or of each of its numbers.
-    pub(super) number: Number,
+    pub(super) number: PlyNumber,
     /// Type of the count of a list; `None` for a single number.
-    pub(super) count: Option<Number>,
+    pub(super) count: Option<PlyNumber>,
 }
 
 /// Table: a number of rows with these properties.
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(super) struct PlyElement {
     pub(super) name: String,
     pub(super) count: usize,
-    pub(super) properties: Vec<Property>,
+    pub(super) properties: Vec<PlyProperty>,
 }
 
 /// Parsed header.
 #[derive(Clone, Debug)]
-pub(super) struct Header {
-    pub(super) encoding: Encoding,
+pub(super) struct PlyHeader {
+    pub(super) encoding: PlyEncoding,
     /// Elements in the order of the file.
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Vec<PlyElement>,
     /// Image that a comment of MeshLab names; `None` without one.
-    pub(super) picture: Option<String>,
+    pub(super) texture_file: Option<String>,
     /// Bytes before the first row.
     pub(super) length: usize,
     /// Lines before the first row.
@@ -57,10 +57,10 @@ pub(super) struct Header {
 }
 
 /// Error with its line, counted from 1.
-type Fault = (usize, String);
+type HeaderError = (usize, String);
 
-impl Number {
-    fn of(word: &str) -> Option<Self> {
+impl PlyNumber {
+    fn from_word(word: &str) -> Option<Self> {
         Some(match word {
             "char" | "int8" => Self::I8,
             "uchar" | "uint8" => Self::U8,
@@ -84,28 +84,28 @@ impl Number {
         }
     }
 
-    pub(super) fn is_whole(self) -> bool {
+    pub(super) fn is_integer(self) -> bool {
         !matches!(self, Self::F32 | Self::F64)
     }
 }
 
-impl Header {
-    pub(super) fn read(bytes: &[u8]) -> Result<Self, Fault> {
+impl PlyHeader {
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, HeaderError> {
         let mut lines = Lines::new(bytes)?;
         let encoding = lines.encoding()?;
-        let mut header = Self { encoding, elements: Vec::new(), picture: None, length: 0, lines: 0 };
+        let mut header = Self { encoding, elements: Vec::new(), texture_file: None, length: 0, lines: 0 };
         loop {
             let (number, line) = lines.next()?;
-            let told = |what: String| (number, what);
+            let located = |what: String| (number, what);
             let mut words = line.split_whitespace();
             match words.next() {
                 Some("end_header") => break,
-                Some("element") => header.element(words.collect()).map_err(told)?,
-                Some("property") => header.property(words.collect()).map_err(told)?,
+                Some("element") => header.element(words.collect()).map_err(located)?,
+                Some("property") => header.property(words.collect()).map_err(located)?,
                 Some("comment") => header.comment(line),
                 Some("obj_info") | None => {}
                 Some(other) => {
-                    return Err(told(format!(
+                    return Err(located(format!(
                         "unknown statement `{}` in the PLY header; expected `element`, `property`, `comment` or `end_header`",
                         shortened(other)
                     )));
@@ -117,7 +117,7 @@ impl Header {
     }
 
     /// Element of this name.
-    pub(super) fn find(&self, name: &str) -> Option<&Element> {
+    pub(super) fn find(&self, name: &str) -> Option<&PlyElement> {
         self.elements.iter().find(|e| e.name == name)
     }
 
@@ -131,26 +131,26 @@ impl Header {
         if self.find(name).is_some() {
             return Err(format!("the element `{}` is declared twice; export the mesh again", shortened(name)));
         }
-        self.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+        self.elements.push(PlyElement { name: name.to_owned(), count, properties: Vec::new() });
         Ok(())
     }
 
     fn property(&mut self, words: Vec<&str>) -> Result<(), String> {
         const TYPES: &str = "char, uchar, short, ushort, int, uint, float, double, or int8 … float64";
         let number = |word: &str| {
-            Number::of(word).ok_or_else(|| format!("unknown type `{}`; expected {TYPES}", shortened(word)))
+            PlyNumber::from_word(word).ok_or_else(|| format!("unknown type `{}`; expected {TYPES}", shortened(word)))
         };
         let property = match words[..] {
             ["list", count, item, name] => {
                 let count = number(count)?;
-                if !count.is_whole() {
+                if !count.is_integer() {
                     return Err(
                         "the count type of a list is not an integer type; expected a type such as uchar".to_owned()
                     );
                 }
-                Property { name: name.to_owned(), number: number(item)?, count: Some(count) }
+                PlyProperty { name: name.to_owned(), number: number(item)?, count: Some(count) }
             }
-            [item, name] => Property { name: name.to_owned(), number: number(item)?, count: None },
+            [item, name] => PlyProperty { name: name.to_owned(), number: number(item)?, count: None },
             _ => return Err("expected `property TYPE NAME` or `property list TYPE TYPE NAME`".to_owned()),
         };
         let element = self.elements.last_mut().ok_or("a property precedes the first element")?;
@@ -163,8 +163,8 @@ impl Header {
 
     fn comment(&mut self, line: &str) {
         let rest = line.trim_start().strip_prefix("comment").unwrap_or_default().trim();
-        if let Some(picture) = rest.strip_prefix("TextureFile") {
-            self.picture = Some(picture.trim().to_owned());
+        if let Some(image) = rest.strip_prefix("TextureFile") {
+            self.texture_file = Some(image.trim().to_owned());
         }
     }
 }
@@ -187,7 +187,7 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn new(bytes: &'a [u8]) -> Result<Self, Fault> {
+    fn new(bytes: &'a [u8]) -> Result<Self, HeaderError> {
         let no_ply = || (1, "not a PLY file: the first line is not `ply`".to_owned());
         let rest = bytes.strip_prefix(b"ply").ok_or_else(no_ply)?;
         let blanks = rest.iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
@@ -200,7 +200,7 @@ impl<'a> Lines<'a> {
         Ok(Self { bytes: &bytes[..bytes.len().min(MAX_HEAD)], end, at: 3 + blanks + end.len(), number: 1 })
     }
 
-    fn next(&mut self) -> Result<(usize, &'a str), Fault> {
+    fn next(&mut self) -> Result<(usize, &'a str), HeaderError> {
         self.number += 1;
         let rest = &self.bytes[self.at..];
         let length = rest.windows(self.end.len()).position(|w| w == self.end).ok_or_else(|| {
@@ -215,13 +215,13 @@ impl<'a> Lines<'a> {
         Ok((self.number, line))
     }
 
-    fn encoding(&mut self) -> Result<Encoding, Fault> {
+    fn encoding(&mut self) -> Result<PlyEncoding, HeaderError> {
         let (number, line) = self.next()?;
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
-            ["format", "ascii", "1.0"] => Ok(Encoding::Text),
-            ["format", "binary_little_endian", "1.0"] => Ok(Encoding::Little),
-            ["format", "binary_big_endian", "1.0"] => Ok(Encoding::Big),
+            ["format", "ascii", "1.0"] => Ok(PlyEncoding::Text),
+            ["format", "binary_little_endian", "1.0"] => Ok(PlyEncoding::Little),
+            ["format", "binary_big_endian", "1.0"] => Ok(PlyEncoding::Big),
             _ => Err((
                 number,
                 format!(

@@ -1,38 +1,38 @@
 //! Sequential reader of numbers, from text or bytes.
 
-use super::header::{Element, Encoding, Header, Number, Property, shortened};
+use super::header::{PlyElement, PlyEncoding, PlyHeader, PlyNumber, PlyProperty, shortened};
 use crate::Problem;
 
 /// Reading position.
 #[derive(Clone, Debug)]
-pub(super) struct Input<'a> {
+pub(super) struct PlyInput<'a> {
     bytes: &'a [u8],
     at: usize,
-    encoding: Encoding,
+    encoding: PlyEncoding,
     /// Line of the last number, counted from 1; for text only.
     line: usize,
 }
 
-impl<'a> Input<'a> {
+impl<'a> PlyInput<'a> {
     /// Starts at the first row of the first element.
-    pub(super) fn new(header: &Header, bytes: &'a [u8]) -> Self {
+    pub(super) fn new(header: &PlyHeader, bytes: &'a [u8]) -> Self {
         Self { bytes, at: header.length, encoding: header.encoding, line: header.lines + 1 }
     }
 
     /// Line of the last number; `None` for binary files.
     pub(super) fn line(&self) -> Option<usize> {
-        (self.encoding == Encoding::Text).then_some(self.line)
+        (self.encoding == PlyEncoding::Text).then_some(self.line)
     }
 
     /// Refuses an element of more rows than the rest of the file can hold.
-    pub(super) fn check_rows(&self, element: &Element) -> Result<(), Problem> {
-        let least = |p: &Property| match self.encoding {
-            Encoding::Text => 2, // a digit and a separator
+    pub(super) fn check_rows(&self, element: &PlyElement) -> Result<(), Problem> {
+        let min = |p: &PlyProperty| match self.encoding {
+            PlyEncoding::Text => 2, // a digit and a separator
             _ => p.count.unwrap_or(p.number).bytes(),
         };
-        let row: usize = element.properties.iter().map(least).sum();
+        let row: usize = element.properties.iter().map(min).sum();
         // The last number may be ended by the end of the file.
-        let rest = self.bytes.len() - self.at + usize::from(self.encoding == Encoding::Text);
+        let rest = self.bytes.len() - self.at + usize::from(self.encoding == PlyEncoding::Text);
         match element.count.checked_mul(row) {
             Some(bytes) if bytes <= rest => Ok(()),
             _ => Err(format!(
@@ -44,11 +44,11 @@ impl<'a> Input<'a> {
     }
 
     /// Reads the next number, which must be finite.
-    pub(super) fn number(&mut self, number: Number) -> Result<f64, Problem> {
+    pub(super) fn number(&mut self, number: PlyNumber) -> Result<f64, Problem> {
         let value = match self.encoding {
-            Encoding::Text => self.word_number(number)?,
-            Encoding::Little => binary(number, self.take(number.bytes())?, |b| b),
-            Encoding::Big => binary(number, self.take(number.bytes())?, |mut b| {
+            PlyEncoding::Text => self.word_number(number)?,
+            PlyEncoding::Little => binary(number, self.take(number.bytes())?, |b| b),
+            PlyEncoding::Big => binary(number, self.take(number.bytes())?, |mut b| {
                 b[..number.bytes()].reverse();
                 b
             }),
@@ -56,7 +56,7 @@ impl<'a> Input<'a> {
         match value.is_finite() {
             true => Ok(value),
             false => {
-                let hint = if self.encoding == Encoding::Text { "" } else { self.byte_order_hint() };
+                let hint = if self.encoding == PlyEncoding::Text { "" } else { self.byte_order_hint() };
                 Err(format!(
                     "a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}"
                 )
@@ -66,11 +66,11 @@ impl<'a> Input<'a> {
     }
 
     /// Reads the length of the next list, which must fit into the rest of the file.
-    pub(super) fn list_length(&mut self, property: &Property) -> Result<usize, Problem> {
+    pub(super) fn list_length(&mut self, property: &PlyProperty) -> Result<usize, Problem> {
         let Some(count) = property.count else { return Ok(1) };
         let length = self.number(count)?;
-        let least = if self.encoding == Encoding::Text { 2 } else { property.number.bytes() };
-        let rest = (self.bytes.len() - self.at) / least + 1;
+        let min = if self.encoding == PlyEncoding::Text { 2 } else { property.number.bytes() };
+        let rest = (self.bytes.len() - self.at) / min + 1;
         if length >= 0.0 && length <= rest as f64 {
             return Ok(length as usize);
         }
@@ -83,19 +83,19 @@ impl<'a> Input<'a> {
     }
 
     /// Skips a property.
-    pub(super) fn skip(&mut self, property: &Property) -> Result<(), Problem> {
+    pub(super) fn skip(&mut self, property: &PlyProperty) -> Result<(), Problem> {
         let length = self.list_length(property)?;
-        if self.encoding == Encoding::Text {
+        if self.encoding == PlyEncoding::Text {
             return (0..length).try_for_each(|_| self.word().map(|_| ()));
         }
         self.advance(length.saturating_mul(property.number.bytes()))
     }
 
     /// Skips an element.
-    pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), Problem> {
+    pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Problem> {
         self.check_rows(element)?;
         let is_even = element.properties.iter().all(|p| p.count.is_none());
-        if is_even && self.encoding != Encoding::Text {
+        if is_even && self.encoding != PlyEncoding::Text {
             let row: usize = element.properties.iter().map(|p| p.number.bytes()).sum();
             return self.advance(element.count.saturating_mul(row));
         }
@@ -108,11 +108,11 @@ impl<'a> Input<'a> {
     /// Possible cause of an error in a binary file, as the end of a message.
     pub(super) fn byte_order_hint(&self) -> &'static str {
         match self.encoding {
-            Encoding::Text => "; export or copy it again",
-            Encoding::Little => {
+            PlyEncoding::Text => "; export or copy it again",
+            PlyEncoding::Little => {
                 ", or its numbers are big-endian although the header states little-endian; export it again"
             }
-            Encoding::Big => {
+            PlyEncoding::Big => {
                 ", or its numbers are little-endian although the header states big-endian; export it again"
             }
         }
@@ -122,7 +122,7 @@ impl<'a> Input<'a> {
     pub(super) fn end(&mut self) -> Result<(), Problem> {
         let rest = &self.bytes[self.at..];
         let is_end = match self.encoding {
-            Encoding::Text => rest.iter().all(u8::is_ascii_whitespace),
+            PlyEncoding::Text => rest.iter().all(u8::is_ascii_whitespace),
             _ => rest.is_empty() || rest == b"\n" || rest == b"\r\n",
         };
         match is_end {
@@ -144,9 +144,9 @@ impl<'a> Input<'a> {
         let end = self.at.checked_add(bytes).filter(|end| *end <= self.bytes.len());
         let end =
             end.ok_or_else(|| format!("the file ends within its elements: it is truncated{}", self.byte_order_hint()))?;
-        let taken = &self.bytes[self.at..end];
+        let slice = &self.bytes[self.at..end];
         self.at = end;
-        Ok(taken)
+        Ok(slice)
     }
 
     fn word(&mut self) -> Result<&'a str, Problem> {
@@ -168,10 +168,10 @@ impl<'a> Input<'a> {
         if feeds > 0 { feeds } else { blanks.iter().filter(|b| **b == b'\r').count() }
     }
 
-    fn word_number(&mut self, number: Number) -> Result<f64, Problem> {
+    fn word_number(&mut self, number: PlyNumber) -> Result<f64, Problem> {
         let word = self.word()?;
         let value: f64 = word.parse().map_err(|_| format!("`{}` is not a number", shortened(word)))?;
-        if number.is_whole() && value.fract() != 0.0 {
+        if number.is_integer() && value.fract() != 0.0 {
             return Err(format!("`{}` is not a whole number, which the header states", shortened(word)).into());
         }
         Ok(value)
@@ -179,19 +179,19 @@ impl<'a> Input<'a> {
 }
 
 /// Number of a type from little-endian bytes; `order` corrects their order.
-fn binary(number: Number, bytes: &[u8], order: impl Fn([u8; 8]) -> [u8; 8]) -> f64 {
+fn binary(number: PlyNumber, bytes: &[u8], order: impl Fn([u8; 8]) -> [u8; 8]) -> f64 {
     let mut all = [0; 8];
     all[..bytes.len()].copy_from_slice(bytes);
     let all = order(all);
     let [a, b, c, d, ..] = all;
     match number {
-        Number::I8 => f64::from(i8::from_le_bytes([a])),
-        Number::U8 => f64::from(a),
-        Number::I16 => f64::from(i16::from_le_bytes([a, b])),
-        Number::U16 => f64::from(u16::from_le_bytes([a, b])),
-        Number::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
-        Number::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
-        Number::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
-        Number::F64 => f64::from_le_bytes(all),
+        PlyNumber::I8 => f64::from(i8::from_le_bytes([a])),
+        PlyNumber::U8 => f64::from(a),
+        PlyNumber::I16 => f64::from(i16::from_le_bytes([a, b])),
+        PlyNumber::U16 => f64::from(u16::from_le_bytes([a, b])),
+        PlyNumber::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+        PlyNumber::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+        PlyNumber::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+        PlyNumber::F64 => f64::from_le_bytes(all),
     }
 }

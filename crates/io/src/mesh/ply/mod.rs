@@ -18,8 +18,8 @@ use etendue_scene::asset::MeshAsset;
 
 use crate::source::{name_notes, read_bytes};
 use crate::{Error, Problem, hash};
-use header::Header;
-use input::Input;
+use header::PlyHeader;
+use input::PlyInput;
 
 /// Returns true if the file name has the extension of PLY.
 pub(crate) fn is_ply(file: &Path) -> bool {
@@ -29,14 +29,14 @@ pub(crate) fn is_ply(file: &Path) -> bool {
 /// Reads a PLY file.
 pub(super) fn read_ply(file: &Path) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
-    let told = |line: Option<usize>, problem: Problem| match line {
+    let located = |line: Option<usize>, problem: Problem| match line {
         Some(line) => Error::at(file, line, problem),
         None => Error::new(file, problem),
     };
-    let header = Header::read(&bytes).map_err(|(line, what)| Error::at(file, line, what))?;
-    let mut input = Input::new(&header, &bytes);
-    let mut mesh = assemble::mesh(&header, &mut input).map_err(|what| told(input.line(), what))?;
-    mesh.hash = hash::of_bytes(&bytes);
+    let header = PlyHeader::read(&bytes).map_err(|(line, what)| Error::at(file, line, what))?;
+    let mut input = PlyInput::new(&header, &bytes);
+    let mut mesh = assemble::mesh(&header, &mut input).map_err(|what| located(input.line(), what))?;
+    mesh.hash = hash::hash_bytes(&bytes);
     name_notes(file, &mut mesh.report);
     Ok(mesh)
 }

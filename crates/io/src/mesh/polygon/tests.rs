@@ -13,15 +13,15 @@ fn area(corners: &[[f64; 3]], triangles: &[[usize; 3]]) -> [f64; 3] {
 fn covers(flat: &[[f64; 2]]) {
     let corners = lift(flat);
     let triangles = triangulate(&corners).expect("simple");
-    let whole = newell(&corners);
+    let total = newell(&corners);
     assert_eq!(triangles.len(), corners.len() - 2);
     for t in &triangles {
         // Coordinates of 2e5 carry 3e-11 of rounding; triangles may have zero area.
-        assert!(dot(newell(&t.map(|i| corners[i])), whole) >= -1e-8, "{t:?}");
+        assert!(dot(newell(&t.map(|i| corners[i])), total) >= -1e-8, "{t:?}");
     }
     let sum = area(&corners, &triangles);
     for axis in 0..3 {
-        assert!((sum[axis] - whole[axis]).abs() < 1e-8, "{sum:?} {whole:?}");
+        assert!((sum[axis] - total[axis]).abs() < 1e-8, "{sum:?} {total:?}");
     }
 }
 
@@ -44,12 +44,12 @@ fn concave_polygons_are_covered_once() {
 #[test]
 fn a_polygon_that_crosses_itself_is_refused() {
     let bow = lift(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
-    assert_eq!(triangulate(&bow), Err(PolygonFault::CrossesItself));
+    assert_eq!(triangulate(&bow), Err(PolygonError::CrossesItself));
     let uneven_bow = lift(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 3.0]]);
-    assert_eq!(triangulate(&uneven_bow), Err(PolygonFault::CrossesItself));
+    assert_eq!(triangulate(&uneven_bow), Err(PolygonError::CrossesItself));
     // cos and sin of 72° steps, in the order of a pentagram.
     let star = lift(&[[1.0, 0.0], [-0.809, 0.588], [0.309, -0.951], [0.309, 0.951], [-0.809, -0.588]]);
-    assert_eq!(triangulate(&star), Err(PolygonFault::CrossesItself));
+    assert_eq!(triangulate(&star), Err(PolygonError::CrossesItself));
 }
 
 #[test]
@@ -143,8 +143,8 @@ fn polygons_of_many_corners_are_covered() {
         let triangles = triangulate(&corners).expect("simple");
         assert_eq!(triangles.len(), flat.len() - 2);
         let doubled: f64 = triangles.iter().map(|t| turn(flat[t[0]], flat[t[1]], flat[t[2]])).sum();
-        let whole = newell(&corners)[2].abs();
-        assert!((doubled.abs() - whole).abs() < 1e-9 * whole, "{doubled} {whole}");
+        let expected = newell(&corners)[2].abs();
+        assert!((doubled.abs() - expected).abs() < 1e-9 * expected, "{doubled} {expected}");
     }
 }
 
@@ -181,8 +181,8 @@ proptest::proptest! {
     }
 }
 
-fn by_all_pairs(flat: &[Point]) -> bool {
-    let edges: Vec<Edge> = (0..flat.len()).filter_map(|i| Edge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
+fn by_all_pairs(flat: &[Point2]) -> bool {
+    let edges: Vec<PolygonEdge> = (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
     edges.iter().any(|a| edges.iter().any(|b| a.crosses(b)))
 }
 
@@ -192,13 +192,13 @@ proptest::proptest! {
     /// Corners on a coarse grid coincide, lie on edges, and are collinear.
     #[test]
     fn the_sweep_finds_what_all_pairs_find(corners in proptest::collection::vec((0_i32..7, 0_i32..7), 3..12)) {
-        let flat: Vec<Point> = corners.iter().map(|(x, y)| [f64::from(*x), f64::from(*y)]).collect();
+        let flat: Vec<Point2> = corners.iter().map(|(x, y)| [f64::from(*x), f64::from(*y)]).collect();
         proptest::prop_assert_eq!(edges_cross(&flat), by_all_pairs(&flat));
     }
 
     #[test]
     fn the_sweep_finds_crossings_anywhere(corners in proptest::collection::vec((0.0_f64..1.0, 0.0_f64..1.0), 3..9)) {
-        let flat: Vec<Point> = corners.iter().map(|(x, y)| [*x, *y]).collect();
+        let flat: Vec<Point2> = corners.iter().map(|(x, y)| [*x, *y]).collect();
         proptest::prop_assert_eq!(edges_cross(&flat), by_all_pairs(&flat));
     }
 }

@@ -3,20 +3,20 @@
 use super::support::{Ies, Ldt, read_bytes, steps};
 
 fn ies() -> String {
-    Ies::of(1, &[0.0, 90.0], &[0.0, 45.0, 90.0], |_, _| 5.0).text()
+    Ies::new(1, &[0.0, 90.0], &[0.0, 45.0, 90.0], |_, _| 5.0).text()
 }
 
-fn head_lamp() -> String {
-    Ies::of(3, &[-10.0, 10.0], &[-5.0, 0.0, 5.0], |_, _| 5.0).text()
+fn headlamp() -> String {
+    Ies::new(3, &[-10.0, 10.0], &[-5.0, 0.0, 5.0], |_, _| 5.0).text()
 }
 
-fn told(name: &str, text: &str, change: (&str, &str)) -> String {
+fn refusal(name: &str, text: &str, change: (&str, &str)) -> String {
     assert!(text.contains(change.0), "{name} has no {}:\n{text}", change.0);
     read_bytes(name, text.replacen(change.0, change.1, 1).as_bytes()).expect_err(change.1)
 }
 
 #[test]
-fn faults_of_ies_files_are_told_with_their_lines() {
+fn errors_of_ies_files_are_reported_with_their_lines() {
     for (change, expected) in [
         (
             ("TILT=NONE\n", ""),
@@ -85,8 +85,8 @@ fn faults_of_ies_files_are_told_with_their_lines() {
             "a.ies:7: tilt angle 2 of 2 is 0° and follows 90°: sort the angles in increasing order",
         ),
     ] {
-        let found = told("a.ies", &ies(), change);
-        assert!(found.starts_with(expected), "{change:?}: {found}");
+        let message = refusal("a.ies", &ies(), change);
+        assert!(message.starts_with(expected), "{change:?}: {message}");
     }
 }
 
@@ -97,28 +97,28 @@ fn a_fan_needs_a_width_and_angles_that_its_axes_have() {
         (("\n-10 10\n", "\n-190 10\n"), Some("a.ies:9: the horizontal angle is -190°; expected -180° to 180°")),
         (("-5 0 5\n", "-95 0 5\n"), Some("a.ies:8: the vertical angle is -95°; expected -90° to 90°")),
     ] {
-        let found = read_bytes("a.ies", head_lamp().replacen(change.0, change.1, 1).as_bytes());
-        assert_eq!(found.err().as_deref().map(|t| t.starts_with(expected.unwrap_or("?"))), expected.map(|_| true));
+        let result = read_bytes("a.ies", headlamp().replacen(change.0, change.1, 1).as_bytes());
+        assert_eq!(result.err().as_deref().map(|t| t.starts_with(expected.unwrap_or("?"))), expected.map(|_| true));
     }
-    let narrow = Ies::of(3, &[0.0], &[-5.0, 5.0], |_, _| 1.0).text();
-    let found = read_bytes("a.ies", narrow.as_bytes()).expect_err("no width");
-    assert!(found.starts_with("a.ies:9: found one horizontal angle; expected at least two"), "{found}");
+    let narrow = Ies::new(3, &[0.0], &[-5.0, 5.0], |_, _| 1.0).text();
+    let message = read_bytes("a.ies", narrow.as_bytes()).expect_err("no width");
+    assert!(message.starts_with("a.ies:9: found one horizontal angle; expected at least two"), "{message}");
 }
 
 #[test]
 fn counts_that_no_file_holds_cost_no_memory() {
     let all = ies().replacen("1 -1 1 3 2 1 2", "1 -1 1 36001 36001 1 2", 1);
     let text = all.split("\n0 90\n").next().expect("what stands before the planes");
-    let found = read_bytes("a.ies", text.as_bytes()).expect_err("three angles of 36001");
-    assert!(found.starts_with("a.ies:8: the file ends here; expected vertical angle 4 of 36001"), "{found}");
+    let message = read_bytes("a.ies", text.as_bytes()).expect_err("three angles of 36001");
+    assert!(message.starts_with("a.ies:8: the file ends here; expected vertical angle 4 of 36001"), "{message}");
 }
 
 fn ldt() -> String {
-    Ldt::of(4, &[0.0, 90.0, 180.0, 270.0], &[0.0, 90.0], &[0.0, 45.0, 90.0], |_, _| 160.0).text()
+    Ldt::new(4, &[0.0, 90.0, 180.0, 270.0], &[0.0, 90.0], &[0.0, 45.0, 90.0], |_, _| 160.0).text()
 }
 
 #[test]
-fn faults_of_eulumdat_files_are_told_with_their_lines() {
+fn errors_of_eulumdat_files_are_reported_with_their_lines() {
     let lines: Vec<String> = ldt().lines().map(str::to_owned).collect();
     let with = |line: usize, text: &str| {
         let mut lines = lines.clone();
@@ -156,13 +156,13 @@ fn faults_of_eulumdat_files_are_told_with_their_lines() {
         (50, "1 1", "a.ldt:55: found \"160\" and 0 more values after the last intensity; expected the end of the file"),
         (55, "", "a.ldt:54: the file ends here; expected intensity 6 of 6: it is truncated"),
     ] {
-        let found = with(line, text);
-        assert!(found.starts_with(expected), "line {line} {text:?}: {found}");
+        let message = with(line, text);
+        assert!(message.starts_with(expected), "line {line} {text:?}: {message}");
     }
-    let found = read_bytes("a.ldt", lines[..20].join("\n").as_bytes()).expect_err("truncated");
+    let message = read_bytes("a.ldt", lines[..20].join("\n").as_bytes()).expect_err("truncated");
     assert!(
-        found.starts_with("a.ldt:20: the file ends here; expected the light output ratio, per cent in line 23"),
-        "{found}"
+        message.starts_with("a.ldt:20: the file ends here; expected the light output ratio, per cent in line 23"),
+        "{message}"
     );
 }
 
@@ -180,8 +180,8 @@ fn what_is_no_lamp_file_is_refused_by_its_name_or_bytes() {
 #[test]
 fn no_cut_of_a_file_is_a_lamp_and_none_panics() {
     let texts = [
-        ("a.ies", Ies::of(1, &steps(0.0, 90.0, 30.0), &steps(0.0, 90.0, 30.0), |_, _| 77.0).text()),
-        ("a.ldt", Ldt::of(0, &[0.0, 120.0, 240.0], &[0.0, 120.0, 240.0], &[0.0, 90.0], |_, _| 160.0).text()),
+        ("a.ies", Ies::new(1, &steps(0.0, 90.0, 30.0), &steps(0.0, 90.0, 30.0), |_, _| 77.0).text()),
+        ("a.ldt", Ldt::new(0, &[0.0, 120.0, 240.0], &[0.0, 120.0, 240.0], &[0.0, 90.0], |_, _| 160.0).text()),
     ];
     for (name, text) in texts {
         read_bytes(name, text.as_bytes()).expect("whole");

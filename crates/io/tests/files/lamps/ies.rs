@@ -3,7 +3,7 @@
 use etendue_scene::asset::{OpeningShape, PhotometryAxes, Tilt};
 use proptest::prelude::*;
 
-use super::support::{Ies, assert_same_light, read_bytes, steps, told};
+use super::support::{Ies, assert_same_light, read_bytes, steps, read_asset};
 
 /// Whole numbers without any symmetry, so that a wrong place is detected.
 fn odd(h: f64, v: f64) -> f64 {
@@ -29,12 +29,12 @@ fn quadrants(h: f64, v: f64) -> f64 {
 #[test]
 fn every_symmetry_of_type_c_is_the_lamp_written_out() {
     let (full, vertical) = (steps(0.0, 360.0, 15.0), steps(0.0, 180.0, 10.0));
-    let whole = |candela: fn(f64, f64) -> f64| Ies::of(1, &full, &vertical, candela).read();
-    let part = |horizontal: &[f64], candela: fn(f64, f64) -> f64| Ies::of(1, horizontal, &vertical, candela).read();
-    assert_same_light(&part(&steps(0.0, 180.0, 15.0), about_c0), &whole(about_c0));
-    assert_same_light(&part(&steps(90.0, 270.0, 15.0), about_c90), &whole(about_c90));
-    assert_same_light(&part(&steps(0.0, 90.0, 15.0), quadrants), &whole(quadrants));
-    assert_same_light(&part(&steps(0.0, 345.0, 15.0), about_c0), &whole(about_c0));
+    let complete = |candela: fn(f64, f64) -> f64| Ies::new(1, &full, &vertical, candela).read();
+    let part = |horizontal: &[f64], candela: fn(f64, f64) -> f64| Ies::new(1, horizontal, &vertical, candela).read();
+    assert_same_light(&part(&steps(0.0, 180.0, 15.0), about_c0), &complete(about_c0));
+    assert_same_light(&part(&steps(90.0, 270.0, 15.0), about_c90), &complete(about_c90));
+    assert_same_light(&part(&steps(0.0, 90.0, 15.0), quadrants), &complete(quadrants));
+    assert_same_light(&part(&steps(0.0, 345.0, 15.0), about_c0), &complete(about_c0));
     let round = part(&[0.0], odd);
     assert_eq!((&round.horizontal_deg[..], round.column(0)), (&[0.0, 360.0][..], round.column(1)));
     assert_eq!(round.candela_at(200.0, 40.0), odd(0.0, 40.0));
@@ -42,32 +42,32 @@ fn every_symmetry_of_type_c_is_the_lamp_written_out() {
 
 #[test]
 fn planes_that_begin_off_0_meet_at_a_seam_between_them() {
-    let lamp = Ies::of(1, &steps(5.0, 355.0, 10.0), &[0.0, 90.0], |h, _| h).read();
+    let lamp = Ies::new(1, &steps(5.0, 355.0, 10.0), &[0.0, 90.0], |h, _| h).read();
     assert_eq!((lamp.horizontal_deg[0], *lamp.horizontal_deg.last().expect("planes")), (0.0, 360.0));
     assert_eq!(lamp.candela_at(0.0, 45.0), 180.0, "half way between 355 and 5");
     assert_eq!(lamp.candela_at(360.0, 45.0), 180.0);
 }
 
 #[test]
-fn head_lamps_have_a_right_side_that_is_mirrored_or_both() {
+fn headlamps_have_a_right_side_that_is_mirrored_or_both() {
     for (kind, axes) in [(2, PhotometryAxes::B), (3, PhotometryAxes::A)] {
         let vertical = steps(-20.0, 10.0, 2.0);
-        let both = Ies::of(kind, &steps(-40.0, 40.0, 5.0), &vertical, |h, v| odd(h.abs(), v)).read();
-        let right = Ies::of(kind, &steps(0.0, 40.0, 5.0), &vertical, odd).read();
+        let both = Ies::new(kind, &steps(-40.0, 40.0, 5.0), &vertical, |h, v| odd(h.abs(), v)).read();
+        let right = Ies::new(kind, &steps(0.0, 40.0, 5.0), &vertical, odd).read();
         assert_eq!(both.axes, axes);
         assert_same_light(&right, &both);
         assert_eq!(right.report.len(), 2, "dark beyond the grid, both ways: {:?}", right.report);
-        let skew = Ies::of(kind, &steps(-40.0, 20.0, 5.0), &vertical, odd).read();
+        let skew = Ies::new(kind, &steps(-40.0, 20.0, 5.0), &vertical, odd).read();
         assert_eq!(skew.candela_at(-35.0, 4.0), odd(-35.0, 4.0));
     }
 }
 
 #[test]
 fn factors_and_units_are_applied_once() {
-    let mut lamp = Ies::of(1, &[0.0], &[0.0, 90.0], |_, _| 100.0);
+    let mut lamp = Ies::new(1, &[0.0], &[0.0, 90.0], |_, _| 100.0);
     (lamp.lamps, lamp.lumens, lamp.multiplier, lamp.ballast) = (2, 600.0, 2.5, [0.5, 0.8]);
     (lamp.units, lamp.size) = (1, [-1.0, -1.0, 0.0]);
-    let of = |first, lamp: &Ies| Ies { first, ..lamp.clone() }.read();
+    let read_with = |first, lamp: &Ies| Ies { first, ..lamp.clone() }.read();
     for (edition, further) in [
         ("IESNA:LM-63-1995", 0.8),
         ("IESNA91", 0.8),
@@ -75,19 +75,19 @@ fn factors_and_units_are_applied_once() {
         ("IESNA:LM-63-2002", 1.0),
         ("IES:LM-63-2019", 1.0),
     ] {
-        let read = of(edition, &lamp);
+        let read = read_with(edition, &lamp);
         let factor = 2.5 * 0.5 * further;
         assert_eq!((read.factor, read.candela[0]), (factor, 100.0 * factor), "{edition}");
         assert_eq!((read.lamps, read.rated_lumens, read.watts), (2, Some(1200.0), 42.5), "{edition}");
         assert_eq!((read.opening.shape, read.opening.width_m), (OpeningShape::Round, 0.3048), "{edition}");
     }
-    let texts = of("IESNA:LM-63-2002", &lamp).texts;
+    let texts = read_with("IESNA:LM-63-2002", &lamp).texts;
     assert_eq!(texts[1], ("MANUFAC".to_owned(), "Lamps & Co of Town".to_owned()));
 }
 
 #[test]
 fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
-    let mut lamp = Ies::of(1, &[0.0], &[0.0, 90.0], |_, _| 100.0);
+    let mut lamp = Ies::new(1, &[0.0], &[0.0, 90.0], |_, _| 100.0);
     lamp.ballast = [1.0, 1.1];
     let read = |first: &'static str| read_bytes("lamp.ies", Ies { first, ..lamp.clone() }.text().as_bytes());
     for (first, factor, edition) in [
@@ -102,21 +102,21 @@ fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
         ("IESNA 91", 1.1, "1991"),
         ("LM-63-2002", 1.0, "2002"),
     ] {
-        let found = read(first).unwrap_or_else(|told| panic!("{first}: {told}"));
-        assert!((found.factor - factor).abs() < 1e-12, "{first}: {}", found.factor);
-        assert_eq!(found.format, format!("IES LM-63, edition of {edition}"), "{first}");
+        let asset = read(first).unwrap_or_else(|error| panic!("{first}: {error}"));
+        assert!((asset.factor - factor).abs() < 1e-12, "{first}: {}", asset.factor);
+        assert_eq!(asset.format, format!("IES LM-63, edition of {edition}"), "{first}");
         assert!(
-            found.report.iter().any(|note| note.contains("is not the standard's identification")),
+            asset.report.iter().any(|note| note.contains("is not the standard's identification")),
             "{:?}",
-            found.report
+            asset.report
         );
     }
     for first in ["IESNA:LM-63-1995", "IES:LM-63-2019", "a lamp of the IES", "IES lamp 7"] {
-        let found = read(first).expect("a lamp");
-        assert!(!found.report.iter().any(|note| note.contains("identification")), "{first}: {:?}", found.report);
+        let asset = read(first).expect("a lamp");
+        assert!(!asset.report.iter().any(|note| note.contains("identification")), "{first}: {:?}", asset.report);
     }
-    let told = read("IESNA:LM-63").expect_err("no year");
-    assert!(told.contains("lamp.ies:1: `IESNA:LM-63` states no edition, and the number 1.1"), "{told}");
+    let message = read("IESNA:LM-63").expect_err("no year");
+    assert!(message.contains("lamp.ies:1: `IESNA:LM-63` states no edition, and the number 1.1"), "{message}");
     lamp.ballast = [1.0, 1.0];
     let same = read_bytes("lamp.ies", Ies { first: "IESNA:LM-63", ..lamp }.text().as_bytes()).expect("no difference");
     assert!(same.report[0].contains("states no edition"), "{:?}", same.report);
@@ -124,7 +124,7 @@ fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
 
 #[test]
 fn numbers_may_stand_in_any_lines_and_text_in_any_old_encoding() {
-    let lamp = Ies::of(1, &steps(0.0, 90.0, 30.0), &steps(0.0, 90.0, 5.0), quadrants);
+    let lamp = Ies::new(1, &steps(0.0, 90.0, 30.0), &steps(0.0, 90.0, 5.0), quadrants);
     let plain = lamp.read();
     let text = lamp.text();
     let (top, numbers) = text.split_at(text.find("TILT=NONE").expect("a line") + "TILT=NONE\n".len());
@@ -136,7 +136,7 @@ fn numbers_may_stand_in_any_lines_and_text_in_any_old_encoding() {
     let spaced = lamp.text().replace("TILT=NONE", " tilt = none ");
     for text in [one_line, commas, each, dos, mac, spaced] {
         assert_same_light(
-            &read_bytes("l.IES", text.as_bytes()).unwrap_or_else(|told| panic!("{told}\n{text}")),
+            &read_bytes("l.IES", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}")),
             &plain,
         );
     }
@@ -145,10 +145,10 @@ fn numbers_may_stand_in_any_lines_and_text_in_any_old_encoding() {
 }
 
 #[test]
-fn factors_of_tilts_are_kept_and_told() {
+fn factors_of_tilts_are_stored_and_reported() {
     let table = "1\n3\n0 45 90\n1 0.95 0.9";
     let expected = Tilt::Table { geometry: 1, factors: vec![(0.0, 1.0), (45.0, 0.95), (90.0, 0.9)] };
-    let mut lamp = Ies::of(1, &[0.0], &[0.0, 90.0], |_, _| 1.0);
+    let mut lamp = Ies::new(1, &[0.0], &[0.0, 90.0], |_, _| 1.0);
     lamp.tilt = format!("TILT=INCLUDE\n{table}");
     let included = lamp.read();
     assert_eq!(included.tilt, expected);
@@ -163,38 +163,38 @@ fn factors_of_tilts_are_kept_and_told() {
     lamp.tilt = r"TILT=tilts\a.tlt".to_owned();
     let path = folder.path().join("lamp.ies");
     std::fs::write(&path, lamp.text()).expect("write");
-    let fault = told(folder.path(), &path).expect_err("no such file");
-    assert!(fault.starts_with("tilts/a.tlt: no such tilt file; check the path (named at lamp.ies:5: TILT;"), "{fault}");
+    let message = read_asset(folder.path(), &path).expect_err("no such file");
+    assert!(message.starts_with("tilts/a.tlt: no such tilt file; check the path (named at lamp.ies:5: TILT;"), "{message}");
     std::fs::write(folder.path().join("tilts/a.tlt"), table).expect("write");
-    let named = told(folder.path(), &path).expect("readable");
+    let named = read_asset(folder.path(), &path).expect("readable");
     assert_eq!((named.tilt, named.candela), (expected, included.candela));
     std::fs::write(folder.path().join("tilts/a.tlt"), table.replace("0.95", "0.96")).expect("write");
-    assert_ne!(told(folder.path(), &path).expect("readable").hash, named.hash, "the table is a part of the lamp");
+    assert_ne!(read_asset(folder.path(), &path).expect("readable").hash, named.hash, "the table is a part of the lamp");
 }
 
 #[test]
-fn the_flux_is_told_where_it_is_not_what_is_rated() {
+fn a_flux_other_than_the_rated_one_is_reported() {
     // 100 cd all around: 400 π lm.
-    let of = |lumens: f64| {
-        let mut lamp = Ies::of(1, &[0.0], &steps(0.0, 180.0, 10.0), |_, _| 100.0);
+    let with_lumens = |lumens: f64| {
+        let mut lamp = Ies::new(1, &[0.0], &steps(0.0, 180.0, 10.0), |_, _| 100.0);
         lamp.lumens = lumens;
         read_bytes("lamp.ies", lamp.text().as_bytes())
     };
     for lumens in [1240.0, 1256.6, 1280.0, -1.0] {
-        assert_eq!(of(lumens).expect("readable").report, [""; 0], "{lumens}");
+        assert_eq!(with_lumens(lumens).expect("readable").report, [""; 0], "{lumens}");
     }
-    let kept = of(1600.0).expect("readable").report;
+    let notes = with_lumens(1600.0).expect("readable").report;
     assert_eq!(
-        kept,
+        notes,
         [
             "lamp.ies: the flux from the intensities is 1256.6 lm, 0.785 times the 1600.0 lm from the lumens of the lamps: the luminaire absorbs the rest, or directions are missing; the intensities are used"
         ]
     );
     assert!(
-        of(1000.0).expect("readable").report[0]
+        with_lumens(1000.0).expect("readable").report[0]
             .contains("a luminaire cannot emit more than its lamps: check lumens and multiplier")
     );
-    let absurd = of(400.0).expect_err("more than three times");
+    let absurd = with_lumens(400.0).expect_err("more than three times");
     assert!(
         absurd.starts_with(
             "lamp.ies: the flux from the intensities is 1256.6371 lm, that from the lumens of the lamps 400.0000 lm"
@@ -206,13 +206,13 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
             "correct the lumens or the multiplier; lumens of -1 denote absolute photometry of the luminaire"
         )
     );
-    assert!(of(0.0).expect("readable").report[0].contains("cannot be checked"));
+    assert!(with_lumens(0.0).expect("readable").report[0].contains("cannot be checked"));
 }
 
 proptest! {
     /// A written lamp of any type reads back to the same bits.
     #[test]
-    fn a_lamp_survives_the_way_through_a_file(
+    fn a_luminaire_is_read_as_it_was_written(
         kind in 1_u8..=3,
         values in prop::collection::vec(0.0_f64..1e6, 5 * 7),
         offset in 0.0_f64..5.0,
@@ -222,13 +222,13 @@ proptest! {
             1 => steps(offset, offset + 330.0, 55.0),
             _ => steps(-30.0 - offset, 30.0 - offset, 10.0),
         };
-        let mut lamp = Ies::of(kind, &horizontal, &vertical, |_, _| 0.0);
+        let mut lamp = Ies::new(kind, &horizontal, &vertical, |_, _| 0.0);
         lamp.candela = values.clone();
         lamp.candela[0] += 1.0;
         let read = lamp.read();
         for (h, angle) in horizontal.iter().enumerate() {
-            let found = read.horizontal_deg.iter().position(|a| a == angle).expect("the plane");
-            prop_assert_eq!(read.column(found), &lamp.candela[5 * h..][..5]);
+            let index = read.horizontal_deg.iter().position(|a| a == angle).expect("the plane");
+            prop_assert_eq!(read.column(index), &lamp.candela[5 * h..][..5]);
         }
     }
 }

@@ -26,21 +26,21 @@ fn quadrants(c: f64, v: f64) -> f64 {
 #[test]
 fn every_symmetry_is_the_lamp_written_out() {
     let (all, vertical) = (steps(0.0, 345.0, 15.0), steps(0.0, 180.0, 10.0));
-    let whole = |value: fn(f64, f64) -> f64| Ldt::of(0, &all, &all, &vertical, value).read();
+    let complete = |value: fn(f64, f64) -> f64| Ldt::new(0, &all, &all, &vertical, value).read();
     let part =
-        |symmetry, stored: &[f64], value: fn(f64, f64) -> f64| Ldt::of(symmetry, &all, stored, &vertical, value).read();
-    assert_same_light(&part(2, &steps(0.0, 180.0, 15.0), about_c0), &whole(about_c0));
+        |symmetry, stored: &[f64], value: fn(f64, f64) -> f64| Ldt::new(symmetry, &all, stored, &vertical, value).read();
+    assert_same_light(&part(2, &steps(0.0, 180.0, 15.0), about_c0), &complete(about_c0));
     let from_behind: Vec<f64> = steps(270.0, 450.0, 15.0).into_iter().map(|c| c % 360.0).collect();
-    assert_same_light(&part(3, &from_behind, about_c90), &whole(about_c90));
-    assert_same_light(&part(4, &steps(0.0, 90.0, 15.0), quadrants), &whole(quadrants));
+    assert_same_light(&part(3, &from_behind, about_c90), &complete(about_c90));
+    assert_same_light(&part(4, &steps(0.0, 90.0, 15.0), quadrants), &complete(quadrants));
     let round = part(1, &[0.0], odd);
     assert_eq!((&round.horizontal_deg[..], round.column(0)), (&[0.0, 360.0][..], round.column(1)));
-    assert_eq!(whole(odd).candela_at(352.5, 90.0), 0.5 * (odd(345.0, 90.0) + odd(0.0, 90.0)), "closed over 360°");
+    assert_eq!(complete(odd).candela_at(352.5, 90.0), 0.5 * (odd(345.0, 90.0) + odd(0.0, 90.0)), "closed over 360°");
 }
 
 #[test]
 fn numbers_are_per_1000_lumens_of_the_lamps_and_converted() {
-    let mut lamp = Ldt::of(1, &[0.0], &[0.0], &steps(0.0, 180.0, 10.0), |_, _| 100.0);
+    let mut lamp = Ldt::new(1, &[0.0], &[0.0], &steps(0.0, 180.0, 10.0), |_, _| 100.0);
     lamp.sets = vec![(2, 4000.0, 90.5), (1, 9000.0, 200.0)];
     lamp.factors = [125.0, 0.75, 0.0];
     let read = lamp.read();
@@ -62,7 +62,7 @@ fn numbers_are_per_1000_lumens_of_the_lamps_and_converted() {
 
 #[test]
 fn commas_may_be_decimal_signs_and_negative_lamps_absolute() {
-    let mut lamp = Ldt::of(1, &[0.0], &[0.0], &[0.0, 22.5, 180.0], |_, v| 79.5 + v / 4.0);
+    let mut lamp = Ldt::new(1, &[0.0], &[0.0], &[0.0, 22.5, 180.0], |_, v| 79.5 + v / 4.0);
     lamp.sets = vec![(-1, 1562.5, 12.25)];
     let read = lamp.read();
     let comma = read_bytes("l.ldt", lamp.text().replace('.', ",").as_bytes()).expect("readable");
@@ -72,8 +72,8 @@ fn commas_may_be_decimal_signs_and_negative_lamps_absolute() {
 }
 
 #[test]
-fn the_tilt_of_the_measurement_is_told() {
-    let mut lamp = Ldt::of(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
+fn the_tilt_of_the_measurement_is_reported() {
+    let mut lamp = Ldt::new(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
     lamp.factors[2] = 5.0;
     let read = lamp.read();
     assert_eq!(read.tilt, Tilt::Measured(5.0));
@@ -81,8 +81,8 @@ fn the_tilt_of_the_measurement_is_told() {
 }
 
 #[test]
-fn a_share_in_place_of_per_cent_is_found_by_the_flux() {
-    let mut lamp = Ldt::of(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
+fn a_fraction_in_place_of_per_cent_is_detected_by_the_flux() {
+    let mut lamp = Ldt::new(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
     lamp.factors[0] = 0.8;
     let message = read_bytes("l.ldt", lamp.text().as_bytes()).expect_err("more than a hundred times");
     assert!(

@@ -11,10 +11,10 @@ pub(crate) fn read_bytes(name: &str, bytes: &[u8]) -> Result<PhotometryAsset, St
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).expect("write");
-    told(folder.path(), &path)
+    read_asset(folder.path(), &path)
 }
 
-pub(crate) fn told(folder: &Path, path: &Path) -> Result<PhotometryAsset, String> {
+pub(crate) fn read_asset(folder: &Path, path: &Path) -> Result<PhotometryAsset, String> {
     read_photometry(path).map_err(|e| e.to_string().replace(&format!("{}/", folder.display()), ""))
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Ies {
 
 impl Ies {
     /// A lamp of type 1 C, 2 B or 3 A whose intensities are a function of the horizontal and vertical angle.
-    pub(crate) fn of(kind: u8, horizontal: &[f64], vertical: &[f64], candela: impl Fn(f64, f64) -> f64) -> Self {
+    pub(crate) fn new(kind: u8, horizontal: &[f64], vertical: &[f64], candela: impl Fn(f64, f64) -> f64) -> Self {
         let candela = horizontal.iter().flat_map(|h| vertical.iter().map(|v| candela(*h, *v)).collect::<Vec<_>>());
         Self {
             first: "IESNA:LM-63-2002",
@@ -78,7 +78,7 @@ impl Ies {
     }
 
     pub(crate) fn read(&self) -> PhotometryAsset {
-        read_bytes("lamp.ies", self.text().as_bytes()).unwrap_or_else(|told| panic!("{told}"))
+        read_bytes("lamp.ies", self.text().as_bytes()).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
@@ -98,7 +98,7 @@ pub(crate) struct Ldt {
 
 impl Ldt {
     /// A lamp of that symmetry; `stored` are the planes whose values are written, of all `planes`.
-    pub(crate) fn of(
+    pub(crate) fn new(
         symmetry: u8,
         planes: &[f64],
         stored: &[f64],
@@ -128,7 +128,7 @@ impl Ldt {
     }
 
     pub(crate) fn read(&self) -> PhotometryAsset {
-        read_bytes("lamp.ldt", self.text().as_bytes()).unwrap_or_else(|told| panic!("{told}"))
+        read_bytes("lamp.ldt", self.text().as_bytes()).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 

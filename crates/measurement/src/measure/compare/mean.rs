@@ -15,42 +15,42 @@ use etendue_stats::normal::{quantile, two_sided_p};
 use serde_json::Value;
 
 /// A curve of one side with its gaps to the other.
-pub(crate) type Compared = (Curve, Vec<Gap>);
+pub(crate) type ComparedCurve = (Curve, Vec<CurveGap>);
 
 /// Maximum number of curves drawn individually; more are drawn as their mean.
-const FEW: usize = 3;
+const MAX_SINGLE_CURVES: usize = 3;
 
 /// Means of the curves of each table that has more than a few.
-pub(crate) fn means(all: &[Compared]) -> Vec<Compared> {
-    let table = |c: &Compared| c.0.kind().to_owned();
+pub(crate) fn means(all: &[ComparedCurve]) -> Vec<ComparedCurve> {
+    let table = |c: &ComparedCurve| c.0.kind().to_owned();
     let mut tables: Vec<String> = all.iter().map(table).collect();
     tables.dedup();
-    let of = |name: &String| all.iter().filter(|c| table(c) == *name).collect::<Vec<_>>();
-    tables.iter().map(of).filter(|some| some.len() > FEW).map(|some| mean(&some)).collect()
+    let same_table = |name: &String| all.iter().filter(|c| table(c) == *name).collect::<Vec<_>>();
+    tables.iter().map(same_table).filter(|some| some.len() > MAX_SINGLE_CURVES).map(|some| mean(&some)).collect()
 }
 
-fn mean(some: &[&Compared]) -> Compared {
+fn mean(some: &[&ComparedCurve]) -> ComparedCurve {
     let at = |x: f64| some.iter().filter_map(move |(_, gaps)| gaps.iter().find(|g| g.x == x)).collect::<Vec<_>>();
     let (first, gaps) = some[0];
-    let places = gaps.iter().map(|gap| at(gap.x)).filter(|there| there.len() == some.len());
-    let gaps: Vec<Gap> = places.map(|there| together(&there)).collect();
+    let places = gaps.iter().map(|gap| at(gap.x)).filter(|values| values.len() == some.len());
+    let gaps: Vec<CurveGap> = places.map(|values| combined(&values)).collect();
     let points = gaps.iter().map(|gap| (gap.x, gap.a)).collect();
     let word = first.kind();
     (Curve { name: format!("{word}, mean of {}", some.len()), points, ..first.clone() }, gaps)
 }
 
-fn together(gaps: &[&Gap]) -> Gap {
+fn combined(gaps: &[&CurveGap]) -> CurveGap {
     let count = gaps.len() as f64;
-    let of = |side: fn(&Gap) -> Estimate| {
+    let mean_side = |side: fn(&CurveGap) -> Estimate| {
         let value = gaps.iter().map(|g| side(g).value).sum::<f64>() / count;
         let squares = gaps.iter().map(|g| side(g).standard_uncertainty * side(g).standard_uncertainty).sum::<f64>();
         Estimate::new(value, squares.sqrt() / count)
     };
-    Gap { x: gaps[0].x, a: of(|g| g.a), b: of(|g| g.b), significant: gaps.iter().all(|g| g.significant) }
+    CurveGap { x: gaps[0].x, a: mean_side(|g| g.a), b: mean_side(|g| g.b), significant: gaps.iter().all(|g| g.significant) }
 }
 
 /// Tables that are curves: table, abscissa, ordinate, and label of the ordinate.
-const KNOWN: [(&str, &str, &str, &str); 7] = [
+const CURVE_TABLES: [(&str, &str, &str, &str); 7] = [
     ("curve", "field_percent", "ratio", "observed over ideal distance"),
     ("profile", "field_percent", "illumination_percent", "illumination, % of the centre"),
     ("rings", "field_percent", "radial_px", "radial displacement, px"),
@@ -82,24 +82,24 @@ fn estimate(cell: &Value) -> Option<Estimate> {
 
 /// The curves of a report's tables.
 pub(crate) fn curves(tables: &Value) -> Vec<Curve> {
-    let mut found: Vec<Curve> = Vec::new();
-    for (table, abscissa, ordinate, words) in KNOWN {
+    let mut curves_found: Vec<Curve> = Vec::new();
+    for (table, abscissa, ordinate, words) in CURVE_TABLES {
         for row in tables[table].as_array().into_iter().flatten() {
             let Some(y) = estimate(&row[ordinate]) else { continue };
             let Some(x) = row[abscissa].as_f64().or_else(|| row[abscissa]["value"].as_f64()) else { continue };
             let labels: Vec<&str> =
                 row.as_object().into_iter().flatten().filter_map(|(_, cell)| cell.as_str()).collect();
             let name = [&[table], labels.as_slice()].concat().join(" ");
-            let place = found.iter().position(|c| c.name == name).unwrap_or_else(|| {
-                found.push(Curve { name, abscissa, ordinate: words, points: Vec::new(), noise: Vec::new() });
-                found.len() - 1
+            let place = curves_found.iter().position(|c| c.name == name).unwrap_or_else(|| {
+                curves_found.push(Curve { name, abscissa, ordinate: words, points: Vec::new(), noise: Vec::new() });
+                curves_found.len() - 1
             });
-            found[place].points.push((x, y));
-            found[place].noise.extend(row["noise"].as_f64().map(|noise| (x, noise)));
+            curves_found[place].points.push((x, y));
+            curves_found[place].noise.extend(row["noise"].as_f64().map(|noise| (x, noise)));
         }
     }
-    found.iter_mut().for_each(|c| c.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
-    found
+    curves_found.iter_mut().for_each(|c| c.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
+    curves_found
 }
 
 impl Curve {
@@ -110,7 +110,7 @@ impl Curve {
 
     /// The estimate at x, by linear interpolation; `None` beyond the ends.
     fn at(&self, x: f64) -> Option<Estimate> {
-        let after = self.points.iter().position(|(there, _)| *there >= x)?;
+        let after = self.points.iter().position(|(abscissa, _)| *abscissa >= x)?;
         let (x1, y1) = self.points[after];
         if x1 == x {
             return Some(y1);
@@ -124,7 +124,7 @@ impl Curve {
 
 /// Two curves at a position of the first.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gap {
+pub(crate) struct CurveGap {
     pub x: f64,
     pub a: Estimate,
     pub b: Estimate,
@@ -132,7 +132,7 @@ pub(crate) struct Gap {
     pub significant: bool,
 }
 
-impl Gap {
+impl CurveGap {
     pub(crate) fn difference(&self) -> f64 {
         self.a.value - self.b.value
     }
@@ -150,11 +150,11 @@ impl Gap {
 }
 
 /// Gaps at the positions where both curves are defined.
-pub(crate) fn gaps(a: &Curve, b: &Curve) -> Vec<Gap> {
+pub(crate) fn gaps(a: &Curve, b: &Curve) -> Vec<CurveGap> {
     let largest = b.points.iter().map(|(_, y)| y.value.abs()).fold(0.0, f64::max);
     let gap = |(x, a): &(f64, Estimate)| {
         let b = b.at(*x)?;
-        Some(Gap { x: *x, a: *a, b, significant: b.value.abs() > 0.01 * largest })
+        Some(CurveGap { x: *x, a: *a, b, significant: b.value.abs() > 0.01 * largest })
     };
     a.points.iter().filter_map(gap).collect()
 }
@@ -181,7 +181,7 @@ mod tests {
                 points: vec![(0.5, a)],
                 noise: Vec::new(),
             };
-            (curve, vec![Gap { x: 0.5, a, b, significant: true }])
+            (curve, vec![CurveGap { x: 0.5, a, b, significant: true }])
         };
         assert!(means(&[0, 1, 2].map(curve)).is_empty());
         let [(mean, gaps)] = &means(&[0, 1, 2, 3].map(curve))[..] else { panic!("one table") };

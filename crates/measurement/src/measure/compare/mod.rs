@@ -20,8 +20,8 @@ use etendue_metrology::Estimate;
 
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
-use mean::{Compared, Curve, Gap, gaps, limit, means};
-use side::{Light, Quantity, Side};
+use mean::{ComparedCurve, Curve, CurveGap, gaps, limit, means};
+use side::{Light, Quantity, ComparisonSide};
 use sides::sides;
 
 /// `etendue measure compare`
@@ -89,23 +89,23 @@ fn family(kind: &str) -> &str {
     if kind == "focal" { "calibrate" } else { kind }
 }
 
-fn contradictions(a: &Side, b: &Side) -> Result<(), String> {
+fn contradictions(a: &ComparisonSide, b: &ComparisonSide) -> Result<(), String> {
     if family(&a.kind) != family(&b.kind) {
         return Err(format!(
             "measurements of different kinds, {} and {}; expected two of the same kind",
             a.kind, b.kind
         ));
     }
-    for (key, of_a) in &a.settings {
-        if let Some(of_b) = b.settings.get(key).filter(|of_b| *of_b != of_a) {
+    for (key, value_a) in &a.settings {
+        if let Some(value_b) = b.settings.get(key).filter(|value_b| *value_b != value_a) {
             return Err(format!(
-                "{key}: {of_a} and {of_b}: the quantities have different meanings; measure both with the same setting"
+                "{key}: {value_a} and {value_b}: the quantities have different meanings; measure both with the same setting"
             ));
         }
     }
-    for (key, of_a) in &a.quantities {
-        if let Some(of_b) = b.quantities.get(key).filter(|of_b| of_b.unit != of_a.unit) {
-            return Err(format!("{key}: units '{}' and '{}' differ; expected the same unit", of_a.unit, of_b.unit));
+    for (key, quantity_a) in &a.quantities {
+        if let Some(quantity_b) = b.quantities.get(key).filter(|quantity_b| quantity_b.unit != quantity_a.unit) {
+            return Err(format!("{key}: units '{}' and '{}' differ; expected the same unit", quantity_a.unit, quantity_b.unit));
         }
     }
     let common = a.quantities.keys().any(|key| b.quantities.contains_key(key));
@@ -122,23 +122,23 @@ fn number(value: Option<f64>, decimals: usize) -> Cell {
 }
 
 /// Table of quantities, and those that differ.
-fn quantities(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
-    let common = a.quantities.iter().filter_map(|(key, of_a)| Some((key, of_a, b.quantities.get(key)?)));
+fn quantities(report: &mut Report, a: &ComparisonSide, b: &ComparisonSide) -> Vec<String> {
+    let common = a.quantities.iter().filter_map(|(key, quantity_a)| Some((key, quantity_a, b.quantities.get(key)?)));
     let mut differing = Vec::new();
     let mut rows = Vec::new();
-    for (key, of_a, of_b) in common {
-        let e_n = normalised(of_a, of_b);
+    for (key, quantity_a, quantity_b) in common {
+        let e_n = normalised(quantity_a, quantity_b);
         let differs = e_n.map(|e| e.abs() > 1.0);
         if differs == Some(true) {
             differing.push(key.clone());
         }
-        let difference = of_a.value - of_b.value;
-        let relative = (of_b.value != 0.0).then(|| 100.0 * difference / of_b.value.abs());
+        let difference = quantity_a.value - quantity_b.value;
+        let relative = (quantity_b.value != 0.0).then(|| 100.0 * difference / quantity_b.value.abs());
         rows.push(vec![
             Cell::Text(key.clone()),
-            Cell::Text(of_a.unit.clone()),
-            cell(of_a),
-            cell(of_b),
+            Cell::Text(quantity_a.unit.clone()),
+            cell(quantity_a),
+            cell(quantity_b),
             number(relative, 4),
             number(e_n, 2),
             verdict(differs),
@@ -170,15 +170,15 @@ fn normalised(a: &Quantity, b: &Quantity) -> Option<f64> {
 }
 
 /// Table of curves with their plots, and those that differ.
-fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
+fn curves(report: &mut Report, a: &ComparisonSide, b: &ComparisonSide) -> Vec<String> {
     let mut differing = Vec::new();
     let mut rows = Vec::new();
     let pairs = a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?)));
-    let all: Vec<Compared> = pairs.map(|(of_a, of_b)| (of_a.clone(), gaps(of_a, of_b))).collect();
+    let all: Vec<ComparedCurve> = pairs.map(|(curve_a, curve_b)| (curve_a.clone(), gaps(curve_a, curve_b))).collect();
     for (curve, gaps) in &all {
         // All points of curves of one kind form one family.
         let family = all.iter().filter(|(other, _)| other.kind() == curve.kind());
-        let tested = family.flat_map(|(_, gaps)| gaps).filter_map(Gap::normalised).count();
+        let tested = family.flat_map(|(_, gaps)| gaps).filter_map(CurveGap::normalised).count();
         let (row, differs) = curve_row(curve, gaps, limit(tested));
         rows.push(row);
         if differs == Some(true) {
@@ -209,8 +209,8 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
 }
 
 /// Mean of many curves, point by point.
-fn mean_table(curve: &Curve, gaps: &[Gap]) -> Table {
-    let row = |gap: &Gap| {
+fn mean_table(curve: &Curve, gaps: &[CurveGap]) -> Table {
+    let row = |gap: &CurveGap| {
         let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
         vec![
             Cell::Text(curve.name.clone()),
@@ -231,18 +231,18 @@ fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.max_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
-fn curve_row(curve: &Curve, gaps: &[Gap], limit: f64) -> (Vec<Cell>, Option<bool>) {
+fn curve_row(curve: &Curve, gaps: &[CurveGap], limit: f64) -> (Vec<Cell>, Option<bool>) {
     let worst = gaps.iter().max_by(|a, b| a.difference().abs().total_cmp(&b.difference().abs()));
-    let of_size = |gap: &Gap| gap.normalised().map_or(f64::NEG_INFINITY, f64::abs);
-    let least_likely = gaps.iter().max_by(|a, b| of_size(a).total_cmp(&of_size(b)));
-    let e_n = least_likely.and_then(Gap::normalised);
+    let magnitude = |gap: &CurveGap| gap.normalised().map_or(f64::NEG_INFINITY, f64::abs);
+    let least_likely = gaps.iter().max_by(|a, b| magnitude(a).total_cmp(&magnitude(b)));
+    let e_n = least_likely.and_then(CurveGap::normalised);
     let differs = e_n.map(|e| e.abs() > limit);
     let row = vec![
         Cell::Text(curve.name.clone()),
         Cell::Number(gaps.len() as f64, 0),
-        number(worst.map(Gap::difference), 6),
+        number(worst.map(CurveGap::difference), 6),
         number(worst.map(|gap| gap.x), 2),
-        number(largest(gaps.iter().filter_map(Gap::relative)).map(|r| 100.0 * r), 4),
+        number(largest(gaps.iter().filter_map(CurveGap::relative)).map(|r| 100.0 * r), 4),
         number(e_n, 2),
         number(e_n.and(least_likely).map(|gap| gap.x), 2),
         number(e_n.map(|_| limit), 2),
@@ -261,8 +261,8 @@ fn x_axis(curve: &Curve) -> Axis {
     })
 }
 
-fn both(curve: &Curve, gaps: &[Gap]) -> Plot {
-    let bars = |side: fn(&Gap) -> Estimate| {
+fn both(curve: &Curve, gaps: &[CurveGap]) -> Plot {
+    let bars = |side: fn(&CurveGap) -> Estimate| {
         gaps.iter().map(move |gap| (gap.x, side(gap).value, 2.0 * side(gap).standard_uncertainty))
     };
     Plot {
@@ -276,7 +276,7 @@ fn both(curve: &Curve, gaps: &[Gap]) -> Plot {
     }
 }
 
-fn error(a: &Curve, gaps: &[Gap]) -> Plot {
+fn error(a: &Curve, gaps: &[CurveGap]) -> Plot {
     let points = gaps.iter().filter_map(|gap| {
         let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
         Some((gap.x, 100.0 * gap.relative()?, 200.0 * u / gap.b.value.abs()))
@@ -290,7 +290,7 @@ fn error(a: &Curve, gaps: &[Gap]) -> Plot {
 }
 
 /// Quantities that only one side states.
-fn unmatched(report: &mut Report, a: &Side, b: &Side) {
+fn unmatched(report: &mut Report, a: &ComparisonSide, b: &ComparisonSide) {
     for (name, this, other) in [("A", a, b), ("B", b, a)] {
         let quantities = this.quantities.keys().filter(|key| !other.quantities.contains_key(*key));
         let curves = this.curves.iter().map(|c| &c.name).filter(|name| other.curves.iter().all(|c| c.name != **name));

@@ -27,10 +27,10 @@ use etendue_spectra::Spectrum;
 use glam::DVec2;
 
 use super::mean::Curve;
-use super::side::{Side, channel, place_of, spectrum, weighed};
+use super::side::{ComparisonSide, channel, place_of, spectrum, weighed};
 
 /// Inputs of a camera's response curves.
-struct Response<'a> {
+struct ResponseInputs<'a> {
     body: &'a CameraBody,
     /// (weight, columns to the right, rows down) of the pixels whose light contributes to a reading; the weights sum to 1.
     neighbours: Vec<(f64, f64, f64)>,
@@ -39,9 +39,9 @@ struct Response<'a> {
 }
 
 /// The declared curves at the measured frequencies.
-pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
+pub(crate) fn declared(body: &CameraBody, measured: &ComparisonSide, light: &str) -> Result<Vec<Curve>, String> {
     in_closed_form(body)?;
-    let response = Response::of(body, measured, light)?;
+    let response = ResponseInputs::from_body(body, measured, light)?;
     Ok(measured.curves.iter().map(|curve| response.at_points(curve, measured)).collect())
 }
 
@@ -67,8 +67,8 @@ fn is_plain(psf: &PsfParameters) -> bool {
     psf.blades == 0 && psf.obstruction == 0.0 && psf.wavefront.is_empty()
 }
 
-impl<'a> Response<'a> {
-    fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
+impl<'a> ResponseInputs<'a> {
+    fn from_body(body: &'a CameraBody, measured: &ComparisonSide, light: &str) -> Result<Self, String> {
         let spectrum = spectrum(light)?;
         let alone = |light| Self { body, neighbours: vec![(1.0, 0.0, 0.0)], light };
         let Some(sensor) = &body.sensor else { return Ok(alone(weights(spectrum, &Spectrum::constant(1.0)))) };
@@ -82,20 +82,20 @@ impl<'a> Response<'a> {
         }
         let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
         let light = weights(spectrum, sensor.responsivity(channel));
-        let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
+        let response_of = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
         let at = place_of(p, channel);
         let mut neighbours = Vec::new();
         for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
-            let share = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| c.0.weight(dx, dy));
+            let crosstalk_weight = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| c.0.weight(dx, dy));
             let there = sensor.channel_at(at[0] + p.cfa.width() + dx - 1, at[1] + p.cfa.height() + dy - 1);
-            neighbours.push((share * seen(there), dx as f64 - 1.0, dy as f64 - 1.0));
+            neighbours.push((crosstalk_weight * response_of(there), dx as f64 - 1.0, dy as f64 - 1.0));
         }
         let sum: f64 = neighbours.iter().map(|(weight, ..)| weight).sum();
         neighbours.iter_mut().for_each(|(weight, ..)| *weight /= sum);
         Ok(Self { body, neighbours, light })
     }
 
-    fn at_points(&self, measured: &Curve, side: &Side) -> Curve {
+    fn at_points(&self, measured: &Curve, side: &ComparisonSide) -> Curve {
         let words = || measured.name.split(' ');
         let down = words().any(|word| word == "vertical");
         let angle_deg = words().find_map(|word| side.angles_deg.get(word)).copied().unwrap_or(0.0);
@@ -125,7 +125,7 @@ impl<'a> Response<'a> {
         let pitch = self.body.raster.pitch_mm();
         let per_mm = nu / if down { pitch.y } else { pitch.x };
         let axis = if down { DVec2::Y } else { DVec2::X };
-        let average = |of: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * of(*nm)).sum();
+        let average = |response_at: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * response_at(*nm)).sum();
         match self.body.effects.psf() {
             None => 1.0,
             Some(PointSpread::Aperture(psf)) => {
@@ -135,12 +135,12 @@ impl<'a> Response<'a> {
                 let wider = DVec2::new(along * axis.dot(outwards), across * axis.perp_dot(outwards)).length();
                 average(&|nm| diffraction(nm * 1e-6 * psf.f_number() * per_mm * wider))
             }
-            Some(PointSpread::Image(image)) => average(&|nm| of_picture(image, nm, per_mm, down)),
+            Some(PointSpread::Image(image)) => average(&|nm| image_response(image, nm, per_mm, down)),
             Some(PointSpread::Table(table)) => {
                 let place = place_px.map_or(DVec2::ZERO, |at| (at - self.body.raster.principal_px()) * pitch);
                 // Wavelengths add before the modulus is taken.
-                let of = |(weight, nm): &(f64, f64)| *weight * table.transfer(*nm, place, axis * per_mm);
-                self.light.iter().map(of).sum::<DVec2>().length()
+                let weighted_transfer = |(weight, nm): &(f64, f64)| *weight * table.transfer(*nm, place, axis * per_mm);
+                self.light.iter().map(weighted_transfer).sum::<DVec2>().length()
             }
         }
     }
@@ -167,7 +167,7 @@ fn diffraction(s: f64) -> f64 {
 }
 
 /// MTF of a point-spread image, cycles per mm on the sensor.
-fn of_picture(image: &SpreadImage, nm: f64, per_mm: f64, down: bool) -> f64 {
+fn image_response(image: &SpreadImage, nm: f64, per_mm: f64, down: bool) -> f64 {
     let p = image.parameters();
     let step_mm = 1e-3 * p.pitch_um * p.wavelength_nm.map_or(1.0, |at| nm / at);
     let middle = 0.5 * if down { p.height() as f64 } else { p.width as f64 };

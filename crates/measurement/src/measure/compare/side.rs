@@ -24,7 +24,7 @@ impl Quantity {
 
 /// Facts about a camera on one side.
 #[derive(Clone, Debug)]
-pub(crate) struct Side {
+pub(crate) struct ComparisonSide {
     pub kind: String,
     pub settings: BTreeMap<String, String>,
     pub quantities: BTreeMap<String, Quantity>,
@@ -37,12 +37,12 @@ pub(crate) struct Side {
 pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
     let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
     let Some(name) = measured else {
-        let several = || format!("the pixels have colour filters ({}); choose one with `channel`", names());
-        return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
+        let several_colours = || format!("the pixels have colour filters ({}); choose one with `channel`", names());
+        return if p.channels.len() == 1 { Ok(0) } else { Err(several_colours()) };
     };
-    let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
-    let found = p.channels.iter().position(|c| alike(&c.name));
-    found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
+    let matches = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
+    let position = p.channels.iter().position(|c| matches(&c.name));
+    position.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
 }
 
 /// The first place of a channel in the tile, which measurements use.
@@ -63,7 +63,7 @@ pub(crate) struct Light {
 /// The light's spectrum.
 pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
     let unknown = || format!("`illuminant` {light}: expected one of {}", illuminant::names().join(", "));
-    illuminant::named(light).ok_or_else(unknown)
+    illuminant::by_name(light).ok_or_else(unknown)
 }
 
 /// Light of a spectrum that a pixel sees, by wavelength, nm.

@@ -7,7 +7,7 @@ use etendue_io::source::text_of;
 use etendue_plan_report::open_camera;
 use serde_json::Value;
 
-use super::side::{Light, Quantity, Side};
+use super::side::{Light, Quantity, ComparisonSide};
 use super::{declared, mean::curves};
 
 fn is_camera(file: &Path) -> bool {
@@ -15,11 +15,11 @@ fn is_camera(file: &Path) -> bool {
 }
 
 /// Both sides; a camera file declares the quantities that the other side measured.
-pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[Side; 2], Error> {
-    let declaration = |file: &Path, measured: &Side| {
+pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[ComparisonSide; 2], Error> {
+    let declaration = |file: &Path, measured: &ComparisonSide| {
         let body = open_camera(file, set)?;
-        let said = |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", file.display()));
-        declared::side(&body, measured, light).map_err(said)
+        let unsuitable = |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", file.display()));
+        declared::side(&body, measured, light).map_err(unsuitable)
     };
     match (is_camera(a), is_camera(b)) {
         (true, true) => Err(Error::coded(
@@ -30,9 +30,9 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
         (false, true) => measurement(a).and_then(|a| Ok([a.clone(), declaration(b, &a)?])),
         (false, false) => {
             if light.wavelength_nm.is_some() || light.illuminant.is_some() || !set.is_empty() {
-                let told =
+                let message =
                     "`wavelength_nm`, `illuminant` and `set` apply to camera files only, and neither side is one";
-                return Err(Error::argument("wavelength_nm", told));
+                return Err(Error::argument("wavelength_nm", message));
             }
             Ok([measurement(a)?, measurement(b)?])
         }
@@ -40,17 +40,17 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
 }
 
 /// Facts about a camera from a measurement's JSON.
-pub(crate) fn measurement(file: &Path) -> Result<Side, Error> {
+pub(crate) fn measurement(file: &Path) -> Result<ComparisonSide, Error> {
     let text = text_of(file)?;
-    let what = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";
-    let no = |cause: &str| Error::coded(ErrorCode::MalformedFile, format!("{}: {what}: {cause}", file.display()));
-    let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;
+    let message = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";
+    let no = |error: &str| Error::coded(ErrorCode::MalformedFile, format!("{}: {message}: {error}", file.display()));
+    let report: Value = serde_json::from_str(&text).map_err(|error| no(&error.to_string()))?;
     let kind = report["measurement"].as_str().ok_or_else(|| no("\"measurement\" is missing"))?.to_owned();
     let figures = report["figures"].as_object().ok_or_else(|| no("\"figures\" is missing"))?;
     let quantities = figures.iter().filter_map(|(key, figure)| Some((key.clone(), quantity(figure)?))).collect();
     let settings = report["settings"].as_object().into_iter().flatten();
     let settings = settings.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned()))).collect();
-    Ok(Side {
+    Ok(ComparisonSide {
         kind,
         settings,
         quantities,

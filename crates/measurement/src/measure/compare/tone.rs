@@ -27,10 +27,10 @@ use etendue_sensor::{Sensor, effects::response::Response};
 use etendue_spectra::colour::BT709;
 
 use super::mean::Curve;
-use super::side::{Side, channel, place_of, spectrum, weighed};
+use super::side::{ComparisonSide, channel, place_of, spectrum, weighed};
 
 /// Conversion from a fraction of saturation to a reading.
-struct Tone<'a> {
+struct DeclaredTone<'a> {
     black: f64,
     white: f64,
     /// H₀, s.
@@ -40,30 +40,30 @@ struct Tone<'a> {
 }
 
 /// The curves at the measured exposures.
-pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
-    let tone = Tone::of(body, measured, light)?;
+pub(crate) fn declared(body: &CameraBody, measured: &ComparisonSide, light: &str) -> Result<Vec<Curve>, String> {
+    let tone = DeclaredTone::from_body(body, measured, light)?;
     measured.curves.iter().map(|curve| tone.at_points(curve)).collect()
 }
 
 /// The light of a column's mean pixel relative to that of the measured channel, after development if the image was developed.
-fn of_column(sensor: &Sensor, development: Option<&Development>, measured: &Side, light: &str) -> Result<f64, String> {
+fn column_light(sensor: &Sensor, development: Option<&Development>, measured: &ComparisonSide, light: &str) -> Result<f64, String> {
     let p = sensor.parameters();
     if p.channels.len() == 1 {
         return Ok(1.0);
     }
     let spectrum = spectrum(light)?;
-    let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
+    let response_of = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
     let column = |x: usize| {
-        let all = (0..p.cfa.height()).map(|y| seen(sensor.channel_at(x, y)));
+        let all = (0..p.cfa.height()).map(|y| response_of(sensor.channel_at(x, y)));
         all.sum::<f64>() / p.cfa.height() as f64
     };
     let name = measured.settings.get("channel").map(String::as_str);
     if let Some(development) = development {
-        return developed(sensor, development, name, seen, column);
+        return developed(sensor, development, name, response_of, column);
     }
     let channel = channel(p, name)?;
     let [x, _] = place_of(p, channel);
-    Ok(column(x) / seen(channel))
+    Ok(column(x) / response_of(channel))
 }
 
 /// The same in a channel of the developed image; without a name, in its luminance.
@@ -71,7 +71,7 @@ fn developed(
     sensor: &Sensor,
     development: &Development,
     channel: Option<&str>,
-    seen: impl Fn(usize) -> f64,
+    response_of: impl Fn(usize) -> f64,
     column: impl Fn(usize) -> f64,
 ) -> Result<f64, String> {
     let Some(colour) = &development.processing.colour else { return Ok(1.0) };
@@ -81,7 +81,7 @@ fn developed(
     let mut places = vec![0.0; mosaic.channels()];
     for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
         let c = mosaic.channel_at(x, y);
-        own[c] += seen(sensor.channel_at(x, y));
+        own[c] += response_of(sensor.channel_at(x, y));
         smeared[c] += column(x);
         places[c] += 1.0;
     }
@@ -91,26 +91,26 @@ fn developed(
     };
     let balanced = |light: &[f64]| (0..places.len()).map(|c| gain(c) * light[c]).collect::<Vec<f64>>();
     let [own, smeared] = [&own, &smeared].map(|light| colour.matrix.apply(&balanced(light)));
-    let of = |weights: [f64; 3]| {
+    let weighted_sum = |weights: [f64; 3]| {
         let sum = |rgb: [f64; 3]| weights.iter().zip(rgb).map(|(w, v)| w * v).sum::<f64>();
         sum(smeared) / sum(own)
     };
     match channel {
-        Some("R") => Ok(of([1.0, 0.0, 0.0])),
-        Some("G") => Ok(of([0.0, 1.0, 0.0])),
-        Some("B") => Ok(of([0.0, 0.0, 1.0])),
+        Some("R") => Ok(weighted_sum([1.0, 0.0, 0.0])),
+        Some("G") => Ok(weighted_sum([0.0, 1.0, 0.0])),
+        Some("B") => Ok(weighted_sum([0.0, 0.0, 1.0])),
         Some(other) => Err(format!("the image has no channel '{other}', for which the camera file states a curve")),
-        None => Ok(of(BT709)),
+        None => Ok(weighted_sum(BT709)),
     }
 }
 
-impl<'a> Tone<'a> {
-    fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
+impl<'a> DeclaredTone<'a> {
+    fn from_body(body: &'a CameraBody, measured: &ComparisonSide, light: &str) -> Result<Self, String> {
         let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, whose readings were measured")?;
-        let picture = measured.settings.get("readings").is_some_and(|readings| readings == "picture");
-        let development = body.development.as_ref().filter(|_| picture);
-        let even_s = sensor.parameters().even_smear_s(body.raster.height());
-        let smear_s = even_s * of_column(sensor, development, measured, light)?;
+        let is_picture = measured.settings.get("readings").is_some_and(|readings| readings == "picture");
+        let development = body.development.as_ref().filter(|_| is_picture);
+        let even_s = sensor.parameters().uniform_smear_s(body.raster.height());
+        let smear_s = even_s * column_light(sensor, development, measured, light)?;
         if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
             return Err(
                 "the camera has smear, which depends on time; give the exposures in seconds (`exposures`)".to_owned()
@@ -143,15 +143,15 @@ impl<'a> Tone<'a> {
         }
     }
 
-    fn reading(&self, share: f64) -> f64 {
-        let share = share.clamp(0.0, 1.0);
-        let encoded = self.development.map_or(share, |d| f64::from(d.processing.tone.encode(share as f32)));
+    fn reading(&self, fraction: f64) -> f64 {
+        let fraction = fraction.clamp(0.0, 1.0);
+        let encoded = self.development.map_or(fraction, |d| f64::from(d.processing.tone.encode(fraction as f32)));
         self.black + (self.white - self.black) * encoded
     }
 
     /// Mean of readings with this noise at a fraction of saturation.
-    fn mean_reading(&self, share: f64, noise: f64) -> f64 {
-        noisy_mean(|share| self.reading(share), share, (noise * noise - 1.0 / 12.0).max(0.0).sqrt())
+    fn mean_reading(&self, fraction: f64, noise: f64) -> f64 {
+        noisy_mean(|fraction| self.reading(fraction), fraction, (noise * noise - 1.0 / 12.0).max(0.0).sqrt())
     }
 
     /// Fraction of saturation of a reading.
@@ -172,7 +172,7 @@ impl<'a> Tone<'a> {
             );
         }
         let point = |(x, _): &(f64, Estimate)| {
-            let noise = measured.noise.iter().find(|(there, _)| there == x).map_or(0.0, |(_, noise)| *noise);
+            let noise = measured.noise.iter().find(|(abscissa, _)| abscissa == x).map_or(0.0, |(_, noise)| *noise);
             (*x, Estimate::new(self.mean_reading(along / squares * (x + self.smear_s), noise), 0.0))
         };
         Ok(Curve { points: measured.points.iter().map(point).collect(), ..measured.clone() })

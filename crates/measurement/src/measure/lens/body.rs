@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use etendue_core::maths::f64::sin_cos;
-use etendue_io::failure::{Error, ErrorCode, Fault};
+use etendue_io::failure::{Error, ErrorCode, InputError};
 use etendue_io::{load_assets, prescription::read_prescription, source::read_text};
 use etendue_optics::Lens;
 use etendue_pipeline::{compile_camera_with_remarks, plan::CameraBody};
@@ -18,14 +18,14 @@ use super::request::LensRequest;
 const FULL_FRAME_MM: f64 = 21.64;
 
 /// A camera, and the notes on it.
-pub(super) type Told = (CameraBody, Vec<String>);
+pub(super) type MeasuredBody = (CameraBody, Vec<String>);
 
 /// Returns the camera: of a camera file, or built around a lens file or a published lens.
-pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
-    let given = Path::new(&request.lens);
-    if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+pub(super) fn body(request: &LensRequest) -> Result<MeasuredBody, Error> {
+    let lens_file = Path::new(&request.lens);
+    if lens_file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         return match request.picture_radius_mm {
-            None => compiled(request, given, None),
+            None => compiled(request, lens_file, None),
             Some(_) => Err(Error::argument(
                 "picture_radius_mm",
                 "`picture_radius_mm`: the sensor of a camera file determines the image size; leave it out",
@@ -33,45 +33,45 @@ pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
             .with_code(ErrorCode::NoEffect)),
         };
     }
-    let made = |radius_mm: f64| {
-        let text = made_camera(&request.lens, radius_mm);
-        compiled(request, &PathBuf::from(MADE), Some(text)).map_err(|failure| without_place(failure, &request.lens))
+    let body_for_radius = |radius_mm: f64| {
+        let text = generated_camera(&request.lens, radius_mm);
+        compiled(request, &PathBuf::from(GENERATED_FILE), Some(text)).map_err(|failure| without_location(failure, &request.lens))
     };
-    let first = made(request.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
+    let first = body_for_radius(request.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
     let fields = match request.picture_radius_mm {
-        None if is_lens_file(&request.lens) => read_prescription(given).ok().and_then(Fields::of),
+        None if is_lens_file(&request.lens) => read_prescription(lens_file).ok().and_then(Fields::from_asset),
         _ => None,
     };
-    match fields.and_then(|fields| fields.radius_mm(&first.0.lens, |radius_mm| made(radius_mm).map(|told| told.0))) {
-        Some(radius_mm) => made(radius_mm),
+    match fields.and_then(|fields| fields.radius_mm(&first.0.lens, |radius_mm| body_for_radius(radius_mm).map(|measured_body| measured_body.0))) {
+        Some(radius_mm) => body_for_radius(radius_mm),
         None => Ok(first),
     }
 }
 
-fn compiled(request: &LensRequest, file: &Path, made: Option<String>) -> Result<Told, Error> {
+fn compiled(request: &LensRequest, file: &Path, generated: Option<String>) -> Result<MeasuredBody, Error> {
     let f_number = request.f_number.map(|n| format!("lens.f_number={n}"));
     let changes: Vec<String> = request.set.iter().cloned().chain(f_number).collect();
     let overrides = Overrides::new(&changes);
-    let read = |path: &Path| match &made {
+    let read = |path: &Path| match &generated {
         Some(text) if path == file => Ok(text.clone()),
         _ => read_text(path),
     };
-    let camera = load_camera(file, &read, &overrides).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
+    let camera = load_camera(file, &read, &overrides).map_err(|f| Error::inputs(f.as_slice()))?;
+    let assets = load_assets(&named_files::camera_files(&camera)).map_err(Error::inputs)?;
     compile_camera_with_remarks(&camera, &assets).map_err(Error::inputs)
 }
 
 /// File name of a camera built around a lens; no such file exists.
-const MADE: &str = "measure.toml";
+const GENERATED_FILE: &str = "measure.toml";
 
 /// Reports errors of a generated camera against the lens, not against a line of text.
-fn without_place(failure: Error, lens: &str) -> Error {
-    let told = |fault: Fault| match fault.message.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
-        Some(words) => Fault { file: Some(lens.into()), ..Fault::new(fault.code, format!("{lens}:{words}")) },
-        None => fault,
+fn without_location(failure: Error, lens: &str) -> Error {
+    let with_message = |error: InputError| match error.message.strip_prefix(GENERATED_FILE).and_then(|rest| rest.splitn(4, ':').last()) {
+        Some(words) => InputError { file: Some(lens.into()), ..InputError::new(error.code, format!("{lens}:{words}")) },
+        None => error,
     };
     match failure {
-        Error::Input(faults) => Error::Input(faults.into_iter().map(told).collect()),
+        Error::Input(errors) => Error::Input(errors.into_iter().map(with_message).collect()),
         run @ Error::Run(_) => run,
     }
 }
@@ -82,7 +82,7 @@ fn is_lens_file(lens: &str) -> bool {
 
 /// Builds a camera around a lens without a sensor. Focus: that of a lens file; infinity for a published lens. The image is a
 /// square with the requested radius; a lens with a smaller image circle is measured as far as it has light.
-fn made_camera(lens: &str, radius_mm: f64) -> String {
+fn generated_camera(lens: &str, radius_mm: f64) -> String {
     const PIXELS: f64 = 1000.0;
     let pitch_um = 1000.0 * radius_mm * std::f64::consts::SQRT_2 / PIXELS;
     let (key, focus) =
@@ -103,7 +103,7 @@ enum Fields {
 }
 
 impl Fields {
-    fn of(asset: PrescriptionAsset) -> Option<Self> {
+    fn from_asset(asset: PrescriptionAsset) -> Option<Self> {
         let largest = |list: &[f64]| list.iter().map(|x| x.abs()).reduce(f64::max).filter(|x| *x > 0.0);
         Some(match asset.fields.as_ref()? {
             LensFields::AnglesDeg(list) => Self::Angle { rad: largest(list)?.to_radians() },
@@ -115,7 +115,7 @@ impl Fields {
     }
 
     /// Returns its radius on the sensor: for an angle, where the lens images it; for an object height, from first order.
-    fn radius_mm(self, lens: &Lens, made: impl Fn(f64) -> Result<CameraBody, Error>) -> Option<f64> {
+    fn radius_mm(self, lens: &Lens, build: impl Fn(f64) -> Result<CameraBody, Error>) -> Option<f64> {
         let f = lens.focal_length_mm();
         let radius_mm = match self {
             Self::Image { height_mm } => height_mm,
@@ -127,7 +127,7 @@ impl Fields {
                 let (sine, cosine) = sin_cos(rad);
                 // An image that is large enough for the distortion of usual lenses.
                 let rectilinear = if cosine > 0.0 { 1.3 * sine / cosine } else { f64::INFINITY };
-                let wide = made(f * rectilinear.min(2.5 * rad)).ok()?;
+                let wide = build(f * rectilinear.min(2.5 * rad)).ok()?;
                 wide.lens.project(DVec3::new(sine, 0.0, cosine))?.length()
             }
         };

@@ -1,16 +1,16 @@
 //! The strongest ghosts of each field point.
 
-use etendue_optics::Prescribed;
+use etendue_optics::PrescriptionLens;
 use etendue_optics::ghosts::{GhostReport, GhostSettings, strongest};
 use serde_json::{Value, json};
 
 use crate::report::fixed;
 
 /// Number of ghosts reported per field point.
-const TOLD: usize = 3;
+const MAX_REPORTED: usize = 3;
 
-fn of(lens: &Prescribed, height_mm: f64) -> Vec<GhostReport> {
-    strongest(lens, height_mm, GhostSettings::default(), TOLD)
+fn ghost_reports(lens: &PrescriptionLens, height_mm: f64) -> Vec<GhostReport> {
+    strongest(lens, height_mm, GhostSettings::default(), MAX_REPORTED)
 }
 
 /// Surfaces from 1, nearer to the scene first.
@@ -18,7 +18,7 @@ fn surfaces(ghost: &GhostReport) -> [usize; 2] {
     [ghost.pair.front + 1, ghost.pair.rear + 1]
 }
 
-pub(crate) fn json(lens: &Prescribed, height_mm: f64) -> Value {
+pub(crate) fn json(lens: &PrescriptionLens, height_mm: f64) -> Value {
     let ghost = |g: &GhostReport| {
         json!({
             "surfaces": surfaces(g),
@@ -28,16 +28,16 @@ pub(crate) fn json(lens: &Prescribed, height_mm: f64) -> Value {
             "sun_irradiance": g.sun_irradiance,
         })
     };
-    of(lens, height_mm).iter().map(ghost).collect()
+    ghost_reports(lens, height_mm).iter().map(ghost).collect()
 }
 
-pub(crate) fn text(lens: &Prescribed, heights: impl Iterator<Item = f64>) -> String {
+pub(crate) fn text(lens: &PrescriptionLens, heights: impl Iterator<Item = f64>) -> String {
     let mut text = "\nghosts of a far point: the brightest pairs of surfaces\n\
                     height   surfaces  light     at        radius    irradiance\n\
                     mm                 of image  mm        mm        of the sun's image\n"
         .to_owned();
     for height_mm in heights {
-        for ghost in of(lens, height_mm) {
+        for ghost in ghost_reports(lens, height_mm) {
             let [front, rear] = surfaces(&ghost);
             let pair = format!("{front} {rear}");
             let (at, radius) = (fixed(ghost.height_mm, 3), fixed(ghost.radius_mm, 3));

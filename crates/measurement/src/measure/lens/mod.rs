@@ -6,10 +6,10 @@ mod request;
 
 use std::fmt::Write as _;
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
-use etendue_io::failure::{Error, ErrorCode, check_number, check_whole};
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
+use etendue_io::failure::{Error, ErrorCode, check_number, check_integer};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
-use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
+use etendue_optics::{Lens, PRINCIPAL_NM, PrescriptionLens};
 use etendue_pipeline::plan::CameraBody;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -32,10 +32,10 @@ pub struct LensMeasurement {
 /// # Errors
 /// If the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
-    check_whole("fields", request.fields, request::FIELDS)?;
+    check_integer("fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;
     if let Some(nm) = wavelength_nm {
-        check_number("wavelength_nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
+        check_number("wavelength_nm", nm, MIN_NM..=MAX_NM, "nm")?;
     }
     let (body, remarks) = body::body(request)?;
     if wavelength_nm.is_some() && !matches!(body.lens, Lens::Prescription(_)) {
@@ -62,7 +62,7 @@ impl LensMeasurement {
         value
     }
 
-    fn report(&self, lens: &Prescribed) -> LensReport {
+    fn report(&self, lens: &PrescriptionLens) -> LensReport {
         lens.report_at(self.fields, self.wavelength_nm.unwrap_or(lens.prescription().reference_nm()))
     }
 
@@ -83,7 +83,7 @@ fn remarks_text(remarks: &[String]) -> String {
     if lines.is_empty() { lines } else { format!("\nremarks\n{lines}") }
 }
 
-fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
+fn traced_json(lens: &PrescriptionLens, r: &LensReport) -> Value {
     let p = &r.first_order;
     json!({
         "first_order_wavelength_nm": r.first_order_nm,
@@ -115,7 +115,7 @@ fn finite(x: f64) -> Option<f64> {
     Some(x).filter(|x| x.is_finite())
 }
 
-fn field_json(lens: &Prescribed, field: &FieldReport) -> Value {
+fn field_json(lens: &PrescriptionLens, field: &FieldReport) -> Value {
     let image = field.image.as_ref();
     let spot = image.and_then(|i| i.spot);
     let [lateral_f, lateral_c] = [image.and_then(|i| i.lateral_f), image.and_then(|i| i.lateral_c)];
@@ -155,7 +155,7 @@ fn bundle_json(bundle: &OtherBundle) -> Value {
     })
 }
 
-fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
+fn traced_text(lens: &PrescriptionLens, r: &LensReport) -> String {
     let p = &r.first_order;
     let focus =
         if r.focus_distance_m.is_finite() { format!("{} m", r.focus_distance_m) } else { "infinity".to_owned() };
@@ -203,8 +203,8 @@ fn fields_text(fields: &[FieldReport]) -> String {
     let line = |name: &str, error: Option<f64>| error.map(|mm| format!("{name} to {} µm", error_um(mm)));
     let centroids = line("centroids of the d line", largest(&mut spots.into_iter()));
     let colours = line("colour of centroids", largest(&mut colours.map(|colour| colour.centroid_error_mm)));
-    let told: Vec<String> = centroids.into_iter().chain(colours).collect();
-    if told.is_empty() { format!("{FIELDS}{rows}") } else { format!("{FIELDS}{rows}{}\n", told.join(", ")) }
+    let lines: Vec<String> = centroids.into_iter().chain(colours).collect();
+    if lines.is_empty() { format!("{FIELDS}{rows}") } else { format!("{FIELDS}{rows}{}\n", lines.join(", ")) }
 }
 
 /// An estimated error of a length in mm, in µm.
@@ -221,12 +221,12 @@ fn field_row(field: &FieldReport) -> String {
     let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
     let rms =
         spot.map_or("–".to_owned(), |s| format!("{} ± {}", fixed(1000.0 * s.rms_mm, 3), error_um(s.rms_error_mm)));
-    let most = micrometres(spot.map(|s| s.radius_mm));
+    let max_radius = micrometres(spot.map(|s| s.radius_mm));
     let pair = |f: Option<f64>, c: Option<f64>| format!("{} {}", micrometres(f), micrometres(c));
     let centroids = pair(lateral_f.map(|l| l.centroid_mm), lateral_c.map(|l| l.centroid_mm));
     let chiefs = pair(lateral_f.and_then(|l| l.chief_mm), lateral_c.and_then(|l| l.chief_mm));
     format!(
-        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<16} {most:<9} {:<11} {:<9} {centroids:<20} {chiefs}\n",
+        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<16} {max_radius:<9} {:<11} {:<9} {centroids:<20} {chiefs}\n",
         angle_rad.to_degrees(),
         fixed(image.tangential_mm, 4),
         fixed(image.sagittal_mm, 4),

@@ -2,22 +2,22 @@
 
 use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spatial};
 
-use super::request::Found;
+use super::request::PtcResults;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::Report;
 
-pub(super) fn draw(report: &mut Report, found: &Found) {
-    report.plot(transfer_plot(found));
-    report.plot(snr_plot(found));
-    report.plot(linearity_plot(&found.data));
-    if let Some(fixed) = &found.fixed {
+pub(super) fn draw(report: &mut Report, results: &PtcResults) {
+    report.plot(transfer_plot(results));
+    report.plot(snr_plot(results));
+    report.plot(linearity_plot(&results.data));
+    if let Some(fixed) = &results.fixed {
         report.plot(spectrogram_plot("spectrogram without light", &fixed.dark));
         report.plot(spectrogram_plot("spectrogram with light", &fixed.bright));
     }
 }
 
-fn transfer_plot(found: &Found) -> Plot {
-    let (data, gain) = (&found.data, found.figures.gain_dn_per_e.value);
+fn transfer_plot(results: &PtcResults) -> Plot {
+    let (data, gain) = (&results.data, results.figures.gain_dn_per_e.value);
     let excess = |i: usize| {
         let (variance, dark) = (data.bright()[i].statistics.variance_dn2, data.dark_of(i).statistics.variance_dn2);
         (data.signal_dn(i), variance.value - dark.value, 2.0 * variance.standard_uncertainty)
@@ -34,8 +34,8 @@ fn transfer_plot(found: &Found) -> Plot {
     }
 }
 
-fn snr_plot(found: &Found) -> Plot {
-    let (data, f) = (&found.data, &found.figures);
+fn snr_plot(results: &PtcResults) -> Plot {
+    let (data, f) = (&results.data, &results.figures);
     let measured = data.snr().into_iter().map(|p| (p.photons, p.snr.value, 2.0 * p.snr.standard_uncertainty));
     let (first, last) = (data.bright()[0].photons, f.saturation_photons.value);
     let light = |i: i32| first * etendue_core::maths::f64::pow(last / first, f64::from(i) / 60.0);
@@ -49,7 +49,7 @@ fn snr_plot(found: &Found) -> Plot {
         Series::with_errors("measured", Mark::Points, measured),
         Series::new("linear model", Mark::Line, (0..=60).map(light).map(model(0.0, 0.0))),
     ];
-    if let Some(fixed) = &found.fixed {
+    if let Some(fixed) = &results.fixed {
         let (dsnu, prnu) = (fixed.patterns.dsnu_e.total.value, fixed.patterns.prnu.total.value);
         series.push(Series::new("with DSNU and PRNU", Mark::Broken, (0..=60).map(light).map(model(dsnu, prnu))));
     }

@@ -16,18 +16,18 @@ use etendue_metrology::Image;
 use etendue_metrology::photon_transfer::{Figures, Level, Pattern, Stack, TransferData, TransferError, nonuniformity};
 use rayon::prelude::*;
 
-use super::request::{Fixed, Found};
-use crate::measure::pictures::{Cut, Pictures};
+use super::request::{FixedPatterns, PtcResults};
+use crate::measure::pictures::{Clipping, ImageProgress};
 use crate::measure::readings::Selection;
 
 /// Levels measured in parallel, and frames read ahead: twice as many images are in memory at a time.
-const AT_A_TIME: usize = 4;
+const PARALLEL_LEVELS: usize = 4;
 
 /// Reader of a descriptor's images.
-pub(super) struct Reading<'a> {
+pub(super) struct GroupReader<'a> {
     pub(super) selection: &'a Selection,
     pub(super) descriptor: &'a EmvaDescriptor,
-    pub(super) pictures: Pictures<'a>,
+    pub(super) pictures: ImageProgress<'a>,
 }
 
 pub(super) fn refused(error: TransferError) -> Error {
@@ -45,12 +45,12 @@ fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Error
     Ok(())
 }
 
-impl Reading<'_> {
+impl GroupReader<'_> {
     /// Measures everything that the images determine.
-    pub(super) fn found(&self) -> Result<Found, Error> {
+    pub(super) fn results(&self) -> Result<PtcResults, Error> {
         let (pairs, stacks): (Vec<_>, Vec<_>) = self.descriptor.levels.iter().partition(|level| level.files.len() == 2);
         let mut levels = Vec::new();
-        for some in pairs.chunks(AT_A_TIME) {
+        for some in pairs.chunks(PARALLEL_LEVELS) {
             levels.extend(some.par_iter().map(|level| self.pair(level)).collect::<Result<Vec<_>, Error>>()?);
         }
         let bright = |(level, marks): &(Level, Vec<u64>)| if level.photons > 0.0 { marks.clone() } else { Vec::new() };
@@ -64,7 +64,7 @@ impl Reading<'_> {
         let cuts = self.cuts(&pairs, &data)?;
         let figures = data.figures().map_err(refused)?;
         let fixed = self.fixed_patterns(&stacks, &data, &figures)?;
-        Ok(Found { data, figures, fixed, cuts })
+        Ok(PtcResults { data, figures, fixed, clippings: cuts })
     }
 
     /// Returns notes of clipped images that enter the result: dark levels, and levels up to 70 % of saturation. Above these, clipped images are part of the
@@ -77,7 +77,7 @@ impl Reading<'_> {
         let note = |level: &&&DescribedLevel| {
             let file = &level.files[0];
             let image = self.selection.raw(file)?.image;
-            let cut = Cut::of(&image, full_scale);
+            let cut = Clipping::from_region(&image, full_scale);
             Ok(cut.map(|cut| format!("{}: {}; the figures do not account for it", file.display(), cut.words())))
         };
         let notes = used.map(|level| note(&level)).collect::<Result<Vec<_>, Error>>()?;
@@ -95,7 +95,7 @@ impl Reading<'_> {
     pub(super) fn stack(&self, level: &DescribedLevel) -> Result<Stack, Error> {
         let mut stack: Option<Stack> = None;
         let mut waiting = Vec::new();
-        for files in level.files.chunks(AT_A_TIME) {
+        for files in level.files.chunks(PARALLEL_LEVELS) {
             let (added, read) = rayon::join(|| add(&mut stack, &waiting), || self.images(files));
             added?;
             waiting = read?;
@@ -112,9 +112,9 @@ impl Reading<'_> {
         let readings = self.selection.raw(file)?;
         readings.independent(file, 1)?;
         let image = readings.image;
-        let whole = self.selection.region.is_none() && self.selection.channel.is_none();
+        let full_image = self.selection.region.is_none() && self.selection.channel.is_none();
         let (size, expected) = ((image.width(), image.height()), (self.descriptor.width, self.descriptor.height));
-        if whole && size != expected {
+        if full_image && size != expected {
             return Err(Error::coded(
                 ErrorCode::NotComparable,
                 format!("{}: {}", file.display(), TransferError::Size { size, expected }),
@@ -161,7 +161,7 @@ impl Reading<'_> {
         stacks: &[&DescribedLevel],
         data: &TransferData,
         figures: &Figures,
-    ) -> Result<Option<Fixed>, Error> {
+    ) -> Result<Option<FixedPatterns>, Error> {
         let dark = stacks.iter().find(|level| level.photons == 0.0);
         let bright = stacks.iter().find(|level| level.photons > 0.0);
         let (dark, bright) = match (dark, bright) {
@@ -181,18 +181,18 @@ impl Reading<'_> {
             ));
         }
         let (dark, bright) = (self.stack(dark)?, self.stack(bright)?);
-        let pattern = |stack| Pattern::of(stack).map_err(refused);
+        let pattern = |stack| Pattern::from_stack(stack).map_err(refused);
         let gain = figures.gain_dn_per_e;
         let patterns = nonuniformity(&pattern(&dark)?, &pattern(&bright)?, gain, data).map_err(refused)?;
-        Ok(Some(Fixed { dark, bright, patterns }))
+        Ok(Some(FixedPatterns { dark, bright, patterns }))
     }
 }
 
 /// Minimum number of frames for a fixed pattern.
-const STACK: usize = 3;
+const MIN_STACK_FRAMES: usize = 3;
 
 /// A group of frames, read.
-pub(crate) struct Group {
+pub(crate) struct FrameGroup {
     pub(crate) level: Level,
     pub(crate) stack: Stack,
 }
@@ -205,15 +205,15 @@ pub(crate) fn groups(
     selection: &Selection,
     levels: &[DescribedLevel],
     observer: &dyn Observer,
-) -> Result<Vec<Group>, Error> {
+) -> Result<Vec<FrameGroup>, Error> {
     let total = levels.iter().map(|level| level.files.len()).sum();
-    let pictures = Pictures { heading: "photon transfer", done: AtomicUsize::new(0), total, observer };
+    let progress = ImageProgress { heading: "photon transfer", done: AtomicUsize::new(0), total, observer };
     let descriptor = EmvaDescriptor { bits: 0, width: 0, height: 0, levels: Vec::new() };
-    let reading = Reading { selection, descriptor: &descriptor, pictures };
+    let reading = GroupReader { selection, descriptor: &descriptor, pictures: progress };
     let group = |level: &DescribedLevel| {
         let stack = reading.stack(level)?;
         let statistics = stack.statistics().map_err(refused)?;
-        Ok(Group { level: Level { exposure_s: level.exposure_s, photons: level.photons, statistics }, stack })
+        Ok(FrameGroup { level: Level { exposure_s: level.exposure_s, photons: level.photons, statistics }, stack })
     };
     levels.iter().map(group).collect()
 }
@@ -222,11 +222,11 @@ pub(crate) fn groups(
 ///
 /// # Errors
 /// If they do not determine the curve.
-pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
-    let lit = |group: &&Group| group.level.photons > 0.0;
+pub(crate) fn measure_groups(groups: &[FrameGroup]) -> Result<PtcResults, TransferError> {
+    let lit = |group: &&FrameGroup| group.level.photons > 0.0;
     let times: Vec<f64> = groups.iter().filter(lit).map(|group| group.level.exposure_s).collect();
-    let levels = |wanted: &dyn Fn(&Group) -> bool| -> Vec<Level> {
-        groups.iter().filter(|group| wanted(group)).map(|group| group.level).collect()
+    let levels = |includes: &dyn Fn(&FrameGroup) -> bool| -> Vec<Level> {
+        groups.iter().filter(|group| includes(group)).map(|group| group.level).collect()
     };
     let data = TransferData::new(&levels(&|group| lit(&group) || times.contains(&group.level.exposure_s)))?;
     let mut figures = data.figures()?;
@@ -235,24 +235,24 @@ pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
     figures.dark_current_variance_e_per_s = all.dark_current_variance_e_per_s;
     let fixed = match stacks(groups, &data) {
         Some((dark, bright)) => {
-            let patterns = nonuniformity(&Pattern::of(dark)?, &Pattern::of(bright)?, figures.gain_dn_per_e, &data)?;
-            Some(Fixed { dark: dark.clone(), bright: bright.clone(), patterns })
+            let patterns = nonuniformity(&Pattern::from_stack(dark)?, &Pattern::from_stack(bright)?, figures.gain_dn_per_e, &data)?;
+            Some(FixedPatterns { dark: dark.clone(), bright: bright.clone(), patterns })
         }
         None => None,
     };
-    Ok(Found { data, figures, fixed, cuts: Vec::new() })
+    Ok(PtcResults { data, figures, fixed, clippings: Vec::new() })
 }
 
 /// The stacks of the fixed patterns: dark and lit.
-fn stacks<'a>(groups: &'a [Group], data: &TransferData) -> Option<(&'a Stack, &'a Stack)> {
+fn stacks<'a>(groups: &'a [FrameGroup], data: &TransferData) -> Option<(&'a Stack, &'a Stack)> {
     let saturation = data.bright()[data.saturation()].statistics.mean_dn.value;
-    let below = |group: &&Group| group.level.photons > 0.0 && group.level.statistics.mean_dn.value < 0.9 * saturation;
-    let many = |group: &&Group| group.stack.frames() >= STACK;
-    let dark_of = |bright: &Group| {
+    let below = |group: &&FrameGroup| group.level.photons > 0.0 && group.level.statistics.mean_dn.value < 0.9 * saturation;
+    let many = |group: &&FrameGroup| group.stack.frames() >= MIN_STACK_FRAMES;
+    let dark_of = |bright: &FrameGroup| {
         let dark = groups.iter().filter(|g| g.level.photons == 0.0 && g.level.exposure_s == bright.level.exposure_s);
         dark.filter(many).max_by_key(|group| group.stack.frames())
     };
     let pairs = groups.iter().filter(below).filter(many).filter_map(|bright| Some((dark_of(bright)?, bright)));
-    let by_size = |(_, bright): &(&Group, &Group)| (bright.stack.frames(), bright.level.photons.to_bits());
+    let by_size = |(_, bright): &(&FrameGroup, &FrameGroup)| (bright.stack.frames(), bright.level.photons.to_bits());
     pairs.max_by_key(by_size).map(|(dark, bright)| (&dark.stack, &bright.stack))
 }

@@ -1,36 +1,36 @@
 //! Results of photon transfer, as text and as keys of a camera file.
 
 use etendue_metrology::Estimate;
-use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};
+use etendue_metrology::photon_transfer::{Figures, Nonuniformity, VarianceComponents, TransferData};
 
 use super::plots;
-use super::request::{self, Found, PtcRequest};
+use super::request::{self, PtcResults, PtcRequest};
 use crate::report::{Cell, Report, Table};
 
-pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
+pub(crate) fn report(request: &PtcRequest, results: &PtcResults) -> Report {
     let mut report = Report::new("ptc", "EMVA 1288 release 4.0 linear (± one standard uncertainty)");
     if let Some(channel) = &request.selection.channel {
         report.setting("channel", channel.clone());
     }
-    figures(&mut report, &found.figures, request.relative_light);
-    if let Some(fixed) = &found.fixed {
+    figures(&mut report, &results.figures, request.relative_light);
+    if let Some(fixed) = &results.fixed {
         nonuniformities(&mut report, &fixed.patterns);
     } else {
         report
             .note("DSNU and PRNU need stacks of more than two images: one without light and one at half of saturation");
     }
-    if !found.data.saturation_reached() {
+    if !results.data.saturation_reached() {
         report.note("the variance does not fall at the brightest level, so saturation is at or above it; capacity, SNR and dynamic range are lower bounds");
     }
-    if found.data.dark().len() < 3 {
+    if results.data.dark().len() < 3 {
         report.note("the dark current needs dark levels of at least three exposure times");
     }
-    found.cuts.iter().for_each(|cut| report.note(cut));
-    report.table(curve(&found.data));
-    report.camera(camera(found));
-    plots::draw(&mut report, found);
-    if let Some(fixed) = &found.fixed {
-        request::tell(&mut report, fixed);
+    results.clippings.iter().for_each(|cut| report.note(cut));
+    report.table(curve(&results.data));
+    report.camera(camera(results));
+    plots::draw(&mut report, results);
+    if let Some(fixed) = &results.fixed {
+        request::report_patterns(&mut report, fixed);
     }
     report
 }
@@ -75,8 +75,8 @@ fn figures(report: &mut Report, f: &Figures, relative: bool) {
 }
 
 /// Keys of a camera file's sensor, each with its standard uncertainty.
-fn camera(found: &Found) -> String {
-    let f = &found.figures;
+fn camera(results: &PtcResults) -> String {
+    let f = &results.figures;
     let mut text = "# Measured photon transfer, ± one standard uncertainty: for [sensor] of a camera file.\nformat = 1\n\n[sensor]\n".to_owned();
     let mut line = |key: &str, e: Estimate| {
         text += &format!("{key} = {} # ± {:.2e}\n", e.value.max(0.0), e.standard_uncertainty);
@@ -88,7 +88,7 @@ fn camera(found: &Found) -> String {
     if let Some(current) = f.dark_current_mean_e_per_s {
         line("dark_current_e_s", current);
     }
-    if let Some(fixed) = &found.fixed {
+    if let Some(fixed) = &results.fixed {
         text += "\n[sensor.non_uniformity]\n";
         let mut line = |key: &str, e: Estimate| {
             text += &format!("{key} = {} # ± {:.2e}\n", e.value, e.standard_uncertainty);
@@ -111,10 +111,10 @@ fn decibels(ratio: Estimate) -> Estimate {
 }
 
 fn nonuniformities(report: &mut Report, n: &Nonuniformity) {
-    let mut parts = |key: &str, label: &str, unit, parts: Parts<Estimate>| {
+    let mut parts = |key: &str, label: &str, unit, parts: VarianceComponents<Estimate>| {
         let named = [("", ""), ("_row", ", rows"), ("_column", ", columns"), ("_pixel", ", pixels")];
-        for ((suffix, of), value) in named.into_iter().zip([parts.total, parts.row, parts.column, parts.pixel]) {
-            report.figure(&format!("{key}{suffix}"), &format!("{label}{of}"), unit, value);
+        for ((suffix, component), value) in named.into_iter().zip([parts.total, parts.row, parts.column, parts.pixel]) {
+            report.figure(&format!("{key}{suffix}"), &format!("{label}{component}"), unit, value);
         }
     };
     parts("dsnu_e", "DSNU", "e⁻", n.dsnu_e);

@@ -33,63 +33,63 @@ impl PtcRequest {
 
 impl PtcRequest {
     /// Creates a request for the figures alone.
-    pub(crate) fn of(descriptor: PathBuf, selection: &Selection) -> Self {
+    pub(crate) fn from_descriptor(descriptor: PathBuf, selection: &Selection) -> Self {
         Self { descriptor, relative_light: true, selection: selection.clone() }
     }
 }
 
 /// All results.
-pub(crate) struct Found {
+pub(crate) struct PtcResults {
     pub(crate) data: TransferData,
     pub(crate) figures: Figures,
-    pub(crate) fixed: Option<Fixed>,
+    pub(crate) fixed: Option<FixedPatterns>,
     /// Notes of clipped images that enter the result.
-    pub(crate) cuts: Vec<String>,
+    pub(crate) clippings: Vec<String>,
 }
 
 /// Fixed patterns, from the stacks.
-pub(crate) struct Fixed {
+pub(crate) struct FixedPatterns {
     pub(crate) dark: Stack,
     pub(crate) bright: Stack,
     pub(crate) patterns: Nonuniformity,
 }
 
-pub(super) fn tell(report: &mut Report, fixed: &Fixed) {
-    let dark = Deviations::of_dark(&fixed.dark);
-    let response = Deviations::of_response(&fixed.dark, &fixed.bright);
+pub(super) fn report_patterns(report: &mut Report, fixed: &FixedPatterns) {
+    let dark = Deviations::from_dark(&fixed.dark);
+    let response = Deviations::from_response(&fixed.dark, &fixed.bright);
     report.fact("dsnu_sigma_dn", "deviation of most pixels without light", "DN", dark.sigma);
     report.fact("prnu_sigma_percent", "deviation of most pixels' responses", "%", response.sigma);
     let kinds = [
         (["dsnu_histogram", "dsnu_accumulated"], "without light", "deviation from the mean, DN", dark),
         (["prnu_histogram", "prnu_accumulated"], "of the response", "deviation from the mean response, %", response),
     ];
-    for ([histogram, accumulated], title, axis, found) in kinds {
-        report.table_if(false, counts(histogram, &found));
-        report.table_if(false, shares(accumulated, &found));
-        report.plot(logarithmic(title, axis, &found));
-        report.plot(cumulative(title, axis, &found));
+    for ([histogram, accumulated], title, axis, deviations) in kinds {
+        report.table_if(false, counts(histogram, &deviations));
+        report.table_if(false, fraction_table(accumulated, &deviations));
+        report.plot(logarithmic(title, axis, &deviations));
+        report.plot(cumulative(title, axis, &deviations));
     }
 }
 
-fn counts(key: &'static str, found: &Deviations) -> Table {
+fn counts(key: &'static str, deviations: &Deviations) -> Table {
     let row =
-        |(x, n): &(f64, u64)| vec![Cell::Number(*x, 4), Cell::Number(*n as f64, 0), Cell::Number(found.normal(*x), 2)];
+        |(x, n): &(f64, u64)| vec![Cell::Number(*x, 4), Cell::Number(*n as f64, 0), Cell::Number(deviations.normal(*x), 2)];
     let columns = vec![("deviation", "deviation"), ("pixels", "pixels"), ("normal_pixels", "normal")];
-    Table { key, columns, rows: found.bins.iter().map(row).collect() }
+    Table { key, columns, rows: deviations.bins.iter().map(row).collect() }
 }
 
-fn shares(key: &'static str, found: &Deviations) -> Table {
-    let row = |(x, share): &(f64, f64)| vec![Cell::Number(*x, 4), Cell::Number(100.0 * share, 6)];
+fn fraction_table(key: &'static str, deviations: &Deviations) -> Table {
+    let row = |(x, fraction): &(f64, f64)| vec![Cell::Number(*x, 4), Cell::Number(100.0 * fraction, 6)];
     let columns = vec![("deviation", "deviation"), ("farther_percent", "larger deviation %")];
-    Table { key, columns, rows: found.accumulated.iter().map(row).collect() }
+    Table { key, columns, rows: deviations.accumulated.iter().map(row).collect() }
 }
 
 /// Omits bins without a pixel, and the normal distribution below a tenth of a pixel.
-fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
-    const LEAST: f64 = 0.1;
-    let counted = found.bins.iter().filter(|(_, n)| *n > 0).map(|(x, n)| (*x, *n as f64));
-    let steps = (-80..=80).map(|i| f64::from(i) * 0.1 * found.sigma);
-    let normal = steps.map(|x| (x, found.normal(x))).filter(|(_, n)| *n > LEAST);
+fn logarithmic(title: &str, axis: &str, deviations: &Deviations) -> Plot {
+    const MIN_COUNT: f64 = 0.1;
+    let counted = deviations.bins.iter().filter(|(_, n)| *n > 0).map(|(x, n)| (*x, *n as f64));
+    let steps = (-80..=80).map(|i| f64::from(i) * 0.1 * deviations.sigma);
+    let normal = steps.map(|x| (x, deviations.normal(x))).filter(|(_, n)| *n > MIN_COUNT);
     Plot {
         title: format!("pixels by deviation {title}"),
         x: Axis::linear(axis).showing(&[0.0]),
@@ -98,12 +98,12 @@ fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
     }
 }
 
-fn cumulative(title: &str, axis: &str, found: &Deviations) -> Plot {
-    let shares = found.accumulated.iter().filter(|(_, share)| *share > 0.0).map(|(x, share)| (*x, 100.0 * share));
+fn cumulative(title: &str, axis: &str, deviations: &Deviations) -> Plot {
+    let percentages = deviations.accumulated.iter().filter(|(_, fraction)| *fraction > 0.0).map(|(x, fraction)| (*x, 100.0 * fraction));
     Plot {
         title: format!("pixels with larger deviation {title}"),
         x: Axis::linear(axis).showing(&[0.0]),
         y: Axis::log("pixels, %"),
-        series: vec![Series::new("", Mark::Line, shares)],
+        series: vec![Series::new("", Mark::Line, percentages)],
     }
 }

@@ -3,15 +3,15 @@
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
 
-use super::request::{self, Found, Plane, SfrRequest, shading_hint};
+use super::request::{self, MeasuredEdge, StarPlane, SfrRequest, shading_hint};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
-use crate::{measure::readings::Readings, measure::truth::place::Sought};
+use crate::{measure::readings::Readings, measure::truth::place::EdgeRegion};
 
 pub(super) fn report(
     request: &SfrRequest,
-    found: &[Found<'_>],
-    left_out: &[(&Sought, SfrError)],
+    measured: &[MeasuredEdge<'_>],
+    left_out: &[(&EdgeRegion, SfrError)],
     readings: &Readings,
 ) -> Report {
     let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
@@ -24,52 +24,52 @@ pub(super) fn report(
         "frequencies in cycles per pixel of the image; acutance viewed at {} pixels per degree",
         request.pixels_per_degree
     ));
-    shading(&mut report, request, found);
-    report.table(edges(request, found));
-    let planes = request::of(found, readings.picture_px.0, readings.picture_px.1);
+    shading(&mut report, request, measured);
+    report.table(edges(request, measured));
+    let planes = request::planes(measured, readings.picture_px.0, readings.picture_px.1);
     if planes.is_empty() {
-        report.table(curves(found, "response", twentieths));
-        report.table_if(false, curves(found, "curve", every));
-        report.plot(edge_plot(found));
+        report.table(curves(measured, "response", twentieths));
+        report.table_if(false, curves(measured, "curve", every));
+        report.plot(edge_plot(measured));
     } else {
         report.table(plane_table(request, &planes));
         report.table(plane_curves(&planes, "response", twentieths));
         report.table_if(false, plane_curves(&planes, "curve", every));
         report.plot(plane_plot(&planes));
     }
-    report.plot(profile_plot(found));
+    report.plot(profile_plot(measured));
     if !left_out.is_empty() {
-        report.note(format!("{} of {} edges could not be measured", left_out.len(), left_out.len() + found.len()));
+        report.note(format!("{} of {} edges could not be measured", left_out.len(), left_out.len() + measured.len()));
         report.table(refusals(request, left_out));
     }
     report
 }
 
 /// Minimum fraction of the response that is worth reporting.
-const UNEVEN: f64 = 0.005;
+const MIN_UNEVENNESS: f64 = 0.005;
 
 /// Reports edges whose sides are not uniform.
-fn shading(report: &mut Report, request: &SfrRequest, found: &[Found<'_>]) {
-    let most = found.iter().map(|one| one.sfr.shading).fold(0.0, f64::max);
-    if most > UNEVEN {
-        let count = found.iter().filter(|one| one.sfr.shading > UNEVEN).count();
+fn shading(report: &mut Report, request: &SfrRequest, measured: &[MeasuredEdge<'_>]) {
+    let max_shading = measured.iter().map(|one| one.sfr.shading).fold(0.0, f64::max);
+    if max_shading > MIN_UNEVENNESS {
+        let count = measured.iter().filter(|one| one.sfr.shading > MIN_UNEVENNESS).count();
         let next = request.shading_degree + 1;
         report.note(format!(
             "the levels on the sides of {count} of {} edges may not be constant: `shading_degree` {next} changes the response by \
-             up to {most:.3}, which the uncertainty includes",
-            found.len()
+             up to {max_shading:.3}, which the uncertainty includes",
+            measured.len()
         ));
     }
 }
 
-fn place(sought: &Sought) -> String {
-    format!("{},{}", sought.at[0], sought.at[1])
+fn place(edge_region: &EdgeRegion) -> String {
+    format!("{},{}", edge_region.at[0], edge_region.at[1])
 }
 
 /// The edges of a chart that could not be measured, with the reasons.
-fn refusals(request: &SfrRequest, left_out: &[(&Sought, SfrError)]) -> Table {
+fn refusals(request: &SfrRequest, left_out: &[(&EdgeRegion, SfrError)]) -> Table {
     let words = |error: &SfrError| format!("{error}{}", shading_hint(request, error));
-    let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(words(error))];
+    let row = |(edge_region, error): &(&EdgeRegion, SfrError)| vec![Cell::Text(place(edge_region)), Cell::Text(words(error))];
     Table {
         key: "refused",
         columns: vec![("at_px", "at px"), ("reason", "not measured because")],
@@ -78,7 +78,7 @@ fn refusals(request: &SfrRequest, left_out: &[(&Sought, SfrError)]) -> Table {
 }
 
 /// Direction of the response, across the edge.
-fn direction(one: &Found<'_>) -> &'static str {
+fn direction(one: &MeasuredEdge<'_>) -> &'static str {
     match one.sfr.orientation {
         Orientation::Vertical => "horizontal",
         Orientation::Horizontal => "vertical",
@@ -107,11 +107,11 @@ fn cells(request: &SfrRequest, curve: &[SfrPoint]) -> Vec<Cell> {
     cells
 }
 
-fn edges(request: &SfrRequest, found: &[Found<'_>]) -> Table {
-    let row = |one: &Found<'_>| {
+fn edges(request: &SfrRequest, measured: &[MeasuredEdge<'_>]) -> Table {
+    let row = |one: &MeasuredEdge<'_>| {
         let [dark, bright] = one.sfr.levels;
         let start = [
-            Cell::Text(place(one.sought)),
+            Cell::Text(place(one.region)),
             Cell::Number(100.0 * one.field, 1),
             Cell::Text(direction(one).to_owned()),
             Cell::Number(one.sfr.angle_deg, 3),
@@ -125,12 +125,12 @@ fn edges(request: &SfrRequest, found: &[Found<'_>]) -> Table {
     Table {
         key: "edges",
         columns: start.into_iter().chain(columns(request)).chain([end]).collect(),
-        rows: found.iter().map(row).collect(),
+        rows: measured.iter().map(row).collect(),
     }
 }
 
-fn plane_table(request: &SfrRequest, planes: &[Plane]) -> Table {
-    let row = |plane: &Plane| {
+fn plane_table(request: &SfrRequest, planes: &[StarPlane]) -> Table {
+    let row = |plane: &StarPlane| {
         let start = [
             Cell::Text(plane.place.clone()),
             Cell::Number(100.0 * plane.field, 1),
@@ -157,12 +157,12 @@ fn every(_: &SfrPoint) -> bool {
     true
 }
 
-fn curves(found: &[Found<'_>], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
-    let row = |one: &Found<'_>, point: &SfrPoint| {
-        let names = [place(one.sought), direction(one).to_owned()].map(Cell::Text);
+fn curves(measured: &[MeasuredEdge<'_>], key: &'static str, includes: fn(&SfrPoint) -> bool) -> Table {
+    let row = |one: &MeasuredEdge<'_>, point: &SfrPoint| {
+        let names = [place(one.region), direction(one).to_owned()].map(Cell::Text);
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |one: &Found<'_>| one.sfr.curve.iter().filter(|p| wanted(p)).map(|p| row(one, p)).collect::<Vec<_>>();
+    let rows = |one: &MeasuredEdge<'_>| one.sfr.curve.iter().filter(|p| includes(p)).map(|p| row(one, p)).collect::<Vec<_>>();
     Table {
         key,
         columns: vec![
@@ -171,16 +171,16 @@ fn curves(found: &[Found<'_>], key: &'static str, wanted: fn(&SfrPoint) -> bool)
             ("cycles_per_px", "c/px"),
             ("response", "response"),
         ],
-        rows: found.iter().flat_map(rows).collect(),
+        rows: measured.iter().flat_map(rows).collect(),
     }
 }
 
-fn plane_curves(planes: &[Plane], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
-    let row = |plane: &Plane, point: &SfrPoint| {
+fn plane_curves(planes: &[StarPlane], key: &'static str, includes: fn(&SfrPoint) -> bool) -> Table {
+    let row = |plane: &StarPlane, point: &SfrPoint| {
         let names = [Cell::Text(plane.place.clone()), Cell::Text(plane.name.to_owned())];
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |plane: &Plane| plane.curve.iter().filter(|p| wanted(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
+    let rows = |plane: &StarPlane| plane.curve.iter().filter(|p| includes(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
     Table {
         key,
         columns: vec![("at_px", "star at px"), ("plane", "plane"), ("cycles_per_px", "c/px"), ("response", "response")],
@@ -202,38 +202,38 @@ fn response_plot(series: Vec<Series>) -> Plot {
 }
 
 /// Maximum number of curves that a legend names.
-const NAMED: usize = 8;
+const MAX_NAMED: usize = 8;
 
 /// Name of an edge in a legend, if there is room.
-fn name(one: &Found<'_>, count: usize) -> String {
-    if count > NAMED { String::new() } else { format!("edge at {}", place(one.sought)) }
+fn name(one: &MeasuredEdge<'_>, count: usize) -> String {
+    if count > MAX_NAMED { String::new() } else { format!("edge at {}", place(one.region)) }
 }
 
-fn edge_plot(found: &[Found<'_>]) -> Plot {
-    let of = |one: &Found<'_>| Series::with_errors(&name(one, found.len()), Mark::Line, points(&one.sfr.curve));
-    response_plot(found.iter().map(of).collect())
+fn edge_plot(measured: &[MeasuredEdge<'_>]) -> Plot {
+    let edge_series = |one: &MeasuredEdge<'_>| Series::with_errors(&name(one, measured.len()), Mark::Line, points(&one.sfr.curve));
+    response_plot(measured.iter().map(edge_series).collect())
 }
 
 /// Sagittal as lines, tangential dashed.
-fn plane_plot(planes: &[Plane]) -> Plot {
-    let of = |plane: &Plane| {
+fn plane_plot(planes: &[StarPlane]) -> Plot {
+    let plane_series = |plane: &StarPlane| {
         let mark = if plane.name == request::SAGITTAL { Mark::Line } else { Mark::Broken };
         let named =
-            if planes.len() > NAMED { String::new() } else { format!("star at {}, {}", plane.place, plane.name) };
+            if planes.len() > MAX_NAMED { String::new() } else { format!("star at {}, {}", plane.place, plane.name) };
         Series::with_errors(&named, mark, points(&plane.curve))
     };
-    response_plot(planes.iter().map(of).collect())
+    response_plot(planes.iter().map(plane_series).collect())
 }
 
-fn profile_plot(found: &[Found<'_>]) -> Plot {
-    let of = |one: &Found<'_>| {
+fn profile_plot(measured: &[MeasuredEdge<'_>]) -> Plot {
+    let profile_series = |one: &MeasuredEdge<'_>| {
         let profile = one.sfr.profile.iter().copied();
-        Series::new(&name(one, found.len()), Mark::Line, profile)
+        Series::new(&name(one, measured.len()), Mark::Line, profile)
     };
     Plot {
         title: "edge profile".to_owned(),
         x: Axis::linear("distance from the edge, pixels"),
         y: Axis::linear("reading"),
-        series: found.iter().map(of).collect(),
+        series: measured.iter().map(profile_series).collect(),
     }
 }

@@ -12,8 +12,8 @@ use etendue_io::failure::Error;
 use etendue_metrology::sfr::{Sfr, SfrError, SfrPoint, mean_curve};
 use glam::DVec2;
 
-use crate::measure::pictures::{PictureInput, refused};
-use crate::measure::truth::place::{Sought, Star};
+use crate::measure::pictures::{MeasurementInput, refused};
+use crate::measure::truth::place::{EdgeRegion, StarCentre};
 
 /// Allowed degrees of the curve of an edge.
 pub(super) const EDGE_DEGREES: RangeInclusive<u8> = 1..=5;
@@ -47,42 +47,42 @@ pub struct SfrRequest {
     pub pixels_per_degree: f64,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
-    pub input: PictureInput,
+    pub input: MeasurementInput,
 }
 
 impl SfrRequest {
     /// Creates a request with the program's defaults.
-    pub fn new(picture: impl Into<PathBuf>) -> Self {
+    pub fn new(image: impl Into<PathBuf>) -> Self {
         Self {
-            picture: picture.into(),
+            picture: image.into(),
             edges: Vec::new(),
             edge_degree: 1,
             reach_px: None,
             shading_degree: 0,
             pixel_pitch_um: None,
             pixels_per_degree: 60.0,
-            input: PictureInput::default(),
+            input: MeasurementInput::default(),
         }
     }
 }
 
 /// A measured edge.
-pub(super) struct Found<'a> {
-    pub(super) sought: &'a Sought,
+pub(super) struct MeasuredEdge<'a> {
+    pub(super) region: &'a EdgeRegion,
     pub(super) field: f64,
     pub(super) sfr: Sfr,
 }
 
 pub(super) const SAGITTAL: &str = "sagittal";
 const TANGENTIAL: &str = "tangential";
-const EVERY: &str = "every direction";
+const EVERY_DIRECTION: &str = "every direction";
 /// cos 22.5°.
-const NEAR: f64 = 0.923_879_532_511_286_7;
+const MIN_COSINE: f64 = 0.923_879_532_511_286_7;
 /// Stars closer to the centre than this fraction of the half diagonal have no radius.
-const MIDDLE: f64 = 0.05;
+const CENTRE_FRACTION: f64 = 0.05;
 
 /// Response of a star in a plane.
-pub(super) struct Plane {
+pub(super) struct StarPlane {
     /// The star's centre, px.
     pub place: String,
     /// Relative to the half diagonal.
@@ -93,43 +93,43 @@ pub(super) struct Plane {
 }
 
 /// The planes of the stars among the results, star by star.
-pub(super) fn of(found: &[Found<'_>], width: usize, height: usize) -> Vec<Plane> {
-    let mut stars: Vec<Star> = Vec::new();
-    for star in found.iter().filter_map(|one| one.sought.spoke.as_ref().map(|spoke| spoke.star)) {
+pub(super) fn planes(measured: &[MeasuredEdge<'_>], width: usize, height: usize) -> Vec<StarPlane> {
+    let mut stars: Vec<StarCentre> = Vec::new();
+    for star in measured.iter().filter_map(|one| one.region.spoke.as_ref().map(|spoke| spoke.star)) {
         if !stars.contains(&star) {
             stars.push(star);
         }
     }
     let half = 0.5 * DVec2::new(width as f64, height as f64);
-    stars.iter().flat_map(|star| of_star(star, found, half)).collect()
+    stars.iter().flat_map(|star| star_planes(star, measured, half)).collect()
 }
 
-fn of_star(star: &Star, found: &[Found<'_>], half: DVec2) -> Vec<Plane> {
+fn star_planes(star: &StarCentre, measured: &[MeasuredEdge<'_>], half: DVec2) -> Vec<StarPlane> {
     let centre = DVec2::from(star.centre_px);
     let field = (centre - half).length() / half.length();
     let radius = (centre - half).normalize_or_zero();
     let along = |ends: [[f64; 2]; 2]| (DVec2::from(ends[1]) - DVec2::from(ends[0])).normalize_or_zero();
-    let plane = |name: &'static str, holds: &dyn Fn(DVec2) -> bool| {
-        let of_this = found.iter().filter_map(|one| one.sought.spoke.as_ref().map(|spoke| (spoke, &one.sfr)));
-        let curves: Vec<&[SfrPoint]> = of_this
-            .filter(|(spoke, _)| spoke.star == *star && holds(along(spoke.strip.ends_px)))
+    let plane = |name: &'static str, includes: &dyn Fn(DVec2) -> bool| {
+        let star_edges = measured.iter().filter_map(|one| one.region.spoke.as_ref().map(|spoke| (spoke, &one.sfr)));
+        let curves: Vec<&[SfrPoint]> = star_edges
+            .filter(|(spoke, _)| spoke.star == *star && includes(along(spoke.strip.ends_px)))
             .map(|(_, sfr)| sfr.curve.as_slice())
             .collect();
         let place = format!("{:.0},{:.0}", centre.x, centre.y);
-        (!curves.is_empty()).then(|| Plane { place, field, name, edges: curves.len(), curve: mean_curve(&curves) })
+        (!curves.is_empty()).then(|| StarPlane { place, field, name, edges: curves.len(), curve: mean_curve(&curves) })
     };
-    if field < MIDDLE {
-        return plane(EVERY, &|_| true).into_iter().collect();
+    if field < CENTRE_FRACTION {
+        return plane(EVERY_DIRECTION, &|_| true).into_iter().collect();
     }
-    let sagittal = plane(SAGITTAL, &|edge| edge.dot(radius).abs() >= NEAR);
-    let tangential = plane(TANGENTIAL, &|edge| edge.perp_dot(radius).abs() >= NEAR);
+    let sagittal = plane(SAGITTAL, &|edge| edge.dot(radius).abs() >= MIN_COSINE);
+    let tangential = plane(TANGENTIAL, &|edge| edge.perp_dot(radius).abs() >= MIN_COSINE);
     [sagittal, tangential].into_iter().flatten().collect()
 }
 
 /// Error of an edge that cannot be measured, with its image and position.
-pub(super) fn failure(request: &SfrRequest, sought: &Sought, error: &SfrError) -> Error {
-    let hint = shading_hint(request, error);
-    refused(&request.picture, format!("edge at {},{}: {error}{hint}", sought.at[0], sought.at[1]))
+pub(super) fn failure(request: &SfrRequest, edge_region: &EdgeRegion, error: &SfrError) -> Error {
+    let advice = shading_hint(request, error);
+    refused(&request.picture, format!("edge at {},{}: {error}{advice}", edge_region.at[0], edge_region.at[1]))
 }
 
 /// Remedy if non-uniform sides prevent the detection of an edge.

@@ -16,7 +16,7 @@ use super::Readings;
 
 /// A patch in the image.
 #[derive(Clone, Debug)]
-pub(crate) struct Patch {
+pub(crate) struct PatchPlace {
     pub name: String,
     /// Left column, top row, width, height, of the image.
     pub at: [usize; 4],
@@ -43,18 +43,18 @@ pub(crate) struct TrapPlace {
 /// An edge of a star with its neighbours.
 pub(crate) struct Spoke {
     pub strip: Strip,
-    pub star: Star,
+    pub star: StarCentre,
 }
 
 /// A star: its index, and its centre in the image.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Star {
+pub(crate) struct StarCentre {
     pub index: [usize; 2],
     pub centre_px: [f64; 2],
 }
 
 /// An edge and the region in which to search for it.
-pub(crate) struct Sought {
+pub(crate) struct EdgeRegion {
     /// Left column, top row, width, height, of the image.
     pub at: [usize; 4],
     pub spoke: Option<Spoke>,
@@ -75,7 +75,7 @@ pub(crate) fn largest_square(outline: &[DVec2]) -> (DVec2, f64) {
     let mut best = starts.map(at).fold((low, 0.0), more);
     let mut step = cell.max_element();
     while step > EXACT_PX {
-        let around = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| at(best.0 + step * way));
+        let around = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|direction| at(best.0 + step * direction));
         let better = around.into_iter().fold(best, more);
         if better.1 > best.1 {
             best = better;
@@ -99,37 +99,37 @@ fn half_side(outline: &[DVec2], place: DVec2) -> f64 {
 fn reach(a: DVec2, b: DVec2) -> f64 {
     let run = b - a;
     let on = |numerator: f64, denominator: f64| (numerator / denominator).clamp(0.0, 1.0);
-    let shares = [0.0, 1.0, on(a.x - a.y, run.y - run.x), on(-a.x - a.y, run.x + run.y)];
+    let limits = [0.0, 1.0, on(a.x - a.y, run.y - run.x), on(-a.x - a.y, run.x + run.y)];
     let far = |t: f64| (a + t * run).abs().max_element();
-    shares.into_iter().filter(|t| t.is_finite()).map(far).fold(f64::INFINITY, f64::min)
+    limits.into_iter().filter(|t| t.is_finite()).map(far).fold(f64::INFINITY, f64::min)
 }
 
 /// Squares next to a round opening, midway to its neighbours in the four directions, clear of both by a third of the gap.
-pub(crate) fn beside(outline: &[DVec2], opening: f64, pitch: f64) -> Vec<(DVec2, f64)> {
+pub(crate) fn squares_beside(outline: &[DVec2], opening: f64, pitch: f64) -> Vec<(DVec2, f64)> {
     let (low, high) = bounds(outline);
     let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
     let away = reach * pitch / opening;
     let half = (away - reach).min_element() * 2.0 / 3.0;
-    [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| (middle + away * way, half)).to_vec()
+    [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|direction| (middle + away * direction, half)).to_vec()
 }
 
 /// Minimum rank correlation of an agreement, and maximum of another chart.
-const AGREES: f64 = 0.9;
-const UNLIKE: f64 = 0.6;
+const MIN_RANK_CORRELATION: f64 = 0.9;
+const MAX_OTHER_CORRELATION: f64 = 0.6;
 /// Minimum number of patches for a result.
 const MIN_PATCHES: usize = 4;
 
 /// Position of a part of the image in a mirrored or turned image, both of one size.
-type Turned = fn([usize; 4], (usize, usize)) -> [usize; 4];
+type RegionTransform = fn([usize; 4], (usize, usize)) -> [usize; 4];
 
 /// Transformation of an image, as text, and its remedy. Those that exchange columns and rows apply to square images only; others
 /// no longer have their size.
-const UPRIGHT: [(&str, Turned); 3] = [
+const UPRIGHT: [(&str, RegionTransform); 3] = [
     ("mirrored left to right", |[x, y, w, h], (width, _)| [width - x - w, y, w, h]),
     ("mirrored top to bottom", |[x, y, w, h], (_, height)| [x, height - y - h, w, h]),
     ("rotated by 180°", |[x, y, w, h], (width, height)| [width - x - w, height - y - h, w, h]),
 ];
-const SQUARE: [(&str, Turned); 4] = [
+const SQUARE: [(&str, RegionTransform); 4] = [
     ("rotated by 90° clockwise", |[x, y, w, h], (width, _)| [width - y - h, x, h, w]),
     ("rotated by 90° anticlockwise", |[x, y, w, h], (_, height)| [y, height - x - w, h, w]),
     ("mirrored about its diagonal", |[x, y, w, h], _| [y, x, h, w]),
@@ -137,13 +137,13 @@ const SQUARE: [(&str, Turned); 4] = [
 ];
 
 /// Error of an image of these patches; `None` if it is correct or cannot be decided.
-pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
+pub(super) fn orientation_error(patches: &[PatchPlace], readings: &Readings) -> Option<String> {
     if patches.len() < MIN_PATCHES {
         return None;
     }
     let size = readings.picture_px;
     let agreement = |turned: &dyn Fn([usize; 4]) -> [usize; 4]| {
-        let mean = |patch: &Patch| {
+        let mean = |patch: &PatchPlace| {
             let part = readings.part(turned(patch.at), "a patch").ok()?;
             Some(part.samples().iter().map(|s| f64::from(*s)).sum::<f64>() / part.samples().len() as f64)
         };
@@ -151,18 +151,18 @@ pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
         correlation(&ranks(&means), &ranks(&patches.iter().map(|p| p.luminance_cd_m2).collect::<Vec<_>>()))
     };
     let own = agreement(&|at| at)?;
-    if own >= AGREES {
+    if own >= MIN_RANK_CORRELATION {
         return None;
     }
     let square = if size.0 == size.1 { &SQUARE[..] } else { &[] };
     let others =
-        UPRIGHT.iter().chain(square).filter_map(|(words, turned)| Some((words, agreement(&|at| turned(at, size))?)));
+        UPRIGHT.iter().chain(square).filter_map(|(words, transform)| Some((words, agreement(&|at| transform(at, size))?)));
     let best = others.reduce(|a, b| if b.1 > a.1 { b } else { a });
     match best {
-        Some((words, other)) if other >= AGREES => Some(format!(
+        Some((words, other)) if other >= MIN_RANK_CORRELATION => Some(format!(
             "is {words}: only then do its readings increase with the luminances of the chart's ground truth; give the image as captured"
         )),
-        _ if own < UNLIKE => Some(
+        _ if own < MAX_OTHER_CORRELATION => Some(
             "does not show this chart: its readings at the patches do not increase with the luminances of the chart's ground \
              truth; give the image of this chart"
                 .to_owned(),
@@ -174,8 +174,8 @@ pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
 /// Ranks; equal values have their mean rank.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let below = |v: f64| values.iter().filter(|other| **other < v).count() as f64;
-    let alike = |v: f64| values.iter().filter(|other| **other == v).count() as f64;
-    values.iter().map(|v| below(*v) + 0.5 * (alike(*v) - 1.0)).collect()
+    let ties = |v: f64| values.iter().filter(|other| **other == v).count() as f64;
+    values.iter().map(|v| below(*v) + 0.5 * (ties(*v) - 1.0)).collect()
 }
 
 /// `None` if one of them is constant or not a number.
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn white_lies_between_traps() {
         let trap = [[90.0, 100.0], [100.0, 90.0], [110.0, 100.0], [100.0, 110.0]].map(DVec2::from);
-        let whites = beside(&trap, 20.0, 80.0);
+        let whites = squares_beside(&trap, 20.0, 80.0);
         // Traps of radius 10 at steps of 80: 40 away, 30 from either opening.
         assert_eq!(whites[0], (DVec2::new(140.0, 100.0), 20.0));
     }

@@ -13,7 +13,7 @@ use super::Truth;
 pub(crate) const CHARTS: [&str; 3] = [Dots::NAME, Checkerboard::NAME, Circles::NAME];
 
 /// A chart of points.
-pub(crate) struct PointsTold {
+pub(crate) struct PointChart {
     pub target: Target,
     /// Distance of neighbouring points, mm.
     pub pitch_mm: f64,
@@ -22,11 +22,11 @@ pub(crate) struct PointsTold {
 }
 
 impl Truth {
-    pub(crate) fn points(&self) -> Result<PointsTold, Error> {
-        let pitch_mm = self.said.size("pitch_mm").ok_or_else(|| self.refused("lacks the pitch of the points"))?;
-        let staggered = self.said.sizes.get("asymmetric").and_then(serde_json::Value::as_bool) == Some(true);
-        let checkerboard = self.said.chart == Checkerboard::NAME;
-        Ok(PointsTold {
+    pub(crate) fn points(&self) -> Result<PointChart, Error> {
+        let pitch_mm = self.content.size("pitch_mm").ok_or_else(|| self.refused("lacks the pitch of the points"))?;
+        let staggered = self.content.sizes.get("asymmetric").and_then(serde_json::Value::as_bool) == Some(true);
+        let checkerboard = self.content.chart == Checkerboard::NAME;
+        Ok(PointChart {
             target: if checkerboard { Target::Checkerboard } else { Target::Dots },
             // Pitch of cells of which every other one holds a circle.
             pitch_mm: if staggered { core::f64::consts::SQRT_2 * pitch_mm } else { pitch_mm },
@@ -35,7 +35,7 @@ impl Truth {
     }
 
     fn distance_mm(&self) -> Option<f64> {
-        let (sheet, camera) = (&self.said.panels.first()?.sheet_mm_to_world_m, self.seen().camera_to_world?);
+        let (sheet, camera) = (&self.content.panels.first()?.sheet_mm_to_world_m, self.camera_record().camera_to_world?);
         let column = |m: &[[f64; 4]; 3], k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
         let normal = column(sheet, 0).cross(column(sheet, 1)).try_normalize()?;
         Some(1000.0 * normal.dot(column(sheet, 3) - column(&camera, 3)).abs())

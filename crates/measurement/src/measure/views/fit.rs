@@ -5,19 +5,19 @@ use std::{fmt::Display, path::Path};
 use etendue_core::{maths::f64::ln, observer::Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::calibrate::{
-    CalibrateError, Calibrated, CameraModel, Family, Options, Radial, Sightings, calibrate, calibrate_as_stated,
+    CalibrateError, CalibrationResult, CameraModel, Family, CalibrationOptions, RadialTerms, Sightings, calibrate, calibrate_as_stated,
     calibrate_rejecting_outliers,
 };
 use etendue_pipeline::stated_projection;
 use etendue_scene::record::{self, Camera, Lens, Sensor};
-use etendue_scene::{record::lens::calibrated::View, written::File};
+use etendue_scene::{record::lens::calibrated::PixelDirections, written::File};
 use glam::DVec2;
 
-use super::{Found, ViewsRequest};
-use crate::measure::point_list::{Seen, WithoutChart, all};
+use super::{CalibratedViews, ViewsRequest};
+use crate::measure::point_list::{DetectedChart, RejectedImage, all};
 
 /// An error with the name of its image.
-fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
+fn with_files(error: &CalibrateError, views: &[DetectedChart]) -> String {
     match error {
         CalibrateError::View { view, .. } | CalibrateError::Sparse { view, .. } => {
             format!("{}: {error}", views[*view].file.display())
@@ -27,68 +27,68 @@ fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
 }
 
 impl ViewsRequest {
-    pub(crate) fn found(&self, options: Options, observer: &dyn Observer) -> Result<Found, Error> {
-        self.found_by(|_| options, observer)
+    pub(crate) fn calibrate(&self, options: CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
+        self.calibrate_with(|_| options, observer)
     }
 
     /// The same with the principal point at the image centre, with its uncertainty.
-    pub(crate) fn found_about_middle(&self, options: Options, observer: &dyn Observer) -> Result<Found, Error> {
+    pub(crate) fn calibrate_centred(&self, options: CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
         let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
-        let about = |size| Options { principal_px: Some(middle(size)), ..options };
-        let mut found = self.found_by(about, observer)?;
+        let centred_options = |size| CalibrationOptions { principal_px: Some(middle(size)), ..options };
+        let mut calibrated = self.calibrate_with(centred_options, observer)?;
         let pitch_mm = self.pitch_mm()?;
-        let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
-        let size = found.camera.calibration.size_px();
-        widen(&mut found, &sightings, self.model.family(), about(size))?;
-        let px = MIDDLE * size[0].max(size[1]) as f64;
-        found.notes.push(format!(
+        let sightings: Vec<Sightings> = calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
+        let size = calibrated.camera.calibration.size_px();
+        widen(&mut calibrated, &sightings, self.model.family(), centred_options(size))?;
+        let px = PRINCIPAL_UNCERTAINTY * size[0].max(size[1]) as f64;
+        calibrated.notes.push(format!(
             "single image: the principal point is assumed at the image centre, ± {px:.1} px in each direction, and the lens to \
              follow this model approximately, both included in the ±; pixels are assumed square, which is not included in the ±"
         ));
-        Ok(found)
+        Ok(calibrated)
     }
 
     /// Fit with options that may depend on the image size.
-    fn found_by(&self, options: impl Fn([usize; 2]) -> Options, observer: &dyn Observer) -> Result<Found, Error> {
-        let seen = all(&self.chart, &self.files, observer)?;
-        let options = options(seen.0[0].size_px);
-        let found = self.fitted(self.model, &seen.0, &seen.1, options)?;
-        self.advised(self.model, found, options)
+    fn calibrate_with(&self, options: impl Fn([usize; 2]) -> CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
+        let detected = all(&self.chart, &self.files, observer)?;
+        let options = options(detected.0[0].size_px);
+        let calibrated = self.fitted(self.model, &detected.0, &detected.1, options)?;
+        self.advised(self.model, calibrated, options)
     }
 
     /// Fit with the best of several models: minimum of ln(Σ r²/n) + 2 k ln n/n, with n coordinates and k coefficients. This is the
     /// criterion of Schwarz (1978) with twice its penalty per coefficient, as neighbouring points share errors, so that there are
     /// fewer independent errors than points.
-    pub(crate) fn found_by_best_of(
+    pub(crate) fn calibrate_best_of(
         &self,
         models: &[CameraModel],
-        options: Options,
+        options: CalibrationOptions,
         observer: &dyn Observer,
-    ) -> Result<(Found, Vec<TriedModel>), Error> {
-        let seen = all(&self.chart, &self.files, observer)?;
-        let (mut best, mut tried, mut first_error): (Option<(f64, CameraModel, Found)>, Vec<TriedModel>, _) =
+    ) -> Result<(CalibratedViews, Vec<CandidateModel>), Error> {
+        let detected = all(&self.chart, &self.files, observer)?;
+        let (mut best, mut candidates, mut first_error): (Option<(f64, CameraModel, CalibratedViews)>, Vec<CandidateModel>, _) =
             (None, Vec::new(), None);
         for model in models {
-            let found = match self.fitted(*model, &seen.0, &seen.1, options) {
-                Ok(found) => found,
+            let calibrated = match self.fitted(*model, &detected.0, &detected.1, options) {
+                Ok(calibrated) => calibrated,
                 Err(error) => {
                     first_error.get_or_insert(error);
                     continue;
                 }
             };
-            let residuals = found.camera.residuals_px.iter().flatten();
+            let residuals = calibrated.camera.residuals_px.iter().flatten();
             let (count, squares) = residuals.fold((0.0, 0.0), |(n, s), r| (n + 2.0, s + r.length_squared()));
-            let coefficients = found.camera.parameters.len() as f64;
+            let coefficients = calibrated.camera.parameters.len() as f64;
             let information = ln(squares / count) + 2.0 * coefficients * ln(count) / count;
             // A model that folds the image over is not a valid camera.
-            let whole = found.camera.calibration.check().is_ok();
-            tried.push(TriedModel { model: *model, rms_px: found.camera.rms_px(), information, whole });
-            if whole && best.as_ref().is_none_or(|(least, ..)| information < *least) {
-                best = Some((information, *model, found));
+            let is_valid = calibrated.camera.calibration.check().is_ok();
+            candidates.push(CandidateModel { model: *model, rms_px: calibrated.camera.rms_px(), information, is_valid });
+            if is_valid && best.as_ref().is_none_or(|(min_information, ..)| information < *min_information) {
+                best = Some((information, *model, calibrated));
             }
         }
         match (best, first_error) {
-            (Some((_, model, found)), _) => Ok((self.advised(model, found, options)?, tried)),
+            (Some((_, model, calibrated)), _) => Ok((self.advised(model, calibrated, options)?, candidates)),
             (None, Some(error)) => Err(error),
             (None, None) => Err(Error::coded(
                 ErrorCode::NotMeasurable,
@@ -100,76 +100,76 @@ impl ViewsRequest {
     fn fitted(
         &self,
         model: CameraModel,
-        views: &[Seen],
-        without: &[WithoutChart],
-        options: Options,
-    ) -> Result<Found, Error> {
+        views: &[DetectedChart],
+        without: &[RejectedImage],
+        options: CalibrationOptions,
+    ) -> Result<CalibratedViews, Error> {
         let pitch_mm = self.pitch_mm()?;
-        let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
+        let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
         let size = views[0].size_px;
-        let spared = calibrate_rejecting_outliers(&sightings, size, model.family(), options);
-        let spared = spared.map_err(|error| Error::coded(ErrorCode::NotMeasurable, of_files(&error, views)))?;
-        let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: omitted: {why}", file.display());
-        let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();
-        notes.extend(spared.left_out.iter().map(|(v, why)| left_out(&views[*v].file, why)));
-        let views: Vec<Seen> = spared.kept.iter().map(|v| views[*v].clone()).collect();
-        Ok(Found { model: model.name().to_owned(), views, camera: spared.camera, notes })
+        let robust = calibrate_rejecting_outliers(&sightings, size, model.family(), options);
+        let robust = robust.map_err(|error| Error::coded(ErrorCode::NotMeasurable, with_files(&error, views)))?;
+        let left_out = |file: &Path, reason: &dyn Display| format!("warning: {}: omitted: {reason}", file.display());
+        let mut notes: Vec<String> = without.iter().map(|(file, reason)| left_out(file, reason)).collect();
+        notes.extend(robust.rejected.iter().map(|(v, reason)| left_out(&views[*v].file, reason)));
+        let views: Vec<DetectedChart> = robust.accepted.iter().map(|v| views[*v].clone()).collect();
+        Ok(CalibratedViews { model: model.name().to_owned(), views, camera: robust.camera, notes })
     }
 
     /// The same with a warning if another model would fit the points much better.
-    fn advised(&self, model: CameraModel, mut found: Found, options: Options) -> Result<Found, Error> {
+    fn advised(&self, model: CameraModel, mut calibrated: CalibratedViews, options: CalibrationOptions) -> Result<CalibratedViews, Error> {
         let pitch_mm = self.pitch_mm()?;
-        let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
+        let sightings: Vec<Sightings> = calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
         let sightings: Vec<&Sightings> = sightings.iter().collect();
-        found.notes.extend(unsuited(model, &found.camera, &found.views, &sightings, options));
-        Ok(found)
+        calibrated.notes.extend(model_warning(model, &calibrated.camera, &calibrated.views, &sightings, options));
+        Ok(calibrated)
     }
 }
 
 /// A fitted model.
-pub(crate) struct TriedModel {
+pub(crate) struct CandidateModel {
     pub(crate) model: CameraModel,
     pub(crate) rms_px: f64,
     /// Schwarz's criterion over the number of coordinates: less is better.
     pub(crate) information: f64,
     /// True if the model does not fold the image over.
-    pub(crate) whole: bool,
+    pub(crate) is_valid: bool,
 }
 
 /// Standard uncertainty of a principal point at the image centre, relative to the wider side.
-pub(crate) const MIDDLE: f64 = 0.01;
+pub(crate) const PRINCIPAL_UNCERTAINTY: f64 = 0.01;
 
 /// Adds two uncertainties to a camera's covariance: the unknown principal point, and possible distortion beyond the model. The
 /// first is half the change between plus and minus one standard uncertainty, and the second-order remainder (z² of a normal z has
 /// the mean square 3). The second is the change to a model with one more term, where that exceeds the noise that the term adds.
-fn widen(found: &mut Found, sightings: &[Sightings], family: Family, options: Options) -> Result<(), Error> {
-    let size = found.camera.calibration.size_px();
-    let values = |camera: &Calibrated| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
-    let here = values(&found.camera);
+fn widen(calibrated: &mut CalibratedViews, sightings: &[Sightings], family: Family, options: CalibrationOptions) -> Result<(), Error> {
+    let size = calibrated.camera.calibration.size_px();
+    let values = |camera: &CalibrationResult| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
+    let base_values = values(&calibrated.camera);
     let fitted = |family, options| {
         calibrate_as_stated(sightings, size, family, options)
             .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))
     };
     let Some(principal) = options.principal_px else { return Ok(()) };
-    let focal = |camera: &Calibrated| camera.estimate("fx_px");
-    let now = focal(&found.camera);
+    let focal = |camera: &CalibrationResult| camera.estimate("fx_px");
+    let now = focal(&calibrated.camera);
     let wider = size[0].max(size[1]) as f64;
-    for step in [DVec2::X, DVec2::Y].map(|axis| MIDDLE * wider * axis) {
+    for step in [DVec2::X, DVec2::Y].map(|axis| PRINCIPAL_UNCERTAINTY * wider * axis) {
         let moved = |by: DVec2| -> Result<Vec<f64>, Error> {
-            Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?))
+            Ok(values(&fitted(family, CalibrationOptions { principal_px: Some(principal + by), ..options })?))
         };
         let (more, less) = (moved(step)?, moved(-step)?);
-        add(found, 1.0, |i| 0.5 * (more[i] - less[i]));
-        add(found, 3.0, |i| 0.5 * (more[i] + less[i]) - here[i]);
+        add(calibrated, 1.0, |i| 0.5 * (more[i] - less[i]));
+        add(calibrated, 3.0, |i| 0.5 * (more[i] + less[i]) - base_values[i]);
     }
     let Some(family) = richer(family) else { return Ok(()) };
     if let (Some(now), Ok(other)) = (now, fitted(family, options))
-        && let Some(then) = focal(&other)
+        && let Some(other_focal) = focal(&other)
     {
-        let (u, v) = (now.standard_uncertainty, then.standard_uncertainty);
-        let off = then.value - now.value;
-        let beyond = (off * off - (v * v - u * u).max(0.0)).max(0.0).sqrt();
-        add(found, 1.0, |i| if i == 0 { beyond } else { 0.0 });
+        let (u, v) = (now.standard_uncertainty, other_focal.standard_uncertainty);
+        let off = other_focal.value - now.value;
+        let added_uncertainty = (off * off - (v * v - u * u).max(0.0)).max(0.0).sqrt();
+        add(calibrated, 1.0, |i| if i == 0 { added_uncertainty } else { 0.0 });
     }
     Ok(())
 }
@@ -177,28 +177,28 @@ fn widen(found: &mut Found, sightings: &[Sightings], family: Family, options: Op
 /// The same family with one more radial term.
 fn richer(family: Family) -> Option<Family> {
     match family {
-        Family::Perspective { radial: Radial::Polynomial(n), tangential } if n < 3 => {
-            Some(Family::Perspective { radial: Radial::Polynomial(n + 1), tangential })
+        Family::Perspective { radial: RadialTerms::Polynomial(n), tangential } if n < 3 => {
+            Some(Family::Perspective { radial: RadialTerms::Polynomial(n + 1), tangential })
         }
-        Family::Polynomial(_) => Some(Family::Perspective { radial: Radial::Polynomial(3), tangential: false }),
+        Family::Polynomial(_) => Some(Family::Perspective { radial: RadialTerms::Polynomial(3), tangential: false }),
         _ => None,
     }
 }
 
 /// Adds weight · d dᵀ to the covariance.
-fn add(found: &mut Found, weight: f64, d: impl Fn(usize) -> f64) {
-    let count = found.camera.parameters.len();
+fn add(calibrated: &mut CalibratedViews, weight: f64, d: impl Fn(usize) -> f64) {
+    let count = calibrated.camera.parameters.len();
     for i in 0..count {
         for j in 0..count {
-            *found.camera.covariance.at_mut(i, j) += weight * d(i) * d(j);
+            *calibrated.camera.covariance.at_mut(i, j) += weight * d(i) * d(j);
         }
     }
     for i in 0..count {
-        found.camera.parameters[i].estimate.standard_uncertainty = found.camera.covariance.at(i, i).sqrt();
+        calibrated.camera.parameters[i].estimate.standard_uncertainty = calibrated.camera.covariance.at(i, i).sqrt();
     }
 }
 
-impl Found {
+impl CalibratedViews {
     /// A camera file, generated by a verb; the f-number cannot be determined from these images.
     ///
     /// # Errors
@@ -209,15 +209,15 @@ impl Found {
         };
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
-        let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));
+        let view = PixelDirections::Projection(Box::new(stated_projection(&self.camera.calibration)));
         let lens = Lens::Calibrated(Box::new(record::lens::Calibrated::new(view, f_number.unwrap_or(4.0))));
         let camera = Camera::new(lens, Sensor::new(width, height, pixel_pitch_um));
         let count = self.views.len();
         let views = if count == 1 { "view" } else { "views" };
         let rms_px = self.camera.rms_px();
-        let about =
+        let comment =
             format!("Measured by etendue {verb} from {count} {views}; points lie {rms_px:.4} px (rms) from the fit.");
-        let file = File::new(camera.to_table()).head(about);
+        let file = File::new(camera.to_table()).head(comment);
         Ok(match f_number {
             Some(_) => file,
             None => file.beside("lens.f_number", "a placeholder: not measured"),
@@ -227,14 +227,14 @@ impl Found {
 }
 
 /// Residuals of this many times the points' own uncertainty, and this much, are checked.
-const TIMES: f64 = 5.0;
-const MIN_PX: f64 = 0.05;
+const MIN_RESIDUAL_RATIO: f64 = 5.0;
+const MIN_RESIDUAL_PX: f64 = 0.05;
 /// Another model is suggested if it leaves less than this fraction of the residual. Without such a model, a warning is given if
 /// the residual exceeds the limits above by the second factor.
-const SHARE: f64 = 0.5;
-const SURELY: f64 = 4.0;
+const MAX_REMAINING_FRACTION: f64 = 0.5;
+const CLEAR_FACTOR: f64 = 4.0;
 /// Candidate models.
-const OTHERS: [CameraModel; 5] = [
+const CANDIDATES: [CameraModel; 5] = [
     CameraModel::Opencv,
     CameraModel::KannalaBrandt,
     CameraModel::RadialInverse,
@@ -243,38 +243,38 @@ const OTHERS: [CameraModel; 5] = [
 ];
 
 /// A warning if the residuals are far larger than the points' own uncertainties.
-fn unsuited(
+fn model_warning(
     model: CameraModel,
-    camera: &Calibrated,
-    views: &[Seen],
+    camera: &CalibrationResult,
+    views: &[DetectedChart],
     sightings: &[&Sightings],
-    options: Options,
+    options: CalibrationOptions,
 ) -> Option<String> {
     let nodes = || views.iter().flat_map(|v| &v.grid.nodes);
     let squares: f64 = nodes().map(|n| n.uncertainty_px * n.uncertainty_px).sum();
     let own = (squares / nodes().count() as f64).sqrt();
     let left = camera.sigma_px;
-    if left < MIN_PX || left < TIMES * own {
+    if left < MIN_RESIDUAL_PX || left < MIN_RESIDUAL_RATIO * own {
         return None;
     }
     let sightings: Vec<Sightings> = sightings.iter().map(|s| (*s).clone()).collect();
     let size = camera.calibration.size_px();
     let fitted =
         |other: CameraModel| Some((other, calibrate(&sightings, size, other.family(), options).ok()?.sigma_px));
-    let others = OTHERS.into_iter().filter(|other| *other != model).filter_map(fitted);
-    let better = others.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, sigma)| *sigma < SHARE * left);
+    let others = CANDIDATES.into_iter().filter(|other| *other != model).filter_map(fitted);
+    let better = others.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, sigma)| *sigma < MAX_REMAINING_FRACTION * left);
     let times = if own > 0.0 { format!(", {:.0} times their own uncertainty", left / own) } else { String::new() };
-    let than = format!("the points lie {left:.3} px from the fit (standard deviation of a coordinate){times}");
+    let distance_text = format!("the points lie {left:.3} px from the fit (standard deviation of a coordinate){times}");
     let named = model.name();
     match better {
         Some((other, sigma)) => {
             let other = other.name();
             Some(format!(
-                "warning: {than}: the model {named} does not describe this camera; {other} leaves {sigma:.3} px"
+                "warning: {distance_text}: the model {named} does not describe this camera; {other} leaves {sigma:.3} px"
             ))
         }
-        None if own > 0.0 && left > SURELY * MIN_PX.max(TIMES * own) => Some(format!(
-            "warning: {than}: the model {named} does not describe this camera, or the chart is not flat; uncertainties are too small"
+        None if own > 0.0 && left > CLEAR_FACTOR * MIN_RESIDUAL_PX.max(MIN_RESIDUAL_RATIO * own) => Some(format!(
+            "warning: {distance_text}: the model {named} does not describe this camera, or the chart is not flat; uncertainties are too small"
         )),
         None => None,
     }

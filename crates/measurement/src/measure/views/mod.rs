@@ -9,20 +9,20 @@ use clap::Args;
 use etendue_arguments::{choice, not_negative, place, positive};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{Calibrated, CameraModel, Options};
+use etendue_metrology::calibrate::{CalibrationResult, CameraModel, CalibrationOptions};
 use glam::DVec2;
 
-use super::point_list::{ChartInput, Seen};
+use super::point_list::{ChartInput, DetectedChart};
 
-pub(crate) use fit::TriedModel;
+pub(crate) use fit::CandidateModel;
 
 /// The views and the fitted camera.
-pub(crate) struct Found {
+pub(crate) struct CalibratedViews {
     /// The model's name.
     pub model: String,
     /// Views used in the fit.
-    pub views: Vec<Seen>,
-    pub camera: Calibrated,
+    pub views: Vec<DetectedChart>,
+    pub camera: CalibrationResult,
     /// Notes on the fit for the user.
     pub notes: Vec<String>,
 }
@@ -84,7 +84,7 @@ impl ViewsRequest {
 impl ViewsRequest {
     /// As stated, or from the ground truth.
     fn pitch_mm(&self) -> Result<f64, Error> {
-        let told = || {
+        let missing = || {
             Error::argument(
                 "pitch_mm",
                 "`pitch_mm`: not given; state the distance between neighbouring points, or give `truth`",
@@ -93,7 +93,7 @@ impl ViewsRequest {
         };
         Ok(match self.pitch_mm {
             Some(pitch) => pitch,
-            None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,
+            None => self.chart.truth_and_chart()?.ok_or_else(missing)?.1.pitch_mm,
         })
     }
 
@@ -104,8 +104,8 @@ impl ViewsRequest {
     }
 
     /// Known properties of the camera.
-    pub(crate) fn options(&self) -> Options {
-        Options {
+    pub(crate) fn options(&self) -> CalibrationOptions {
+        CalibrationOptions {
             square_pixels: self.square_pixels,
             principal_px: self.principal_px.map(DVec2::from),
             focal_px: None,

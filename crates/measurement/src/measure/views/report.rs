@@ -5,8 +5,8 @@ use etendue_metrology::target::Node;
 use etendue_projection::CalibrationError;
 use glam::DVec2;
 
-use super::{Found, ViewsRequest};
-use crate::measure::point_list::Seen;
+use super::{CalibratedViews, ViewsRequest};
+use crate::measure::point_list::DetectedChart;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 
@@ -19,7 +19,7 @@ fn unit(name: &str) -> &'static str {
     }
 }
 
-impl Found {
+impl CalibratedViews {
     /// Adds parameters, quality of the fit, and the views.
     pub(crate) fn add_to(&self, report: &mut Report, request: &ViewsRequest) {
         let (pixel_pitch_um, points) = (request.pixel_pitch_um, request.chart.points);
@@ -63,12 +63,12 @@ impl Found {
     }
 
     fn table(&self) -> Table {
-        let row = |(v, seen): (usize, &Seen)| {
+        let row = |(v, detected): (usize, &DetectedChart)| {
             let pose = &self.camera.poses[v];
-            let tilt = acos(pose.turn.z_axis.z.clamp(-1.0, 1.0)).to_degrees();
+            let tilt = acos(pose.rotation.z_axis.z.clamp(-1.0, 1.0)).to_degrees();
             vec![
-                Cell::Text(seen.file.display().to_string()),
-                Cell::Number(seen.grid.nodes.len() as f64, 0),
+                Cell::Text(detected.file.display().to_string()),
+                Cell::Number(detected.grid.nodes.len() as f64, 0),
                 Cell::Number(self.camera.view_rms_px(v), 4),
                 Cell::Number(pose.distance(), 2),
                 Cell::Number(tilt, 2),
@@ -107,8 +107,8 @@ impl Found {
                 Cell::Number(off.y, 4),
             ]
         };
-        let of_view = |(v, seen): (usize, &Seen)| {
-            seen.grid.nodes.iter().enumerate().map(|(p, node)| row(v, p, node)).collect::<Vec<_>>()
+        let view_rows = |(v, detected): (usize, &DetectedChart)| {
+            detected.grid.nodes.iter().enumerate().map(|(p, node)| row(v, p, node)).collect::<Vec<_>>()
         };
         Table {
             key: "points",
@@ -122,7 +122,7 @@ impl Found {
                 ("fitted_less_seen_x_px", "fitted minus observed x px"),
                 ("fitted_less_seen_y_px", "y px"),
             ],
-            rows: self.views.iter().enumerate().flat_map(of_view).collect(),
+            rows: self.views.iter().enumerate().flat_map(view_rows).collect(),
         }
     }
 

@@ -4,29 +4,29 @@ use super::cameras::{calibration, fisheye, perspective};
 use super::paint::View;
 use etendue_core::random::unit_f64;
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrateError, Family, Options, Radial, Sighting, Sightings, calibrate};
+use etendue_metrology::calibrate::{CalibrateError, Family, CalibrationOptions, RadialTerms, Sighting, Sightings, calibrate};
 use etendue_projection::model::{DoubleSphere, ExtendedUnified, FieldOfView, Ideal, Unified};
 use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, Model, RadialDistortion, Sense};
+use etendue_projection::{Calibration, Model, RadialDistortion, DistortionDirection};
 use etendue_stats::normal;
 use glam::{DVec2, DVec3};
 
-const BROWN: Family = Family::Perspective { radial: Radial::Polynomial(2), tangential: true };
+const BROWN: Family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: true };
 const SIZE: [usize; 2] = [640, 480];
 
 /// Views of a 9 × 7 grid with steps of 30 mm, rotated about all axes.
 fn views(camera: &Calibration, distance: f64) -> Vec<View> {
-    let turns =
+    let rotations =
         [[0.0, 0.0, 0.0], [0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.2], [0.1, -0.5, 1.6], [0.4, 0.4, 0.8]];
     let places = [[0.0, 0.0], [0.02, 0.0], [-0.02, 0.03], [0.05, -0.02], [0.0, 0.0], [-0.05, 0.01]];
     let view = |(turn, [x, y]): (&[f64; 3], &[f64; 2])| {
         View::new(camera, *turn, DVec2::new(0.12, 0.09), DVec3::new(*x, *y, distance))
     };
-    turns.iter().zip(&places).map(view).collect()
+    rotations.iter().zip(&places).map(view).collect()
 }
 
 /// Observed positions of the points, with normal noise of a standard deviation.
-fn seen(view: &View, sigma_px: f64, word: &mut u64) -> Sightings {
+fn observe(view: &View, sigma_px: f64, word: &mut u64) -> Sightings {
     let mut noise = || {
         *word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         sigma_px * normal::quantile(unit_f64(*word ^ (*word >> 29)).clamp(1e-12, 1.0 - 1e-12))
@@ -40,7 +40,7 @@ fn seen(view: &View, sigma_px: f64, word: &mut u64) -> Sightings {
 }
 
 fn all(camera: &Calibration, distance: f64, sigma_px: f64, mut word: u64) -> Vec<Sightings> {
-    views(camera, distance).iter().map(|v| seen(v, sigma_px, &mut word)).collect()
+    views(camera, distance).iter().map(|v| observe(v, sigma_px, &mut word)).collect()
 }
 
 /// The largest difference in the image, px, of two cameras for the same directions.
@@ -56,8 +56,8 @@ fn exact_points_give_every_model_back() {
     let radial = |sense| Model::Radial(RadialDistortion::new(sense, -0.1, 0.02, 1.0).expect("finite"));
     let cases = [
         (perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], SIZE), BROWN, 0.5),
-        (calibration(radial(Sense::IdealToObserved), 500.0, SIZE), Family::Polynomial(Sense::IdealToObserved), 0.5),
-        (calibration(radial(Sense::ObservedToIdeal), 500.0, SIZE), Family::Polynomial(Sense::ObservedToIdeal), 0.5),
+        (calibration(radial(DistortionDirection::IdealToObserved), 500.0, SIZE), Family::Polynomial(DistortionDirection::IdealToObserved), 0.5),
+        (calibration(radial(DistortionDirection::ObservedToIdeal), 500.0, SIZE), Family::Polynomial(DistortionDirection::ObservedToIdeal), 0.5),
         (fisheye(250.0, SIZE), Family::KannalaBrandt(3), 0.15),
         (calibration(Model::FieldOfView(FieldOfView::new(0.9).expect("legal")), 300.0, SIZE), Family::FieldOfView, 0.2),
         (calibration(Model::Unified(Unified::new(0.9, terms).expect("legal")), 450.0, SIZE), Family::Unified, 0.15),
@@ -74,10 +74,10 @@ fn exact_points_give_every_model_back() {
         (calibration(Model::Ideal(Ideal::Equisolid), 260.0, SIZE), Family::Ideal(Ideal::Equisolid), 0.15),
     ];
     for (camera, family, distance) in cases {
-        let found = calibrate(&all(&camera, distance, 0.0, 1), SIZE, family, Options::default());
-        let found = found.unwrap_or_else(|e| panic!("{family:?}: {e}"));
-        assert!(found.rms_px() < 1e-5, "{family:?}: {}", found.rms_px());
-        let off = largest_difference(&camera, &found.calibration);
+        let result = calibrate(&all(&camera, distance, 0.0, 1), SIZE, family, CalibrationOptions::default());
+        let result = result.unwrap_or_else(|e| panic!("{family:?}: {e}"));
+        assert!(result.rms_px() < 1e-5, "{family:?}: {}", result.rms_px());
+        let off = largest_difference(&camera, &result.calibration);
         // For models with few parameters the whole image is accurate; for polynomials the region beyond the chart is less so.
         assert!(off < 1e-2, "{family:?}: {off}");
     }
@@ -87,24 +87,24 @@ fn exact_points_give_every_model_back() {
 fn one_view_from_the_front_has_no_focal_length() {
     let camera = perspective(500.0, &[-0.2, 0.05, 0.0, 0.0], SIZE);
     let mut word = 3;
-    let front = vec![seen(&views(&camera, 0.5)[0], 0.05, &mut word)];
-    let told = calibrate(&front, SIZE, BROWN, Options { square_pixels: true, ..Options::default() });
-    let Err(CalibrateError::Undetermined { names }) = told else { panic!("{told:?}") };
+    let front = vec![observe(&views(&camera, 0.5)[0], 0.05, &mut word)];
+    let result = calibrate(&front, SIZE, BROWN, CalibrationOptions { square_pixels: true, ..CalibrationOptions::default() });
+    let Err(CalibrateError::Undetermined { names }) = result else { panic!("{result:?}") };
     assert!(names.contains(&"fx_px".to_owned()), "{names:?}");
     // With its distance stated, it has one, with the same uncertainty.
-    let known = Options {
+    let known = CalibrationOptions {
         square_pixels: true,
         principal_px: Some(DVec2::new(326.3, 235.3)),
         distance: Some(Estimate::new(0.5, 0.001)),
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
-    let family = Family::Perspective { radial: Radial::Polynomial(2), tangential: false };
-    let found = calibrate(&front, SIZE, family, known).expect("determined");
-    let f = found.estimate("fx_px").expect("fitted");
+    let family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false };
+    let calibrated = calibrate(&front, SIZE, family, known).expect("determined");
+    let f = calibrated.estimate("fx_px").expect("fitted");
     // fx is 500, fy 501.5: between the two.
     assert!((f.value - 500.75).abs() < 1.0 && (0.9..3.0).contains(&f.standard_uncertainty), "{f:?}");
-    let told = calibrate(&front[..0], SIZE, BROWN, Options::default());
-    assert!(matches!(told, Err(CalibrateError::NoViews)), "{told:?}");
+    let result = calibrate(&front[..0], SIZE, BROWN, CalibrationOptions::default());
+    assert!(matches!(result, Err(CalibrateError::NoViews)), "{result:?}");
 }
 
 #[test]
@@ -113,19 +113,19 @@ fn a_stated_distance_counts_as_much_as_it_is_known() {
     const DISTANCE: f64 = 0.5;
     // Tilted charts whose planes are all at the same distance.
     let level = |v: &View| {
-        let far = v.turn.z_axis.dot(v.place);
-        View { place: v.place + v.turn.z_axis * (DISTANCE - far), ..v.clone() }
+        let far = v.rotation.z_axis.dot(v.translation);
+        View { translation: v.translation + v.rotation.z_axis * (DISTANCE - far), ..v.clone() }
     };
     let mut word = 11;
-    let seen: Vec<Sightings> =
-        views(&camera, DISTANCE).iter().map(level).map(|v| self::seen(&v, 0.05, &mut word)).collect();
-    let found = |views: &[Sightings], value: f64, u: f64| {
+    let sightings: Vec<Sightings> =
+        views(&camera, DISTANCE).iter().map(level).map(|v| self::observe(&v, 0.05, &mut word)).collect();
+    let calibrated = |views: &[Sightings], value: f64, u: f64| {
         let distance = Some(Estimate::new(value, u));
-        let options = Options { distance, ..Options::default() };
+        let options = CalibrationOptions { distance, ..CalibrationOptions::default() };
         calibrate(views, SIZE, BROWN, options)
     };
-    let focal = |value, u| found(&seen, value, u).expect("determined").estimate("fx_px").expect("fitted");
-    let free = calibrate(&seen, SIZE, BROWN, Options::default()).expect("determined");
+    let focal = |value, u| calibrated(&sightings, value, u).expect("determined").estimate("fx_px").expect("fitted");
+    let free = calibrate(&sightings, SIZE, BROWN, CalibrationOptions::default()).expect("determined");
     let free = free.estimate("fx_px").expect("fitted");
     // One standard uncertainty off, which is negligible compared with the information of the views.
     let vague = focal(0.52, 0.02);
@@ -136,17 +136,17 @@ fn a_stated_distance_counts_as_much_as_it_is_known() {
     assert!((sharp.value - 500.0).abs() < 3.0 * sharp.standard_uncertainty, "{sharp:?}");
     // A wrong one is refused, exact or not.
     for u in [0.0, 0.005] {
-        assert!(matches!(found(&seen, 0.55, u), Err(CalibrateError::Distance { .. })));
+        assert!(matches!(calibrated(&sightings, 0.55, u), Err(CalibrateError::Distance { .. })));
     }
     // If the views do not determine it, its uncertainty is that of the focal length.
-    let front = Options {
+    let front = CalibrationOptions {
         distance: Some(Estimate::new(DISTANCE, 0.005)),
         square_pixels: true,
         principal_px: Some(DVec2::new(camera.matrix().cx, camera.matrix().cy)),
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let alone =
-        calibrate(&seen[..1], SIZE, Family::Perspective { radial: Radial::Polynomial(2), tangential: false }, front)
+        calibrate(&sightings[..1], SIZE, Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false }, front)
             .expect("determined")
             .estimate("fx_px")
             .expect("fitted");
@@ -159,9 +159,9 @@ fn outliers_spoil_a_fit_unless_it_is_robust() {
     let mut views = all(&camera, 0.5, 0.05, 5);
     views.iter_mut().for_each(|v| v.points[20].at += DVec2::new(8.0, -5.0));
     let off = |robust| {
-        let options = Options { robust, ..Options::default() };
-        let found = calibrate(&views, SIZE, BROWN, options).expect("settles");
-        (found.estimate("fx_px").expect("fitted").value - 500.0).abs()
+        let options = CalibrationOptions { robust, ..CalibrationOptions::default() };
+        let result = calibrate(&views, SIZE, BROWN, options).expect("settles");
+        (result.estimate("fx_px").expect("fitted").value - 500.0).abs()
     };
     assert!(off(true) < 1.0 && off(true) < 0.3 * off(false), "{} {}", off(true), off(false));
 }

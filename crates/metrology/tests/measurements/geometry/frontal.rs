@@ -3,10 +3,10 @@
 use super::paint::noisy;
 use crate::coverage::{Run, covers};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
-use etendue_metrology::calibrate::{Family, Options, Radial, Sightings, calibrate};
-use etendue_metrology::target::{Grid, Sought, Target, find};
+use etendue_metrology::calibrate::{Family, CalibrationOptions, RadialTerms, Sightings, calibrate};
+use etendue_metrology::target::{Grid, TargetQuery, Target, find};
 use etendue_metrology::{Estimate, Image};
-use etendue_projection::Sense;
+use etendue_projection::DistortionDirection;
 use glam::DVec2;
 
 const SIZE: [usize; 2] = [320, 240];
@@ -18,15 +18,15 @@ const STEP_M: f64 = 0.03;
 
 /// Position of a chart of points in the image: its first point, and its step, px.
 #[derive(Clone, Copy, Debug)]
-struct Placed {
+struct ChartPlacement {
     first: DVec2,
     step: f64,
     points: [usize; 2],
 }
 
-impl Placed {
+impl ChartPlacement {
     /// A chart over most of the image, with a random step and sub-pixel phase from a seed.
-    fn of(seed: u64) -> Self {
+    fn from_seed(seed: u64) -> Self {
         let mut stream = NoiseStream::new(seed, 7, 0, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Shot);
         let step = 20.0 + 12.0 * stream.unit_f64();
         let points = SIZE.map(|size| (size as f64 / step) as usize - 2);
@@ -49,8 +49,8 @@ impl Placed {
         };
         let pixel = |i: usize| {
             let (x, y) = (i % width, i / width);
-            let (share, product) = (inside(0, x) * inside(1, y), sides[0][x] * sides[1][y]);
-            let middle = 0.5 * (BRIGHT + DARK) * share + BRIGHT * (1.0 - share);
+            let (fraction, product) = (inside(0, x) * inside(1, y), sides[0][x] * sides[1][y]);
+            let middle = 0.5 * (BRIGHT + DARK) * fraction + BRIGHT * (1.0 - fraction);
             (middle + 0.5 * (BRIGHT - DARK) * product) as f32
         };
         Image::from_samples(width, height, (0..width * height).map(pixel).collect()).expect("a rectangle")
@@ -59,9 +59,9 @@ impl Placed {
     /// Means over pixels of a sign that changes at every point of a row, 0 outside the chart.
     fn signs(&self, axis: usize) -> Vec<f64> {
         let edge = |k: i32| self.first[axis] + self.step * f64::from(k);
-        let share = |i: usize, k: i32| (edge(k + 1).min(i as f64 + 1.0) - edge(k).max(i as f64)).clamp(0.0, 1.0);
+        let fraction = |i: usize, k: i32| (edge(k + 1).min(i as f64 + 1.0) - edge(k).max(i as f64)).clamp(0.0, 1.0);
         let sign = |k: i32| if k % 2 == 0 { 1.0 } else { -1.0 };
-        let pixel = |i: usize| (-1..self.points[axis] as i32).map(|k| sign(k) * share(i, k)).sum();
+        let pixel = |i: usize| (-1..self.points[axis] as i32).map(|k| sign(k) * fraction(i, k)).sum();
         (0..SIZE[axis]).map(pixel).collect()
     }
 
@@ -77,8 +77,8 @@ impl Placed {
                 let half = (radius * radius - v * v).max(0.0).sqrt();
                 let (from, to) = (centre.x - half, centre.x + half);
                 for x in (from.max(0.0) as usize)..=(to as usize).min(SIZE[0] - 1) {
-                    let share = (to.min(x as f64 + 1.0) - from.max(x as f64)).max(0.0);
-                    covered[y * SIZE[0] + x] += share / LINES as f64;
+                    let fraction = (to.min(x as f64 + 1.0) - from.max(x as f64)).max(0.0);
+                    covered[y * SIZE[0] + x] += fraction / LINES as f64;
                 }
             }
         }
@@ -88,9 +88,9 @@ impl Placed {
 }
 
 /// Root mean square distance of detected dots from their true positions, px, without noise.
-fn error_px(placed: &Placed, radius_steps: f64) -> f64 {
-    let sought = Sought { target: Some(Target::Dots), size: Some(placed.points) };
-    let grid = find(&placed.dots(radius_steps), sought).expect("dots");
+fn error_px(placed: &ChartPlacement, radius_steps: f64) -> f64 {
+    let query = TargetQuery { target: Some(Target::Dots), size: Some(placed.points) };
+    let grid = find(&placed.dots(radius_steps), query).expect("dots");
     assert_eq!(grid.size, placed.points);
     let at = |[i, j]: [usize; 2]| placed.first + placed.step * DVec2::new(i as f64, j as f64);
     let squares: f64 = grid.nodes.iter().map(|n| (n.at - at(n.index)).length_squared()).sum();
@@ -101,7 +101,7 @@ fn error_px(placed: &Placed, radius_steps: f64) -> f64 {
 #[test]
 fn the_pixels_raster_does_not_move_dots() {
     for (seed, radius_steps) in (0..12).zip([0.15, 0.2, 0.25, 0.3].into_iter().cycle()) {
-        let placed = Placed::of(seed);
+        let placed = ChartPlacement::from_seed(seed);
         let error = error_px(&placed, radius_steps);
         // Radii of 3 to 10 px; 0.0015 to 0.006 px without the correction.
         assert!(error < 6e-4, "{placed:?}, radius {radius_steps}: {error}");
@@ -109,27 +109,27 @@ fn the_pixels_raster_does_not_move_dots() {
 }
 
 fn focal(grid: &Grid, family: Family, distance: Estimate) -> Estimate {
-    let told = Options {
+    let options = CalibrationOptions {
         square_pixels: true,
         principal_px: Some(0.5 * DVec2::new(SIZE[0] as f64, SIZE[1] as f64)),
         distance: Some(distance),
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
-    let found = calibrate(&[Sightings::of_grid(grid, STEP_M)], SIZE, family, told).expect("determined");
-    found.estimate("fx_px").expect("fitted")
+    let calibrated = calibrate(&[Sightings::from_grid(grid, STEP_M)], SIZE, family, options).expect("determined");
+    calibrated.estimate("fx_px").expect("fitted")
 }
 
 /// The focal length from one view of either chart, with a model without distortion and one with it.
-fn of_charts(seed: u64, noise: f64) -> Run {
-    let placed = Placed::of(seed);
-    let pinhole = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
-    let radial = Family::Polynomial(Sense::IdealToObserved);
-    let found = |image: &Image, target, seed| {
-        let sought = Sought { target: Some(target), size: Some(placed.points) };
-        find(&noisy(image, noise, seed), sought).expect("a chart")
+fn chart_run(seed: u64, noise: f64) -> Run {
+    let placed = ChartPlacement::from_seed(seed);
+    let pinhole = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
+    let radial = Family::Polynomial(DistortionDirection::IdealToObserved);
+    let detect = |image: &Image, target, seed| {
+        let query = TargetQuery { target: Some(target), size: Some(placed.points) };
+        find(&noisy(image, noise, seed), query).expect("a chart")
     };
-    let board = found(&placed.checkerboard(), Target::Checkerboard, 2 * seed + 1);
-    let dots = found(&placed.dots(0.25), Target::Dots, 2 * seed + 2);
+    let board = detect(&placed.checkerboard(), Target::Checkerboard, 2 * seed + 1);
+    let dots = detect(&placed.dots(0.25), Target::Dots, 2 * seed + 2);
     let cases = [
         ("checkerboard, pinhole", &board, pinhole),
         ("checkerboard, radial", &board, radial),
@@ -142,5 +142,5 @@ fn of_charts(seed: u64, noise: f64) -> Run {
 
 #[test]
 fn the_focal_length_of_a_view_from_the_front() {
-    covers("focal, from the front", |seed| of_charts(seed, 0.01));
+    covers("focal, from the front", |seed| chart_run(seed, 0.01));
 }

@@ -5,11 +5,11 @@ use super::paint::View;
 use crate::coverage::{Run, covers};
 use crate::draws::normals;
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sighting, Sightings, calibrate};
+use etendue_metrology::calibrate::{CalibrationResult, Family, CalibrationOptions, RadialTerms, Sighting, Sightings, calibrate};
 use etendue_metrology::chromatic::{displacements, rings, shift};
 use etendue_metrology::distortion::distortion;
 use etendue_metrology::target::{Grid, Node};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Sense};
+use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, DistortionDirection};
 use glam::{DVec2, DVec3};
 
 /// Noise of a point, px.
@@ -20,13 +20,13 @@ const HALF_DIAGONAL_PX: f64 = 500.0;
 /// r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the image centre.
 fn barrel(k1: f64, k2: f64) -> Calibration {
     let f = 700.0;
-    let radial = RadialDistortion::new(Sense::IdealToObserved, k1, k2, HALF_DIAGONAL_PX / f).expect("finite");
+    let radial = RadialDistortion::new(DistortionDirection::IdealToObserved, k1, k2, HALF_DIAGONAL_PX / f).expect("finite");
     let matrix = CameraMatrix { fx: f, fy: f, skew: 0.0, cx: 400.0, cy: 300.0 };
     Calibration::new(Model::Radial(radial), matrix, SIZE).expect("a camera")
 }
 
 /// Observed points of a chart with steps of 1, with noise.
-fn seen(view: &View, [columns, rows]: [usize; 2], mut normal: impl FnMut() -> f64) -> Grid {
+fn observe(view: &View, [columns, rows]: [usize; 2], mut normal: impl FnMut() -> f64) -> Grid {
     let node = |i: usize| {
         let index = [i % columns, i / columns];
         let noise = SIGMA_PX * DVec2::new(normal(), normal());
@@ -41,14 +41,14 @@ fn distorted(seed: u64) -> Run {
     let (k1, k2) = (-0.06, 0.01);
     let camera = barrel(k1, k2);
     let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(8.0, 6.0), DVec3::new(0.05, -0.1, 13.5));
-    let found = distortion(&seen(&view, [17, 13], normals(seed, 0)), SIZE, None).expect("enough points");
+    let measured = distortion(&observe(&view, [17, 13], normals(seed, 0)), SIZE, None).expect("enough points");
     let Model::Radial(radial) = camera.model() else { panic!("radial") };
     let ratio = |field: f64| {
         let observed = field * radial.unit_mm();
         observed / radial.ideal_radius_mm(observed).expect("no fold")
     };
-    let fit = found.forward;
-    let point = |k: usize| (found.curve[k].ratio, ratio(found.curve[k].field));
+    let fit = measured.forward;
+    let point = |k: usize| (measured.curve[k].ratio, ratio(measured.curve[k].field));
     let [a, b, c] = [7, 19, 31].map(point);
     vec![
         ("k1", fit.k1, k1),
@@ -70,9 +70,9 @@ fn distortion_of_a_chart() {
 fn to_one_side(seed: u64) -> Run {
     let camera = perspective(700.0, &[], SIZE);
     let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(4.0, 6.0), DVec3::new(0.0, 0.0, 18.0));
-    let found = distortion(&seen(&view, [15, 13], normals(seed, 0)), SIZE, None).expect("enough points");
+    let measured = distortion(&observe(&view, [15, 13], normals(seed, 0)), SIZE, None).expect("enough points");
     let at = |field: f64| {
-        let point = found.curve.iter().find(|p| (p.field - field).abs() < 1e-9).expect("the chart reaches there");
+        let point = measured.curve.iter().find(|p| (p.field - field).abs() < 1e-9).expect("the chart reaches there");
         assert!(point.covered < 0.8, "{point:?}");
         (point.ratio, 1.0)
     };
@@ -93,19 +93,19 @@ fn filling(camera: &Calibration, [columns, rows]: [usize; 2], tilt: f64) -> View
 }
 
 /// The largest local distortion, that of a corner of the chart, and the curve's last point, of a chart with this many points.
-fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> Run {
+fn grid_run(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> Run {
     let view = filling(camera, size, tilt);
-    let grid = seen(&view, size, normals(seed, 0));
-    let found = distortion(&grid, SIZE, None).expect("enough points");
+    let grid = observe(&view, size, normals(seed, 0));
+    let measured = distortion(&grid, SIZE, None).expect("enough points");
     let all = (0..size[0] * size[1]).filter_map(|i| {
         let at = view.image(DVec2::new((i % size[0]) as f64, (i / size[0]) as f64))? - DVec2::new(400.0, 300.0);
         Some(truth(at.length() / HALF_DIAGONAL_PX) - 1.0)
     });
     let largest = all.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
-    let corner = found.local.iter().find(|l| l.index == [0, 0]).expect("seen");
-    let last = found.curve.last().expect("a curve");
+    let corner = measured.local.iter().find(|l| l.index == [0, 0]).expect("seen");
+    let last = measured.curve.last().expect("a curve");
     vec![
-        ("largest local distortion", found.largest.expect("points").distortion, largest),
+        ("largest local distortion", measured.largest.expect("points").distortion, largest),
         ("of a corner", corner.distortion, truth(corner.field) - 1.0),
         ("curve's last point", last.ratio, truth(last.field)),
     ]
@@ -131,7 +131,7 @@ fn distortion_of_charts_of_few_points_and_many() {
             let observed = field * radial.unit_mm();
             observed / radial.ideal_radius_mm(observed).expect("no fold")
         };
-        covers(&format!("distortion, {chart}, {kind}"), |seed| of_grid(&camera, size, 0.02, truth, seed));
+        covers(&format!("distortion, {chart}, {kind}"), |seed| grid_run(&camera, size, 0.02, truth, seed));
     }
 }
 
@@ -145,32 +145,32 @@ fn sighted(view: &View, mut normal: impl FnMut() -> f64) -> Sightings {
     Sightings { points: (0..30).filter_map(point).collect(), disc_radius: None }
 }
 
-fn pose(camera: &Calibration, turn: [f64; 3], distance: f64) -> View {
-    View::new(camera, turn, DVec2::new(0.125, 0.1), DVec3::new(0.0, 0.01, distance))
+fn pose(camera: &Calibration, rotation: [f64; 3], distance: f64) -> View {
+    View::new(camera, rotation, DVec2::new(0.125, 0.1), DVec3::new(0.0, 0.01, distance))
 }
 
-fn named(found: &Calibrated, truth: &[(&'static str, f64)]) -> Run {
-    truth.iter().map(|(name, truth)| (*name, found.estimate(name).expect("fitted"), *truth)).collect()
+fn named(calibrated: &CalibrationResult, truth: &[(&'static str, f64)]) -> Run {
+    truth.iter().map(|(name, truth)| (*name, calibrated.estimate(name).expect("fitted"), *truth)).collect()
 }
 
 #[test]
 fn calibration_from_views() {
-    let family = Family::Perspective { radial: Radial::Polynomial(2), tangential: true };
+    let family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: true };
     covers("calibrate", |seed| {
         let camera = perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], [640, 480]);
-        let turns = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.1, -0.5, 1.6]];
+        let rotations = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.1, -0.5, 1.6]];
         let mut normal = normals(seed, 0);
-        let views: Vec<Sightings> = turns.iter().map(|turn| sighted(&pose(&camera, *turn, 0.5), &mut normal)).collect();
-        let found = calibrate(&views, [640, 480], family, Options::default()).expect("settles");
+        let views: Vec<Sightings> = rotations.iter().map(|rotation| sighted(&pose(&camera, *rotation, 0.5), &mut normal)).collect();
+        let calibrated = calibrate(&views, [640, 480], family, CalibrationOptions::default()).expect("settles");
         let k = [("k1", -0.2), ("k2", 0.05), ("p1", 0.001), ("p2", -0.002)];
-        named(&found, &[&[("fx_px", 500.0), ("fy_px", 501.5), ("cx_px", 326.3), ("cy_px", 235.3)][..], &k].concat())
+        named(&calibrated, &[&[("fx_px", 500.0), ("fy_px", 501.5), ("cx_px", 326.3), ("cy_px", 235.3)][..], &k].concat())
     });
 }
 
 /// One frontal view; its distance is known to 1 mm of 500.
 #[test]
 fn focal_length_from_a_distance() {
-    let family = Family::Perspective { radial: Radial::Polynomial(2), tangential: false };
+    let family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false };
     covers("focal", |seed| {
         let mut normal = normals(seed, 0);
         let camera = {
@@ -181,15 +181,15 @@ fn focal_length_from_a_distance() {
             let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
             Calibration::new(Model::Perspective(model), matrix, [640, 480]).expect("a camera")
         };
-        let told = Options {
+        let options = CalibrationOptions {
             square_pixels: true,
             principal_px: Some(DVec2::new(320.0, 240.0)),
             distance: Some(Estimate::new(0.5 + 0.001 * normal(), 0.001)),
-            ..Options::default()
+            ..CalibrationOptions::default()
         };
         let views = [sighted(&pose(&camera, [0.0; 3], 0.5), normal)];
-        let found = calibrate(&views, [640, 480], family, told).expect("settles");
-        named(&found, &[("fx_px", 500.0), ("k1", -0.2), ("k2", 0.05)])
+        let calibrated = calibrate(&views, [640, 480], family, options).expect("settles");
+        named(&calibrated, &[("fx_px", 500.0), ("k1", -0.2), ("k2", 0.05)])
     });
 }
 
@@ -198,7 +198,7 @@ fn focal_length_from_a_distance() {
 #[test]
 fn focal_length_from_a_typed_distance() {
     const DIGIT: f64 = 5e-4;
-    let family = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
+    let family = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
     covers("focal, distance typed", |seed| {
         let mut normal = normals(seed, 0);
         let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
@@ -207,21 +207,21 @@ fn focal_length_from_a_typed_distance() {
         let distance = 0.5 + 0.01 * normal();
         let view = View::new(&camera, [0.0; 3], DVec2::new(0.125, 0.1), DVec3::new(0.0, 0.01, distance));
         let typed = (distance / DIGIT).round() * DIGIT;
-        let told = Options {
+        let options = CalibrationOptions {
             square_pixels: true,
             principal_px: Some(DVec2::new(320.0, 240.0)),
             distance: Some(Estimate::new(typed, DIGIT / 12_f64.sqrt())),
-            ..Options::default()
+            ..CalibrationOptions::default()
         };
-        let found = calibrate(&[sighted(&view, normal)], [640, 480], family, told).expect("settles");
-        named(&found, &[("fx_px", 500.0)])
+        let calibrated = calibrate(&[sighted(&view, normal)], [640, 480], family, options).expect("settles");
+        named(&calibrated, &[("fx_px", 500.0)])
     });
 }
 
 /// Errors of 0.05 px shared by all points of a column or a row, in addition to 0.02 px of each point's own.
 #[test]
 fn focal_length_by_points_that_share_errors() {
-    let family = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
+    let family = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
     covers("focal, errors shared by rows and columns", |seed| {
         let mut normal = normals(seed, 0);
         let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
@@ -236,14 +236,14 @@ fn focal_length_by_points_that_share_errors() {
             Some(Sighting { chart, at: view.image(chart)? + shared + 0.02 * DVec2::new(normal(), normal()) })
         };
         let view = Sightings { points: (0..108).filter_map(point).collect(), disc_radius: None };
-        let told = Options {
+        let options = CalibrationOptions {
             square_pixels: true,
             principal_px: Some(DVec2::new(320.0, 240.0)),
             distance: Some(Estimate::new(0.5, 0.0)),
-            ..Options::default()
+            ..CalibrationOptions::default()
         };
-        let found = calibrate(&[view], [640, 480], family, told).expect("settles");
-        named(&found, &[("fx_px", 500.0)])
+        let calibrated = calibrate(&[view], [640, 480], family, options).expect("settles");
+        named(&calibrated, &[("fx_px", 500.0)])
     });
 }
 
@@ -258,7 +258,7 @@ fn lateral_colour() {
         };
         let grid = |f: f64, purpose: u32| {
             let view = View::new(&camera(f), [0.0; 3], DVec2::new(10.0, 7.5), DVec3::new(0.0, 0.0, 20.0));
-            let mut grid = seen(&view, [21, 16], normals(seed, purpose));
+            let mut grid = observe(&view, [21, 16], normals(seed, purpose));
             grid.nodes.iter_mut().for_each(|n| n.at.x += if purpose == 1 { 0.05 } else { 0.0 });
             grid
         };

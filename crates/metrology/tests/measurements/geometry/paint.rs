@@ -12,22 +12,22 @@ use rayon::prelude::*;
 pub(crate) struct View {
     pub(crate) camera: Calibration,
     /// Rotation from the chart's frame (x along columns, y along rows, z away from the camera) to the camera's.
-    pub(crate) turn: DMat3,
-    pub(crate) place: DVec3,
+    pub(crate) rotation: DMat3,
+    pub(crate) translation: DVec3,
 }
 
 /// A rotation by a vector of angle and axis.
-pub(crate) fn turned(v: [f64; 3]) -> DMat3 {
+pub(crate) fn rotation(v: [f64; 3]) -> DMat3 {
     let v = DVec3::from(v);
     let angle = v.length();
     if angle == 0.0 { DMat3::IDENTITY } else { DMat3::from_axis_angle_exact(v / angle, angle) }
 }
 
-trait Exact {
+trait ExactRotation {
     fn from_axis_angle_exact(axis: DVec3, angle: f64) -> DMat3;
 }
 
-impl Exact for DMat3 {
+impl ExactRotation for DMat3 {
     fn from_axis_angle_exact(axis: DVec3, angle: f64) -> DMat3 {
         let (s, c) = sin_cos(angle);
         let cross = DMat3::from_cols(axis.cross(DVec3::X), axis.cross(DVec3::Y), axis.cross(DVec3::Z));
@@ -36,28 +36,28 @@ impl Exact for DMat3 {
 }
 
 impl View {
-    pub(crate) fn new(camera: &Calibration, turn: [f64; 3], centre: DVec2, place: DVec3) -> Self {
-        let turn = turned(turn);
+    pub(crate) fn new(camera: &Calibration, rotation_vector: [f64; 3], centre: DVec2, place: DVec3) -> Self {
+        let turn = rotation(rotation_vector);
         // `place` is the position of the chart's point `centre`.
-        Self { camera: camera.clone(), turn, place: place - turn * centre.extend(0.0) }
+        Self { camera: camera.clone(), rotation: turn, translation: place - turn * centre.extend(0.0) }
     }
 
     /// The image of a point of the chart.
     pub(crate) fn image(&self, chart: DVec2) -> Option<DVec2> {
-        self.camera.project(self.turn * chart.extend(0.0) + self.place)
+        self.camera.project(self.rotation * chart.extend(0.0) + self.translation)
     }
 
     /// The point of the chart at a position in the image.
     fn chart(&self, raster: DVec2) -> Option<DVec2> {
-        let direction = self.turn.transpose() * self.camera.unproject(raster)?;
-        let origin = self.turn.transpose() * -self.place;
+        let direction = self.rotation.transpose() * self.camera.unproject(raster)?;
+        let origin = self.rotation.transpose() * -self.translation;
         let t = -origin.z / direction.z;
         (t > 0.0).then(|| (origin + t * direction).truncate())
     }
 
     /// The image of a chart whose brightness is `paint`; outside the plane it is 0.5. `fine` × `fine` samples of every pixel that
     /// an edge may cross.
-    pub(crate) fn picture(&self, fine: u32, paint: &(impl Fn(DVec2) -> f64 + Sync)) -> Image {
+    pub(crate) fn render(&self, fine: u32, paint: &(impl Fn(DVec2) -> f64 + Sync)) -> Image {
         let [width, height] = self.camera.size_px();
         let sample = |x: f64, y: f64| self.chart(DVec2::new(x, y)).map_or(0.5, paint);
         let row = |y: usize| {

@@ -1,17 +1,17 @@
 //! Depth.
 
-use super::{normals, picture};
+use super::{normals, test_image};
 use crate::coverage::covers;
 use etendue_metrology::depth::{DepthSettings, measure_depth};
 
 /// A plane at 10 m, measured 0.05 m too far with noise of 0.2 m shared by neighbours over squares of this many pixels.
 fn measured(seed: u64, shared_px: usize) -> crate::coverage::Run {
     const SIZE: usize = 160;
-    let truth = picture(SIZE, SIZE, |_| 10.0);
+    let truth = test_image(SIZE, SIZE, |_| 10.0);
     let mut normal = normals(seed, 0);
     let noise: Vec<f64> = (0..SIZE * SIZE).map(|_| 0.2 * normal()).collect();
     let at = |i: usize| noise[i / SIZE / shared_px * SIZE + i % SIZE / shared_px];
-    let estimate = picture(SIZE, SIZE, |i| 10.05 + at(i));
+    let estimate = test_image(SIZE, SIZE, |i| 10.05 + at(i));
     let report = measure_depth(&estimate, &truth, &DepthSettings::default()).expect("depths");
     vec![
         ("bias", report.all.bias_m, 0.05),

@@ -17,7 +17,7 @@ fn unit(seed: u64) -> f64 {
 }
 
 /// An image of this size, with each reading computed from its index.
-fn picture(width: usize, height: usize, mut reading: impl FnMut(usize) -> f64) -> Image {
+fn test_image(width: usize, height: usize, mut reading: impl FnMut(usize) -> f64) -> Image {
     let samples = (0..width * height).map(|i| reading(i) as f32).collect();
     Image::from_samples(width, height, samples).expect("a rectangle")
 }

@@ -1,6 +1,6 @@
 //! Uniform patches: noise, flare, contrast, colour.
 
-use super::{normals, picture};
+use super::{normals, test_image};
 use crate::coverage::covers;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
@@ -21,17 +21,17 @@ fn noise() {
         let pattern: Vec<f64> = (0..SIDE * SIDE).map(|_| 3.0 * normal()).collect();
         let mut stack = Stack::new(SIDE, SIDE);
         for _ in 0..8 {
-            stack.push(&picture(SIDE, SIDE, |i| 200.0 + pattern[i] + 4.0 * normal())).expect("a frame");
+            stack.push(&test_image(SIDE, SIDE, |i| 200.0 + pattern[i] + 4.0 * normal())).expect("a frame");
         }
-        let found = measure_noise(&stack, 40.0).expect("eight frames");
+        let noise_result = measure_noise(&stack, 40.0).expect("eight frames");
         // The signal is that of these pixels.
         let signal = 160.0 + pattern.iter().sum::<f64>() / (SIDE * SIDE) as f64;
-        let [total, temporal, fixed] = found.snr();
+        let [total, temporal, fixed] = noise_result.snr();
         vec![
-            ("signal", found.signal, signal),
-            ("temporal", found.temporal, 4.0),
-            ("fixed pattern", found.fixed, 3.0),
-            ("total", found.total, 5.0),
+            ("signal", noise_result.signal, signal),
+            ("temporal", noise_result.temporal, 4.0),
+            ("fixed pattern", noise_result.fixed, 3.0),
+            ("total", noise_result.total, 5.0),
             ("SNR, total", total, signal / 5.0),
             ("SNR, temporal", temporal, signal / 4.0),
             ("SNR, fixed pattern", fixed, signal / 3.0),
@@ -43,10 +43,10 @@ fn noise() {
 fn flare() {
     covers("flare", |seed| {
         let mut normal = normals(seed, 0);
-        let mut patch = |mean: f64, sigma: f64| picture(12, 12, |_| mean + sigma * normal());
+        let mut patch = |mean: f64, sigma: f64| test_image(12, 12, |_| mean + sigma * normal());
         let (white, trap) = (patch(900.0, 30.0), patch(25.0, 3.0));
-        let found = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
-        vec![("share of a trap", found, 5.0 / 880.0)]
+        let result = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
+        vec![("share of a trap", result, 5.0 / 880.0)]
     });
 }
 
@@ -56,10 +56,10 @@ pub(super) fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) 
     const SIDE: usize = 24;
     let own: Vec<f64> = (0..(SIDE + 2) * (SIDE + 2)).map(|_| mean + sigma * normal()).collect();
     let at = |x: usize, y: usize| own[y * (SIDE + 2) + x];
-    picture(SIDE, SIDE, |i| {
+    test_image(SIDE, SIDE, |i| {
         let (x, y) = (i % SIDE + 1, i / SIDE + 1);
-        let beside = 0.25 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1));
-        if (x + y) % 2 == 0 { at(x, y) } else { beside }
+        let neighbour_mean = 0.25 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1));
+        if (x + y) % 2 == 0 { at(x, y) } else { neighbour_mean }
     })
 }
 
@@ -70,9 +70,9 @@ fn patches_of_developed_pictures() {
         let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| developed(m, s, &mut normal));
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| developed(m, s, &mut normal));
-        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+        let settings = ContrastSettings { black: 0.0, full_scale: None, tolerance: 0.5, shared_px: 1 };
         let contrast = measure_contrast(&dark.clone().into(), &bright.into(), 0.5, &settings).expect("patches");
-        let point = ExposurePoint::of(1.0, &dark, None, 1);
+        let point = ExposurePoint::from_surface(1.0, &dark, None, 1);
         vec![
             ("flare of a trap", flare, 5.0 / 880.0),
             ("contrast", contrast.measured, 0.5),
@@ -85,7 +85,7 @@ fn patches_of_developed_pictures() {
 fn with_rows(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
     const SIDE: usize = 32;
     let rows: Vec<f64> = (0..SIDE).map(|_| 0.5 * sigma * normal()).collect();
-    picture(SIDE, SIDE, |i| mean + rows[i / SIDE] + sigma * normal())
+    test_image(SIDE, SIDE, |i| mean + rows[i / SIDE] + sigma * normal())
 }
 
 #[test]
@@ -95,23 +95,23 @@ fn patches_whose_rows_share_noise() {
         let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| with_rows(m, s, &mut normal));
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| with_rows(m, s, &mut normal));
-        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+        let settings = ContrastSettings { black: 0.0, full_scale: None, tolerance: 0.5, shared_px: 1 };
         let contrast = measure_contrast(&dark.clone().into(), &bright.into(), 0.5, &settings).expect("patches");
         vec![
             ("flare of a trap", flare, 5.0 / 880.0),
             ("contrast", contrast.measured, 0.5),
-            ("reading of an exposure", ExposurePoint::of(1.0, &dark, None, 1).reading, 1000.0),
+            ("reading of an exposure", ExposurePoint::from_surface(1.0, &dark, None, 1).reading, 1000.0),
         ]
     });
 }
 
 #[test]
 fn contrast() {
-    let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+    let settings = ContrastSettings { black: 0.0, full_scale: None, tolerance: 0.5, shared_px: 1 };
     let (dark, bright) = ([1000.0, 300.0], [1500.0, 360.0]);
     covers("cdp", |seed| {
         let mut normal = normals(seed, 0);
-        let mut patch = |[mean, sigma]: [f64; 2]| picture(20, 20, |_| mean + sigma * normal());
+        let mut patch = |[mean, sigma]: [f64; 2]| test_image(20, 20, |_| mean + sigma * normal());
         let (a, b) = (patch(dark), patch(bright));
         let contrast = measure_contrast(&a.into(), &b.into(), 0.5, &settings).expect("patches");
         let square = |[mean, sigma]: [f64; 2]| [mean, sigma * sigma];
@@ -132,7 +132,7 @@ fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -
         let channels = [0.5 * x + 0.09 * y, 0.04 * x + 0.6 * y + 0.02 * z, 0.07 * y + 0.45 * z];
         let pixels = [0, 1, 2].map(|c| {
             let mean = 16.0 + 900.0 * pow(channels[c], powers[c]);
-            picture(side, side, |_| mean + sigma * normal())
+            test_image(side, side, |_| mean + sigma * normal())
         });
         ColourPatch { name: p.name.to_owned(), pixels, reference: [x, y, z] }
     };
@@ -141,8 +141,8 @@ fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -
 
 /// A camera with errors of a few ΔE, and one with exact colours, whose errors must not differ from 0.
 fn colours(powers: [f64; 3], side: usize, seed: u64) -> [ColourError; 2] {
-    let found = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE, 1);
-    [3.0, 0.0].map(|sigma| found(sigma).expect("a chart"))
+    let measure = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE, 1);
+    [3.0, 0.0].map(|sigma| measure(sigma).expect("a chart"))
 }
 
 #[test]
@@ -162,14 +162,14 @@ fn colour_errors() {
 
 /// Lengths of 0: at most one in ten patches may have an interval that excludes 0, and their mean has none.
 #[test]
-fn errors_of_colour_that_are_only_noise_are_told_as_such() {
-    let told: Vec<Estimate> = (0..40)
+fn colour_errors_of_pure_noise_are_insignificant() {
+    let differences: Vec<Estimate> = (0..40)
         .flat_map(|seed| {
             let [measured, _] = colours([1.0; 3], 8, seed);
             assert!(measured.mean.standard_uncertainty.is_infinite(), "{:?}", measured.mean);
             measured.differences
         })
         .collect();
-    let wrong = told.iter().filter(|d| d.value > 1.96 * d.standard_uncertainty).count();
-    assert!(10 * wrong < told.len(), "{wrong} of {}", told.len());
+    let wrong = differences.iter().filter(|d| d.value > 1.96 * d.standard_uncertainty).count();
+    assert!(10 * wrong < differences.len(), "{wrong} of {}", differences.len());
 }

@@ -1,7 +1,7 @@
 //! Response of the camera from relatively known exposures.
 
 use super::patches::developed;
-use super::{normals, picture};
+use super::{normals, test_image};
 use crate::coverage::covers;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::oecf::ExposurePoint;
@@ -16,16 +16,16 @@ fn response() {
         let reading = |light: f64| (-0.3 + (0.09 + 2.8 * light).sqrt()) / 1.4;
         let mut normal = normals(seed, 0);
         let mut frame = |exposure: f64| {
-            picture(64, 24, |i| {
+            test_image(64, 24, |i| {
                 let light: f64 = exposure * (0.02 + 0.98 * (i % 64) as f64 / 64.0);
                 1000.0 * (reading(light.min(1.0)) + 0.003 * normal()).clamp(0.0, 1.0)
             })
         };
         let images: Vec<(f64, Image)> = (0..4).map(|i| pow(2.0, f64::from(i))).map(|e| (e, frame(e / 8.0))).collect();
-        let given: Vec<(f64, &Image)> = images.iter().map(|(e, image)| (*e, image)).collect();
+        let exposed_images: Vec<(f64, &Image)> = images.iter().map(|(e, image)| (*e, image)).collect();
         let settings = ResponseSettings { full_scale: 1000.0, black: 0.0, degree: 5, refine: false };
-        let found = camera_response(&given, &settings).expect("four pictures");
-        let at = |name, m: f64| (name, found.estimate(m), 0.3 * m + 0.7 * m * m);
+        let result = camera_response(&exposed_images, &settings).expect("four pictures");
+        let at = |name, m: f64| (name, result.estimate(m), 0.3 * m + 0.7 * m * m);
         vec![at("light at 25 %", 0.25), at("light at 50 %", 0.5), at("light at 75 %", 0.75)]
     });
 }
@@ -48,7 +48,7 @@ fn tone_curve_of_developed_pictures() {
             let linear = developed(light, sigma, &mut normal);
             let samples = linear.samples().iter().map(|l| encoded(f64::from(*l)).round());
             let patch = Image::from_samples(24, 24, samples.map(|v| v as f32).collect()).expect("a square");
-            let point = ExposurePoint::of(light, &patch, Some(255.0), 1);
+            let point = ExposurePoint::from_surface(light, &patch, Some(255.0), 1);
             let own = (point.noise.expect("of the patch") * point.noise.expect("of the patch") - 1.0 / 12.0).max(0.0);
             let declared = noisy_mean(encoded, light, own.sqrt());
             (name, Estimate::new(point.reading.value - declared, point.reading.standard_uncertainty), 0.0)

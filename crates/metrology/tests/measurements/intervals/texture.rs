@@ -1,6 +1,6 @@
 //! Star and dead leaves.
 
-use super::{normals, picture};
+use super::{normals, test_image};
 use crate::coverage::covers;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{atan2, exp, hypot, sin_cos};
@@ -14,7 +14,7 @@ fn star() {
     let blur = |f: f64| exp(-2.0 * PI * PI * 0.25 * f * f);
     covers("star", |seed| {
         let mut normal = normals(seed, 0);
-        let image = picture(120, 120, |i| {
+        let image = test_image(120, 120, |i| {
             let (dx, dy) = ((i % 120) as f64 + 0.5 - 60.3, (i / 120) as f64 + 0.5 - 59.8);
             let f = f64::from(CYCLES) / (TAU * hypot(dx, dy).max(1.0));
             let wave = sin_cos(f64::from(CYCLES) * atan2(dy, dx)).1;
@@ -42,7 +42,7 @@ fn leaves() {
     let kernel = |d: i64| if d == 0 { 0.6 } else { 0.2 };
     covers("texture", |seed| {
         let mut normal = normals(seed, 0);
-        let reference = picture(SIDE, SIDE, |_| 500.0 + 100.0 * normal());
+        let reference = test_image(SIDE, SIDE, |_| 500.0 + 100.0 * normal());
         let soft = |i: usize| {
             let at = |dx: i64, dy: i64| {
                 let wrap = |c: usize, d: i64| (c as i64 + d).rem_euclid(SIDE as i64) as usize;
@@ -50,7 +50,7 @@ fn leaves() {
             };
             (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))).map(|(dx, dy)| at(dx, dy)).sum::<f64>()
         };
-        let image = picture(SIDE, SIDE, |i| soft(i) + 20.0 * normal());
+        let image = test_image(SIDE, SIDE, |i| soft(i) + 20.0 * normal());
         let points = measure_texture(&image, &reference, None, None).expect("a texture").points;
         // |S_xy|/S_xx of a band is the modulus of the mean transfer over its bins, all equally probable.
         let transfer = |k: usize| {

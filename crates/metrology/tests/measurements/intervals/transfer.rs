@@ -4,7 +4,7 @@ use super::{normals, unit};
 use crate::coverage::{Run, covers};
 use etendue_core::maths::f64::{exp, ln};
 use etendue_metrology::Estimate;
-use etendue_metrology::photon_transfer::temperature::{Law, fit};
+use etendue_metrology::photon_transfer::temperature::{GrowthLaw, fit};
 use etendue_metrology::photon_transfer::{Level, LevelStatistics, TransferData};
 use etendue_stats::normal::cdf;
 
@@ -83,7 +83,7 @@ fn dark_current_over_temperature() {
             (celsius, Estimate::new(truth + u * normal(), u))
         };
         let series: Vec<(f64, Estimate)> = (0..6).map(&mut current).collect();
-        let growth = fit(Law::Doubling, &series, 30.0).expect("a fit");
+        let growth = fit(GrowthLaw::Doubling, &series, 30.0).expect("a fit");
         vec![("at the reference", growth.reference_e_per_s, 12.0), ("doubling temperature", growth.doubling_k, 8.0)]
     });
 }

@@ -20,17 +20,17 @@ use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-use super::convolve::{self, OperationCounts, Uses};
+use super::convolve::{self, OperationCounts, UsageCounts};
 use super::film_part::{FilmPart, MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use super::patches::{Patches, Stand};
+use super::patches::{Patches, PatchLayout};
 use super::{Canvas, error::EffectsError, sample_spread::SampleSpread};
 use crate::lens::Lens;
-use pattern::{CELLS, Outline, Pupil};
+use pattern::{CELLS, ApertureOutline, Pupil};
 use patterns::{Extent, Patch, Patterns};
 
 pub use pattern::Zernike;
 
-pub(super) use patterns::{MAX_PX, Ready};
+pub(super) use patterns::{MAX_PX, PreparedPsf};
 
 pub(super) const MM_PER_UM: f64 = 1e-3;
 /// Wavelengths, nm, for which the lattice of the pupil must resolve the wavefront.
@@ -40,7 +40,7 @@ const CORE_STEPS: f64 = 16.0;
 /// Default number of patches where the function varies.
 const PATCHES: [usize; 2] = [5, 3];
 /// Relative width in the corner of the image below which the function counts as uniform.
-const SAME: f64 = 1.05;
+const UNIFORM_RATIO: f64 = 1.05;
 
 /// A Zernike term of the wavefront.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +62,8 @@ impl ZernikeTerm {
             0 => rms[0],
             n if n == field.len() => rms[n - 1],
             n => {
-                let share = (radius_mm - field[n - 1]) / (field[n] - field[n - 1]);
-                rms[n - 1] + share * (rms[n] - rms[n - 1])
+                let fraction = (radius_mm - field[n - 1]) / (field[n] - field[n - 1]);
+                rms[n - 1] + fraction * (rms[n] - rms[n - 1])
             }
         }
     }
@@ -115,15 +115,15 @@ impl Psf {
     ///
     /// # Errors
     /// If a table is malformed, or the wavefront is steeper than the lattice of the pupil can resolve.
-    pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
+    pub fn new(parameters: PsfParameters, lens: &Lens, image: &Raster) -> Result<Self, EffectsError> {
         parameters.wavefront.iter().try_for_each(ZernikeTerm::check)?;
         let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
         let mut psf = Self { parameters, f_number, exit_mm, patches: [1, 1] };
-        let corner_mm = picture.max_radius_mm();
-        let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
+        let corner_mm = image.max_radius_mm();
+        let varies = psf.stretch(corner_mm)[0] > UNIFORM_RATIO || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
         psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
-        psf.check_width(picture.pitch_mm().min_element())?;
-        psf.check_slope(picture.pitch_mm().min_element())?;
+        psf.check_width(image.pitch_mm().min_element())?;
+        psf.check_slope(image.pitch_mm().min_element())?;
         Ok(psf)
     }
 
@@ -167,9 +167,9 @@ impl Psf {
         [reach, reach]
     }
 
-    fn outline(&self) -> Outline {
+    fn outline(&self) -> ApertureOutline {
         let p = &self.parameters;
-        Outline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
+        ApertureOutline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
     }
 
     /// Steps of the pattern per λN: at least two; two per pixel at the longest wavelength for λN up to 16 px, at least one per pixel beyond.
@@ -193,13 +193,13 @@ impl Psf {
     /// Limits the pattern to [`MAX_PX`] pixels. A fraction of about 0.2/ρ of the light falls beyond it, ρ in units of λN; the more pixels λN spans,
     /// the fewer lattice cells span the pupil. At the limit ρ is 8, 2.5 % of the light is lost and the pupil is 16 cells wide.
     fn check_width(&self, pitch_mm: f64) -> Result<(), EffectsError> {
-        let most = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE.high_nm * MM_PER_NM);
-        if self.f_number <= most {
+        let maximum = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE.high_nm * MM_PER_NM);
+        if self.f_number <= maximum {
             return Ok(());
         }
         Err(EffectsError::WidePattern {
             f_number: self.f_number,
-            most: (10.0 * most).floor() / 10.0,
+            most: (10.0 * maximum).floor() / 10.0,
             pixel_um: pitch_mm / MM_PER_UM,
         })
     }
@@ -233,7 +233,7 @@ impl Psf {
     }
 
     /// Operation counts for the given number of images per band; all bands count as the middle one.
-    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, images: f64) -> OperationCounts {
         let half_nm = 0.5 * bands.width_nm();
         let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
         let band = WavelengthRange::new(middle_nm - half_nm, middle_nm + half_nm);
@@ -245,7 +245,7 @@ impl Psf {
             let widest = self.stretch(canvas.sensor_mm(places.middle_px(i)).length())[0];
             let reach = self.extent(fineness).reach_px(band.high_nm, pitch_mm, widest);
             let region = places.region(i);
-            let uses = Uses { ready: pictures, applied: pictures };
+            let uses = UsageCounts { ready: images, applied: images };
             let kernel = OperationCounts {
                 shared: parts * (CELLS * CELLS) as f64,
                 patterns: if self.parameters.wavefront.is_empty() { 0.0 } else { parts },
@@ -257,13 +257,13 @@ impl Psf {
     }
 
     fn places(&self, canvas: &Canvas) -> Patches {
-        Patches::new(self.patches, Stand::Middles, canvas)
+        Patches::new(self.patches, PatchLayout::Centres, canvas)
     }
 
     /// The function prepared for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> Ready {
+    pub(super) fn prepare(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> PreparedPsf {
         let fineness = self.fineness(range.high_nm, canvas.pitch_mm().min_element());
-        Ready { part, patterns: self.patterns(canvas, fineness) }
+        PreparedPsf { part, patterns: self.patterns(canvas, fineness) }
     }
 
     fn patterns(&self, canvas: &Canvas, fineness: f64) -> Patterns {
@@ -304,6 +304,6 @@ impl Psf {
         let stretch = turn * DMat2::from_diagonal(DVec2::new(along, across)) * turn.transpose();
         let error = !self.parameters.wavefront.is_empty();
         let wavefront_um = error.then(|| pupil.map(|u| self.wavefront_um(radius_mm, outwards, u)));
-        Patch { stretch, widest: along, wavefront_um }
+        Patch { stretch, max_width: along, wavefront_um }
     }
 }

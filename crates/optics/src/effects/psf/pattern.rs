@@ -20,7 +20,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{asin, atan2, sin_cos};
 use glam::DVec2;
 
-use crate::effects::fourier::{Grid, Plan};
+use crate::effects::fourier::{ComplexGrid, TransformPlan};
 
 /// Lattice cells along a side.
 pub(super) const CELLS: usize = 1024;
@@ -45,7 +45,7 @@ pub(super) struct Pattern {
 }
 
 impl Pupil {
-    pub(super) fn new(outline: &Outline, fineness: f64) -> Self {
+    pub(super) fn new(outline: &ApertureOutline, fineness: f64) -> Self {
         let half = ((outline.radius() * 0.5 * CELLS as f64 / fineness).ceil() as usize + 1).min(CELLS / 2);
         let step = Self::step(fineness);
         let open = |i: usize| open(outline, Self::cell(i, half, step), step);
@@ -71,8 +71,8 @@ impl Pupil {
 
     /// The pattern of a wavefront, in waves at each cell.
     pub(super) fn pattern(&self, waves: Option<&[f64]>) -> Pattern {
-        let plan = Plan::new(CELLS, CELLS);
-        let mut grid = Grid::zeros(CELLS, CELLS);
+        let plan = TransformPlan::new(CELLS, CELLS);
+        let mut grid = ComplexGrid::zeros(CELLS, CELLS);
         let side = 2 * self.half;
         for y in 0..side {
             for x in 0..side {
@@ -90,7 +90,7 @@ impl Pupil {
     }
 }
 
-fn open(outline: &Outline, centre: DVec2, step: f64) -> f64 {
+fn open(outline: &ApertureOutline, centre: DVec2, step: f64) -> f64 {
     let place = |i: usize| (i as f64 + 0.5) / PARTS as f64 - 0.5;
     let part = |i: usize| centre + DVec2::new(place(i % PARTS), place(i / PARTS)) * step;
     (0..PARTS * PARTS).filter(|i| outline.passes(part(*i))).count() as f64 / (PARTS * PARTS) as f64
@@ -117,7 +117,7 @@ impl Pattern {
 
 /// The outline of an aperture.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Outline {
+pub(super) struct ApertureOutline {
     edges: Vec<Edge>,
     /// Radius of the corners or of the circle.
     radius: f64,
@@ -132,7 +132,7 @@ struct Edge {
     curve: Option<(DVec2, f64)>,
 }
 
-impl Outline {
+impl ApertureOutline {
     /// `blades` (0 for a circle) of a curvature, the first corner at `rotation_rad` from x towards y.
     pub(super) fn new(blades: u32, curvature: f64, rotation_rad: f64, obstruction: f64) -> Self {
         if blades == 0 {
@@ -244,7 +244,7 @@ mod tests {
     use super::*;
 
     fn circle(fineness: f64) -> Pattern {
-        Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
+        Pupil::new(&ApertureOutline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
     }
 
     /// Fraction of the light within a radius, in units of λN.
@@ -261,9 +261,9 @@ mod tests {
         assert!((zero as f64 / 16.0 - 1.2197).abs() < 0.5 / 16.0, "{zero}");
         // Within the first zero lies 83.8 %, within the second 91.0 % (Rayleigh 1881), of all light: 2/(π² 32) = 0.6 % lies beyond the lattice's 32
         // λN, and the fractions of the border cells take half as much from just inside its end.
-        for (radius, share) in [(1.2197, 0.838), (2.233, 0.910)] {
-            let found = within(&pattern, 16.0, radius);
-            assert!((found - share).abs() < 0.01, "{radius}: {found} for {share}");
+        for (radius, fraction) in [(1.2197, 0.838), (2.233, 0.910)] {
+            let actual = within(&pattern, 16.0, radius);
+            assert!((actual - fraction).abs() < 0.01, "{radius}: {actual} for {fraction}");
         }
     }
 
@@ -271,17 +271,17 @@ mod tests {
     fn its_transform_is_the_modulation_of_a_circle() {
         let pattern = circle(4.0);
         for v in [0.1f64, 0.3, 0.5, 0.8] {
-            let wave = |(p, share): (DVec2, f64)| share * sin_cos(TAU * v * p.x / 4.0).1;
-            let found: f64 = pattern.points().map(wave).sum();
+            let wave = |(p, fraction): (DVec2, f64)| fraction * sin_cos(TAU * v * p.x / 4.0).1;
+            let actual: f64 = pattern.points().map(wave).sum();
             let expected = 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt());
             // 2/(π² 128) = 0.16 % of the light lies beyond the lattice, and as much is taken from just inside its end.
-            assert!((found - expected).abs() < 3.2e-3, "{v}: {found} for {expected}");
+            assert!((actual - expected).abs() < 3.2e-3, "{v}: {actual} for {expected}");
         }
     }
 
     #[test]
     fn a_small_error_dims_the_middle_as_marechal_says() {
-        let pupil = Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), 4.0);
+        let pupil = Pupil::new(&ApertureOutline::new(0, 0.0, 0.0, 0.0), 4.0);
         let clean = pupil.pattern(None).values[0];
         for (index, rms) in [(4, 0.03), (6, 0.05), (8, 0.04), (11, 0.05)] {
             let zernike = super::super::Zernike::noll(index).expect("known");
@@ -300,15 +300,15 @@ mod tests {
     #[test]
     fn far_out_of_focus_it_is_the_geometric_disc() {
         let fineness = 4.0;
-        let pupil = Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness);
+        let pupil = Pupil::new(&ApertureOutline::new(0, 0.0, 0.0, 0.0), fineness);
         // W = a √3 (2r² − 1) = 20 waves of r²: the disc's radius is 2N dW/dr = 80 λN.
         let zernike = super::super::Zernike::noll(4).expect("known");
         let waves = pupil.map(|u| 10.0 / 3f64.sqrt() * zernike.at(u));
         let pattern = pupil.pattern(Some(&waves));
-        for share in [0.3, 0.6, 0.9] {
-            let found = within(&pattern, fineness, share * 80.0);
+        for fraction in [0.3, 0.6, 0.9] {
+            let actual = within(&pattern, fineness, fraction * 80.0);
             // Fresnel's fringe at the border of the disc is 37 % brighter over about 1/√40 of the radius.
-            assert!((found - share * share).abs() < 0.05, "{share}: {found}");
+            assert!((actual - fraction * fraction).abs() < 0.05, "{fraction}: {actual}");
         }
         assert!(within(&pattern, fineness, 88.0) > 0.98);
     }
@@ -316,7 +316,7 @@ mod tests {
     #[test]
     fn blades_make_as_many_spikes_or_twice_as_many() {
         for (blades, spikes) in [(5, 10), (6, 6), (7, 14), (8, 8)] {
-            let pattern = Pupil::new(&Outline::new(blades, 0.0, 0.0, 0.0), 2.0).pattern(None);
+            let pattern = Pupil::new(&ApertureOutline::new(blades, 0.0, 0.0, 0.0), 2.0).pattern(None);
             let bins = 840;
             let mut light = vec![0.0; bins];
             for (p, v) in pattern.points().filter(|(p, _)| (60.0..200.0).contains(&p.length())) {
@@ -334,7 +334,7 @@ mod tests {
     fn every_outline_has_the_area_of_the_circle() {
         let cells = 1000;
         for (blades, curvature) in [(0, 0.0), (3, 0.0), (5, 0.4), (6, 0.0), (7, 0.9), (8, 1.0)] {
-            let outline = Outline::new(blades, curvature, 0.3, 0.0);
+            let outline = ApertureOutline::new(blades, curvature, 0.3, 0.0);
             let side = 2.0 * outline.radius() / f64::from(cells);
             let centre = |i: i32| (f64::from(i) + 0.5) * side - outline.radius();
             let inside = |i: i32| (0..cells).filter(|j| outline.passes(DVec2::new(centre(i), centre(*j)))).count();
@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn corners_lie_where_they_are_turned_to() {
-        let outline = Outline::new(6, 0.0, 0.2, 0.3);
+        let outline = ApertureOutline::new(6, 0.0, 0.2, 0.3);
         let at = |angle: f64, r: f64| {
             let (s, c) = sin_cos(angle);
             outline.passes(DVec2::new(c, s) * r)

@@ -6,13 +6,13 @@ use glam::{DMat2, DVec2};
 use super::pattern::{CELLS, Pattern, Pupil};
 use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
 use crate::effects::film_part::{FilmPart, KernelBuilder, MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use crate::{effects::Canvas, effects::convolve::Field, effects::kernel::Kernel, effects::patches::Patches};
+use crate::{effects::Canvas, effects::convolve::NumberField, effects::kernel::Kernel, effects::patches::Patches};
 
 /// A part of the image with its own function.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub(super) stretch: DMat2,
-    pub(super) widest: f64,
+    pub(super) max_width: f64,
     pub(super) wavefront_um: Option<Vec<f64>>,
 }
 
@@ -69,10 +69,10 @@ impl Patterns {
         let pitch = self.canvas.pitch_mm();
         // No pattern is narrower than on the axis.
         let steps = reach_px * core::f64::consts::SQRT_2 * pitch.max_element() / step;
-        for (place, share) in pattern.points_within(steps.ceil() as usize) {
+        for (place, fraction) in pattern.points_within(steps.ceil() as usize) {
             let offset = patch.stretch * place * step;
             if offset.length_squared() <= end * end {
-                to(offset / pitch, share);
+                to(offset / pitch, fraction);
             }
         }
     }
@@ -87,19 +87,19 @@ impl Patterns {
 
 /// The function of a film, or its tails.
 #[derive(Debug)]
-pub(in crate::effects) struct Ready {
+pub(in crate::effects) struct PreparedPsf {
     pub(super) part: FilmPart,
     pub(super) patterns: Patterns,
 }
 
-impl Ready {
+impl PreparedPsf {
     /// The film's light and variance in a band.
     pub(in crate::effects) fn apply(
         &self,
         band: WavelengthRange,
-        light: &Field,
-        variance: Option<&Field>,
-    ) -> (Field, Option<Field>) {
+        light: &NumberField,
+        variance: Option<&NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         let Patterns { places, patches, .. } = &self.patterns;
         places.apply(light, variance, |index| self.kernel(band, &patches[index]))
     }
@@ -107,10 +107,10 @@ impl Ready {
     /// The kernel of a patch, its sum one.
     fn kernel(&self, band: WavelengthRange, patch: &Patch) -> Kernel {
         let Patterns { extent, canvas, .. } = &self.patterns;
-        let reach = extent.reach_px(band.high_nm, canvas.pitch_mm().min_element(), patch.widest);
+        let reach = extent.reach_px(band.high_nm, canvas.pitch_mm().min_element(), patch.max_width);
         let mut kernel = KernelBuilder::new(self.part, [reach, reach]);
         for nm in mid_wavelengths(band) {
-            self.patterns.deposit(nm, patch, f64::INFINITY, |offset_px, share| kernel.deposit(offset_px, share));
+            self.patterns.deposit(nm, patch, f64::INFINITY, |offset_px, fraction| kernel.deposit(offset_px, fraction));
         }
         kernel.kernel()
     }

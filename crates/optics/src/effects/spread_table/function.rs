@@ -9,7 +9,7 @@ use crate::effects::error::{EffectsError, positive};
 use crate::effects::psf::{MAX_PX, MM_PER_UM};
 
 /// The largest distance between samples, px; the rest is rounding.
-const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
+const MAX_STEP_PX: f64 = 1.0 + 1e-9;
 /// Distances from the axis up to this count as zero, mm.
 const ON_AXIS_MM: f64 = 1e-6;
 
@@ -41,7 +41,7 @@ impl FieldSpread {
     ///
     /// # Errors
     /// If they are not valid light, are farther apart than pixels, or reach beyond 512 px.
-    pub fn check(&self, picture: &Raster) -> Result<(), EffectsError> {
+    pub fn check(&self, image: &Raster) -> Result<(), EffectsError> {
         let step_mm = positive("spacing", self.pitch_um)? * MM_PER_UM;
         let (width, count) = (self.width, self.light.len());
         if width == 0 || count == 0 || count % width != 0 {
@@ -53,8 +53,8 @@ impl FieldSpread {
         if self.light.iter().all(|v| *v == 0.0) {
             return Err(EffectsError::Dark);
         }
-        let pixel_mm = picture.pitch_mm().min_element();
-        if step_mm > WIDEST_STEP_PX * pixel_mm {
+        let pixel_mm = image.pitch_mm().min_element();
+        if step_mm > MAX_STEP_PX * pixel_mm {
             return Err(EffectsError::CoarseFunction { step_um: step_mm / MM_PER_UM, pixel_um: pixel_mm / MM_PER_UM });
         }
         let reach_px = (self.reach_mm() / pixel_mm).ceil() as usize;
@@ -62,7 +62,7 @@ impl FieldSpread {
     }
 
     /// Offsets of the lit samples from the point, mm, in the samples' axes, and their light.
-    fn lit(&self) -> impl Iterator<Item = (DVec2, f64)> {
+    fn samples(&self) -> impl Iterator<Item = (DVec2, f64)> {
         let point = DVec2::new(self.point[0] as f64, self.point[1] as f64);
         let place = move |i: usize| DVec2::new((i % self.width) as f64, (i / self.width) as f64) - point;
         let step_mm = self.pitch_um * MM_PER_UM;
@@ -72,7 +72,7 @@ impl FieldSpread {
 
     /// Maximum distance of the light from the point.
     pub(super) fn reach_mm(&self) -> f64 {
-        self.lit().map(|(offset, _)| offset.length_squared()).fold(0.0, f64::max).sqrt()
+        self.samples().map(|(offset, _)| offset.length_squared()).fold(0.0, f64::max).sqrt()
     }
 
     pub(super) fn radius_mm(&self) -> f64 {
@@ -88,7 +88,7 @@ impl FieldSpread {
 
 /// A function prepared for rotation.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Function {
+pub(super) struct RadialFunction {
     spread: FieldSpread,
     pub(super) radius_mm: f64,
     pub(super) reach_mm: f64,
@@ -101,13 +101,13 @@ pub(super) struct Function {
     moments: DMat2,
 }
 
-impl Function {
+impl RadialFunction {
     /// `outwards_on_axis` is the direction away from the axis for a function on the axis.
     pub(super) fn new(spread: FieldSpread, outwards_on_axis: DVec2) -> Self {
         let outwards = spread.outwards().unwrap_or(outwards_on_axis);
         let turn = axes(outwards).transpose();
         let (mut sum, mut centroid_mm, mut moments) = (0.0, 0.0, DMat2::ZERO);
-        for (offset, light) in spread.lit() {
+        for (offset, light) in spread.samples() {
             let along = turn * offset;
             sum += light;
             centroid_mm += along.x * light;
@@ -119,9 +119,9 @@ impl Function {
     }
 
     /// Offsets of the light about a position on the sensor, mm, and fractions of the total.
-    pub(super) fn landings(&self, outwards: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
+    pub(super) fn splats(&self, outwards: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
         let turn = axes(outwards) * self.turn;
-        self.spread.lit().map(move |(offset, light)| (turn * offset, light / self.sum))
+        self.spread.samples().map(move |(offset, light)| (turn * offset, light / self.sum))
     }
 
     pub(super) fn samples(&self) -> usize {
@@ -142,13 +142,13 @@ fn axes(outwards: DVec2) -> DMat2 {
 
 /// Centroid and second moments of a function's light about its point, mm and mm².
 #[derive(Clone, Copy)]
-pub(super) struct Shape {
+pub(super) struct SpreadShape {
     pub(super) centroid: DVec2,
     pub(super) moments: DMat2,
 }
 
 /// Maximum default number of patches across.
-const MOST: usize = 11;
+const MAX_PATCHES: usize = 11;
 /// Tolerance of second moments midway between patches: relative to their sum, and px².
 const RELATIVE: f64 = 0.005;
 const ABSOLUTE_PX2: f64 = 0.005;
@@ -158,26 +158,26 @@ const CENTROID_PX: f64 = 0.01;
 
 /// The smallest odd numbers of patches that keep centroid and second moments (by the position on the sensor, mm) between them, so that one patch is
 /// at the centre; and whether the maximum suffices.
-pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> ([usize; 2], bool) {
-    let mut counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
-    let kept = |counts: &[usize; 2]| keeps_shapes(*counts, picture, &shape);
-    counts.find(kept).map_or(([MOST, down(MOST, picture)], false), |counts| (counts, true))
+pub(super) fn patches_needed(image: &Raster, shape: impl Fn(DVec2) -> SpreadShape) -> ([usize; 2], bool) {
+    let mut counts = (1..=MAX_PATCHES).step_by(2).map(|across| [across, down(across, image)]);
+    let is_kept = |counts: &[usize; 2]| keeps_shapes(*counts, image, &shape);
+    counts.find(is_kept).map_or(([MAX_PATCHES, down(MAX_PATCHES, image)], false), |counts| (counts, true))
 }
 
 /// True if centroids and second moments at patches and midway between them are close to the mean of the nearest patches.
-pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> bool {
-    let size = DVec2::new(picture.width() as f64, picture.height() as f64);
-    let at = |x: f64, y: f64| shape(picture.sensor_mm(size * DVec2::new(x, y)));
+pub(super) fn keeps_shapes([across, down]: [usize; 2], image: &Raster, shape: impl Fn(DVec2) -> SpreadShape) -> bool {
+    let size = DVec2::new(image.width() as f64, image.height() as f64);
+    let at = |x: f64, y: f64| shape(image.sensor_mm(size * DVec2::new(x, y)));
     let rows = stations(down);
     stations(across).into_iter().all(|(x, columns)| {
         rows.iter().all(|(y, rows)| {
             let around = columns.iter().flat_map(|x| rows.iter().map(|y| at(*x, *y)));
-            let none = Shape { centroid: DVec2::ZERO, moments: DMat2::ZERO };
-            let mean = around.fold(none, |sum, one| Shape {
+            let none = SpreadShape { centroid: DVec2::ZERO, moments: DMat2::ZERO };
+            let mean = around.fold(none, |sum, one| SpreadShape {
                 centroid: sum.centroid + one.centroid * 0.25,
                 moments: sum.moments + one.moments * 0.25,
             });
-            is_near(&at(x, *y), &mean, picture)
+            is_near(&at(x, *y), &mean, image)
         })
     })
 }
@@ -188,23 +188,23 @@ fn stations(count: usize) -> Vec<(f64, [f64; 2])> {
     if count == 1 {
         return [0.0, 0.5, 1.0].map(|place| (place, [0.5; 2])).to_vec();
     }
-    let share = |half_steps: usize| half_steps as f64 / (2 * (count - 1)) as f64;
-    (0..2 * count - 1).map(|i| (share(i), [i - i % 2, i + i % 2].map(share))).collect()
+    let fraction = |half_steps: usize| half_steps as f64 / (2 * (count - 1)) as f64;
+    (0..2 * count - 1).map(|i| (fraction(i), [i - i % 2, i + i % 2].map(fraction))).collect()
 }
 
-fn is_near(wanted: &Shape, found: &Shape, picture: &Raster) -> bool {
-    let off = found.moments - wanted.moments;
-    let pixel_mm = picture.pitch_mm().min_element();
-    let trace = wanted.moments.x_axis.x + wanted.moments.y_axis.y;
-    let most = RELATIVE * trace + ABSOLUTE_PX2 * pixel_mm * pixel_mm;
-    let aside = (found.centroid - wanted.centroid).length();
+fn is_near(exact: &SpreadShape, approximate: &SpreadShape, image: &Raster) -> bool {
+    let off = approximate.moments - exact.moments;
+    let pixel_mm = image.pitch_mm().min_element();
+    let trace = exact.moments.x_axis.x + exact.moments.y_axis.y;
+    let maximum = RELATIVE * trace + ABSOLUTE_PX2 * pixel_mm * pixel_mm;
+    let aside = (approximate.centroid - exact.centroid).length();
     let is_in_place = aside <= RELATIVE_CENTROID * trace.sqrt() + CENTROID_PX * pixel_mm;
-    is_in_place && off.to_cols_array().into_iter().all(|v| v.abs() <= most)
+    is_in_place && off.to_cols_array().into_iter().all(|v| v.abs() <= maximum)
 }
 
 /// Patches down for the number across: about square, an odd number.
-fn down(across: usize, picture: &Raster) -> usize {
-    let aspect = picture.height() as f64 * picture.pitch_mm().y / (picture.width() as f64 * picture.pitch_mm().x);
+fn down(across: usize, image: &Raster) -> usize {
+    let aspect = image.height() as f64 * image.pitch_mm().y / (image.width() as f64 * image.pitch_mm().x);
     let half = 0.5 * (across - 1) as f64 * aspect;
-    1 + 2 * (half.ceil() as usize).min((MOST - 1) / 2)
+    1 + 2 * (half.ceil() as usize).min((MAX_PATCHES - 1) / 2)
 }

@@ -30,14 +30,14 @@ use etendue_core::WavelengthRange;
 use rayon::prelude::*;
 
 use super::film_part::{FilmPart, KernelBuilder};
-use super::{Canvas, convolve::Field, kernel::Kernel, patches::Patches, psf::VISIBLE};
+use super::{Canvas, convolve::NumberField, kernel::Kernel, patches::Patches, psf::VISIBLE};
 
 pub use function::FieldSpread;
-pub use table::{SpreadTable, SpreadTableParameters, TabledWavelength};
+pub use table::{SpreadTable, SpreadTableParameters, WavelengthTable};
 
 /// The functions of a film, or their tails.
 #[derive(Debug)]
-pub(super) struct ReadyTable {
+pub(super) struct PreparedTable {
     table: SpreadTable,
     canvas: Canvas,
     part: FilmPart,
@@ -46,7 +46,7 @@ pub(super) struct ReadyTable {
     shared: Option<Vec<Kernel>>,
 }
 
-impl ReadyTable {
+impl PreparedTable {
     pub(super) fn new(table: SpreadTable, canvas: &Canvas, part: FilmPart) -> Self {
         let places = table.places(canvas);
         let mut ready = Self { table, canvas: *canvas, part, places, shared: None };
@@ -61,9 +61,9 @@ impl ReadyTable {
     pub(super) fn apply(
         &self,
         band: WavelengthRange,
-        light: &Field,
-        variance: Option<&Field>,
-    ) -> (Field, Option<Field>) {
+        light: &NumberField,
+        variance: Option<&NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         let kernel = |patch: usize| match &self.shared {
             Some(kernels) => Cow::Borrowed(&kernels[patch]),
             None => Cow::Owned(self.kernel(band, patch)),
@@ -77,7 +77,7 @@ impl ReadyTable {
         let at_mm = self.canvas.sensor_mm(self.places.middle_px(patch));
         let mut kernel = KernelBuilder::new(self.part, self.table.reach_px(pitch_mm));
         for nm in self.table.wavelengths_of(band) {
-            self.table.deposit(nm, at_mm, |offset, share| kernel.deposit(offset / pitch_mm, share));
+            self.table.deposit(nm, at_mm, |offset, fraction| kernel.deposit(offset / pitch_mm, fraction));
         }
         kernel.kernel()
     }

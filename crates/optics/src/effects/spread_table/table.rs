@@ -7,18 +7,18 @@ use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-use super::function::{FieldSpread, Function, Shape, keeps_shapes, patches_needed};
-use crate::effects::convolve::{self, OperationCounts, Uses};
+use super::function::{FieldSpread, RadialFunction, SpreadShape, keeps_shapes, patches_needed};
+use crate::effects::convolve::{self, OperationCounts, UsageCounts};
 use crate::effects::core_table::{CoreBuilder, CoreTable};
 use crate::effects::film_part::{SpreadWidth, mid_wavelengths};
-use crate::effects::patches::{Patches, Stand};
+use crate::effects::patches::{Patches, PatchLayout};
 use crate::{
     effects::Canvas, effects::error::EffectsError, effects::psf::VISIBLE, effects::sample_spread::SampleSpread,
 };
 
 /// The functions of one wavelength.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TabledWavelength {
+pub struct WavelengthTable {
     /// Wavelength, nm; `None` if the functions hold at all wavelengths.
     pub nm: Option<f64>,
     /// Functions from the axis outwards.
@@ -29,7 +29,7 @@ pub struct TabledWavelength {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpreadTableParameters {
     /// By rising wavelength; a single entry, or all with a wavelength.
-    pub wavelengths: Vec<TabledWavelength>,
+    pub wavelengths: Vec<WavelengthTable>,
     /// Patches across and down; `None`: as many as the functions need.
     pub patches: Option<[usize; 2]>,
 }
@@ -38,7 +38,7 @@ pub struct SpreadTableParameters {
 #[derive(Clone, Debug, PartialEq)]
 struct Wavelength {
     nm: Option<f64>,
-    functions: Vec<Function>,
+    functions: Vec<RadialFunction>,
 }
 
 /// Point-spread functions over the field, from tables.
@@ -54,16 +54,16 @@ impl SpreadTable {
     ///
     /// # Errors
     /// If distances or wavelengths do not rise or differ in number, or a function cannot be sampled on the pixels.
-    pub fn new(parameters: SpreadTableParameters, picture: &Raster) -> Result<Self, EffectsError> {
+    pub fn new(parameters: SpreadTableParameters, image: &Raster) -> Result<Self, EffectsError> {
         let SpreadTableParameters { wavelengths, patches } = parameters;
         check_grid(&wavelengths)?;
-        wavelengths.iter().flat_map(|w| &w.fields).try_for_each(|field| field.check(picture))?;
+        wavelengths.iter().flat_map(|w| &w.fields).try_for_each(|field| field.check(image))?;
         let wavelengths: Vec<Wavelength> = wavelengths.into_iter().map(ready_wavelength).collect();
         let mut table = Self { wavelengths: Arc::new(wavelengths), patches: [1, 1], keeps_shapes: true };
         let shape = |at_mm| table.shape(at_mm);
-        let needed = || patches_needed(picture, shape);
+        let needed = || patches_needed(image, shape);
         (table.patches, table.keeps_shapes) =
-            patches.map_or_else(needed, |patches| (patches, keeps_shapes(patches, picture, shape)));
+            patches.map_or_else(needed, |patches| (patches, keeps_shapes(patches, image, shape)));
         Ok(table)
     }
 
@@ -123,7 +123,7 @@ impl SpreadTable {
     #[must_use]
     pub fn light_error(&self) -> f64 {
         let pairs = self.wavelengths.iter().flat_map(|wavelength| wavelength.functions.windows(2));
-        let divergence = |pair: &[Function]| {
+        let divergence = |pair: &[RadialFunction]| {
             let [near, far] = pair else { return 0.0 };
             let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
             // The maximum of c/r is at one of the ends.
@@ -133,7 +133,7 @@ impl SpreadTable {
         held.chain(pairs.map(divergence)).fold(0.0, f64::max)
     }
 
-    fn functions(&self) -> impl Iterator<Item = &Function> {
+    fn functions(&self) -> impl Iterator<Item = &RadialFunction> {
         self.wavelengths.iter().flat_map(|wavelength| &wavelength.functions)
     }
 
@@ -145,14 +145,14 @@ impl SpreadTable {
     }
 
     /// The functions, with weights, that are mixed for a wavelength and a distance from the axis.
-    fn mix(&self, nm: f64, radius_mm: f64) -> impl Iterator<Item = (&Function, f64)> {
+    fn mix(&self, nm: f64, radius_mm: f64) -> impl Iterator<Item = (&RadialFunction, f64)> {
         let of_wavelength = between(&self.wavelengths, nm, |wavelength| wavelength.nm.unwrap_or(0.0));
         let of_field = move |wavelength: &'_ Wavelength| between(&wavelength.functions, radius_mm, |f| f.radius_mm);
         let parts = of_wavelength.into_iter().filter(|(_, weight)| *weight > 0.0);
         parts.flat_map(move |(i, weight)| {
             let wavelength = &self.wavelengths[i];
             let fields = of_field(wavelength).into_iter().filter(|(_, weight)| *weight > 0.0);
-            fields.map(move |(j, share)| (&wavelength.functions[j], weight * share))
+            fields.map(move |(j, fraction)| (&wavelength.functions[j], weight * fraction))
         })
     }
 
@@ -161,12 +161,12 @@ impl SpreadTable {
         let radius_mm = at_mm.length();
         let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
         for (function, weight) in self.mix(nm, radius_mm) {
-            function.landings(outwards).for_each(|(offset, share)| to(offset, weight * share));
+            function.splats(outwards).for_each(|(offset, fraction)| to(offset, weight * fraction));
         }
     }
 
     /// Centroid and second moments at a position; the mean over the wavelengths.
-    fn shape(&self, at_mm: DVec2) -> Shape {
+    fn shape(&self, at_mm: DVec2) -> SpreadShape {
         let radius_mm = at_mm.length();
         let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
         let of = |nm: f64| {
@@ -177,28 +177,28 @@ impl SpreadTable {
         };
         let wavelengths = self.wavelengths_nm();
         let every = if wavelengths.is_empty() { vec![VISIBLE.low_nm] } else { wavelengths };
-        let share = 1.0 / every.len() as f64;
+        let fraction = 1.0 / every.len() as f64;
         let (centroid, moments) = every
             .iter()
             .map(|nm| of(*nm))
-            .fold((DVec2::ZERO, DMat2::ZERO), |sum, one| (sum.0 + one.0 * share, sum.1 + one.1 * share));
-        Shape { centroid, moments }
+            .fold((DVec2::ZERO, DMat2::ZERO), |sum, one| (sum.0 + one.0 * fraction, sum.1 + one.1 * fraction));
+        SpreadShape { centroid, moments }
     }
 
     /// The transfer function (real and imaginary part) at a wavelength and sensor point, for a frequency in cycles/mm.
     #[must_use]
     pub fn transfer(&self, nm: f64, at_mm: DVec2, cycles_per_mm: DVec2) -> DVec2 {
         let mut sum = DVec2::ZERO;
-        self.deposit(nm, at_mm, |offset, share| {
+        self.deposit(nm, at_mm, |offset, fraction| {
             let (sine, cosine) = sin_cos(core::f64::consts::TAU * cycles_per_mm.dot(offset));
-            sum += share * DVec2::new(cosine, sine);
+            sum += fraction * DVec2::new(cosine, sine);
         });
         sum
     }
 
     /// The corner farthest from the axis, mm.
     fn corner_mm(canvas: &Canvas) -> DVec2 {
-        let region = canvas.picture();
+        let region = canvas.image_region();
         let corners = [region.x.start, region.x.end].into_iter().flat_map(|x| [(x, region.y.start), (x, region.y.end)]);
         let places = corners.map(|(x, y)| canvas.sensor_mm(DVec2::new(x as f64, y as f64)));
         places.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(DVec2::ZERO)
@@ -210,7 +210,7 @@ impl SpreadTable {
         let outwards = corner_mm.try_normalize().unwrap_or(DVec2::X);
         let at = |radius_mm: f64| {
             SpreadWidth::new(self.reach_px(pitch_mm), self.varies_by_wavelength(), |to| {
-                self.deposit(nm, outwards * radius_mm, |offset, share| to(offset / pitch_mm, share));
+                self.deposit(nm, outwards * radius_mm, |offset, fraction| to(offset / pitch_mm, fraction));
             })
         };
         let within = self.radii_mm().into_iter().filter(|radius| *radius < corner_mm.length());
@@ -218,7 +218,7 @@ impl SpreadTable {
     }
 
     pub(super) fn places(&self, canvas: &Canvas) -> Patches {
-        Patches::new(self.patches, Stand::Edges, canvas)
+        Patches::new(self.patches, PatchLayout::Edges, canvas)
     }
 
     /// The cores by which samples are displaced, for the wavelengths of a range; `None` if they hold no light.
@@ -230,8 +230,8 @@ impl SpreadTable {
             let mut builder = CoreBuilder::default();
             let nm = range.low_nm + (part as f64 + 0.5) * step_nm;
             let pitch_mm = canvas.pitch_mm();
-            self.deposit(nm, canvas.sensor_mm(places.middle_px(patch)), |offset, share| {
-                builder.deposit(offset / pitch_mm, share);
+            self.deposit(nm, canvas.sensor_mm(places.middle_px(patch)), |offset, fraction| {
+                builder.deposit(offset / pitch_mm, fraction);
             });
             builder.table()
         };
@@ -241,15 +241,15 @@ impl SpreadTable {
     }
 
     /// Operation counts for the given number of images per band; all bands count as the middle one.
-    pub(in crate::effects) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
+    pub(in crate::effects) fn operation_counts(&self, canvas: &Canvas, bands: Bands, images: f64) -> OperationCounts {
         let (places, reach) = (self.places(canvas), self.reach_px(canvas.pitch_mm()));
         let count = bands.count() as f64;
-        let uses = Uses { ready: pictures * count, applied: pictures * count };
+        let uses = UsageCounts { ready: images * count, applied: images * count };
         let kernels = if self.varies_by_wavelength() { count } else { 1.0 };
         let parts =
             mid_wavelengths(WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm())).count() as f64;
         let (mixed, parts) = if self.varies_by_wavelength() { (4.0, parts) } else { (2.0, 1.0) };
-        let samples = self.functions().map(Function::samples).max().unwrap_or(0) as f64;
+        let samples = self.functions().map(RadialFunction::samples).max().unwrap_or(0) as f64;
         let kernel = OperationCounts { shared: kernels * parts * mixed * samples, ..OperationCounts::default() };
         let of = |i| kernel + convolve::operation_counts(reach, canvas.size(), &places.region(i), uses);
         (0..places.count()).map(of).sum()
@@ -262,24 +262,24 @@ impl SpreadTable {
 }
 
 /// c/r, the effect of rotating a function about the axis; 0 on the axis.
-fn turned(function: &Function) -> f64 {
+fn turned(function: &RadialFunction) -> f64 {
     if function.radius_mm > 0.0 { function.centroid_mm / function.radius_mm } else { 0.0 }
 }
 
-fn check_grid(wavelengths: &[TabledWavelength]) -> Result<(), EffectsError> {
+fn check_grid(wavelengths: &[WavelengthTable]) -> Result<(), EffectsError> {
     let rises = |list: &[f64]| list.windows(2).all(|pair| pair[0] < pair[1]);
     let count = wavelengths.first().map_or(0, |first| first.fields.len());
-    let radii = |w: &TabledWavelength| w.fields.iter().map(FieldSpread::radius_mm).collect::<Vec<_>>();
+    let radii = |w: &WavelengthTable| w.fields.iter().map(FieldSpread::radius_mm).collect::<Vec<_>>();
     let nm: Vec<f64> = wavelengths.iter().filter_map(|w| w.nm).collect();
     let known = wavelengths.len() == 1 || nm.len() == wavelengths.len();
-    let whole = count > 0 && wavelengths.iter().all(|w| w.fields.len() == count && rises(&radii(w)));
-    if whole && known && rises(&nm) { Ok(()) } else { Err(EffectsError::SpreadTable) }
+    let total = count > 0 && wavelengths.iter().all(|w| w.fields.len() == count && rises(&radii(w)));
+    if total && known && rises(&nm) { Ok(()) } else { Err(EffectsError::SpreadTable) }
 }
 
-fn ready_wavelength(wavelength: TabledWavelength) -> Wavelength {
-    let TabledWavelength { nm, fields } = wavelength;
+fn ready_wavelength(wavelength: WavelengthTable) -> Wavelength {
+    let WavelengthTable { nm, fields } = wavelength;
     let outwards = fields.last().and_then(FieldSpread::outwards).unwrap_or(DVec2::NEG_Y);
-    Wavelength { nm, functions: fields.into_iter().map(|field| Function::new(field, outwards)).collect() }
+    Wavelength { nm, functions: fields.into_iter().map(|field| RadialFunction::new(field, outwards)).collect() }
 }
 
 /// The two nearest entries to a value, by index with weights: linear interpolation, clamped at the ends.
@@ -289,8 +289,8 @@ fn between<T>(rising: &[T], at: f64, value: impl Fn(&T) -> f64) -> [(usize, f64)
         n if n == rising.len() => [(n - 1, 1.0), (n - 1, 0.0)],
         n => {
             let [low, high] = [value(&rising[n - 1]), value(&rising[n])];
-            let share = (at - low) / (high - low);
-            [(n - 1, 1.0 - share), (n, share)]
+            let fraction = (at - low) / (high - low);
+            [(n - 1, 1.0 - fraction), (n, fraction)]
         }
     }
 }

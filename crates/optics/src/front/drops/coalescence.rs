@@ -81,7 +81,7 @@ pub(super) fn coalesce(drops: &mut Vec<Droplet>, reach_factor: f64) {
 }
 
 /// The drop formed by two.
-fn joined(a: Droplet, b: Droplet) -> Droplet {
+fn merged(a: Droplet, b: Droplet) -> Droplet {
     let cube = |d: Droplet| d.radius_mm * d.radius_mm * d.radius_mm;
     let (va, vb) = (cube(a), cube(b));
     let centre_mm = (a.centre_mm * va + b.centre_mm * vb) / (va + vb);
@@ -90,7 +90,7 @@ fn joined(a: Droplet, b: Droplet) -> Droplet {
 
 /// Visits all neighbours once; returns whether any two joined.
 fn pass(drops: &mut Vec<Droplet>, reach_factor: f64) -> bool {
-    let Some(bins) = Bins::of(drops, reach_factor) else { return false };
+    let Some(bins) = DropBins::new(drops, reach_factor) else { return false };
     let mut gone = vec![false; drops.len()];
     let mut any = false;
     for i in 0..drops.len() {
@@ -100,7 +100,7 @@ fn pass(drops: &mut Vec<Droplet>, reach_factor: f64) -> bool {
         for j in bins.after(i) {
             let touch_mm = (drops[i].radius_mm + drops[j].radius_mm) * reach_factor;
             if !gone[j] && drops[i].centre_mm.distance_squared(drops[j].centre_mm) < touch_mm * touch_mm {
-                drops[i] = joined(drops[i], drops[j]);
+                drops[i] = merged(drops[i], drops[j]);
                 gone[j] = true;
                 any = true;
             }
@@ -112,18 +112,18 @@ fn pass(drops: &mut Vec<Droplet>, reach_factor: f64) -> bool {
 }
 
 /// Drops in square bins, sorted by bin, then by number.
-struct Bins {
+struct DropBins {
     /// Bin and number of each drop, in order.
     sorted: Vec<((i64, i64), usize)>,
     /// The bin of each drop.
     bin: Vec<(i64, i64)>,
 }
 
-impl Bins {
+impl DropBins {
     /// `None` without drops. Bins are as wide as the reaches of the two largest drops, so that touching drops are in neighbouring bins.
-    fn of(drops: &[Droplet], reach_factor: f64) -> Option<Self> {
-        let greatest = drops.iter().map(|d| d.radius_mm).max_by(f64::total_cmp)?;
-        let width_mm = 2.0 * greatest * reach_factor;
+    fn new(drops: &[Droplet], reach_factor: f64) -> Option<Self> {
+        let maximum = drops.iter().map(|d| d.radius_mm).max_by(f64::total_cmp)?;
+        let width_mm = 2.0 * maximum * reach_factor;
         let cell = |at: DVec2| ((at.x / width_mm).floor() as i64, (at.y / width_mm).floor() as i64);
         let bin: Vec<(i64, i64)> = drops.iter().map(|d| cell(d.centre_mm)).collect();
         let mut sorted: Vec<((i64, i64), usize)> = bin.iter().copied().zip(0..).collect();
@@ -145,7 +145,7 @@ impl Bins {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Cap, DropsParameters, population::first, tests::parameters};
+    use super::super::{Cap, DropsParameters, population::initial, tests::parameters};
     use super::*;
 
     /// Reference values of a drop of 1 mm at 60°: R 1.1547 mm, h 0.57735 mm, 1.0077 µl, and 3.467 mm of focal length in water of 1.333.
@@ -175,7 +175,7 @@ mod tests {
     fn volume_and_its_middle_are_conserved_and_none_touch() {
         for factor in [1.0, 2.0] {
             let p = DropsParameters { count: 3000, radius_mm: [0.3, 2.0], ..parameters() };
-            let before = first(&p);
+            let before = initial(&p);
             let mut after = before.clone();
             coalesce(&mut after, factor);
             assert!(after.len() < before.len() - 100, "{} of {}", after.len(), before.len());

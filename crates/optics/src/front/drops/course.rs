@@ -42,21 +42,21 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    pub(super) fn check(&self, greatest_mm: f64) -> Result<(), FrontError> {
+    pub(super) fn check(&self, max_mm: f64) -> Result<(), FrontError> {
         positive("speed_mm_s", self.speed_mm_s)?;
         let (name, value) = ("still_radius_mm", self.still_radius_mm);
-        let right = (0.0..greatest_mm).contains(&value);
+        let right = (0.0..max_mm).contains(&value);
         if right { Ok(()) } else { Err(FrontError::Number { name, value, range: "0 or more and below max_radius_mm" }) }
     }
 
     /// Velocity of a drop, mm/s; `down` is the direction of gravity along the glass, its length the sine of the slope.
-    pub(super) fn velocity_mm_s(&self, drop: Droplet, down: DVec2, greatest_mm: f64) -> DVec2 {
+    pub(super) fn velocity_mm_s(&self, drop: Droplet, down: DVec2, max_mm: f64) -> DVec2 {
         let (sine, still) = (down.length(), self.still_radius_mm * self.still_radius_mm);
         let excess = drop.radius_mm * drop.radius_mm * sine - still;
         if !(excess > 0.0 && sine > 0.0) {
             return DVec2::ZERO;
         }
-        down / sine * (self.speed_mm_s * excess / (greatest_mm * greatest_mm - still))
+        down / sine * (self.speed_mm_s * excess / (max_mm * max_mm - still))
     }
 }
 
@@ -106,8 +106,8 @@ impl Wiper {
         }
         let phase_s = since_s - (since_s / self.period_s).floor() * self.period_s;
         // From 0 to 1 and back.
-        let way = (1.0 - (phase_s / self.sweep_s - 1.0).abs()).max(0.0);
-        rest + (turn - rest) * way
+        let direction = (1.0 - (phase_s / self.sweep_s - 1.0).abs()).max(0.0);
+        rest + (turn - rest) * direction
     }
 
     /// The angles passed by the blade between two times less than a sweep apart, smallest and largest, rad; `None` while it rests.
@@ -165,8 +165,8 @@ pub struct Course {
 }
 
 impl Course {
-    pub(super) fn check(&self, greatest_mm: f64) -> Result<(), FrontError> {
-        self.sliding.map_or(Ok(()), |sliding| sliding.check(greatest_mm))?;
+    pub(super) fn check(&self, max_mm: f64) -> Result<(), FrontError> {
+        self.sliding.map_or(Ok(()), |sliding| sliding.check(max_mm))?;
         self.drying_s.map_or(Ok(1.0), |s| positive("drying_s", s))?;
         self.wiper.map_or(Ok(()), |wiper| wiper.check())?;
         let (value, name) = (self.arrivals_hz, "arrivals_per_s");

@@ -17,7 +17,7 @@ const STEP_S: f64 = 0.02;
 
 /// The drops at a time, s; `down` is the direction of gravity along the glass, its length the sine of the slope.
 pub(super) fn at(p: &DropsParameters, course: &Course, time_s: f64, down: DVec2) -> Vec<Droplet> {
-    let mut drops = population::first(p);
+    let mut drops = population::initial(p);
     coalesce(&mut drops, reach_factor(p.contact_angle_rad));
     let moment = |step: u64| course.start_s + step as f64 * STEP_S;
     let mut step = 0;
@@ -33,11 +33,11 @@ pub(super) fn at(p: &DropsParameters, course: &Course, time_s: f64, down: DVec2)
 
 /// Advances the drops by a step.
 fn advance(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_s, to_s]: [f64; 2], down: DVec2) {
-    let [_, greatest_mm] = p.radius_mm;
+    let [_, max_mm] = p.radius_mm;
     let passed_s = to_s - from_s;
     let mut touches = arrive(drops, p, course, [from_s, to_s]);
     if let Some(drying_s) = course.drying_s {
-        let less = greatest_mm * greatest_mm * passed_s / drying_s;
+        let less = max_mm * max_mm * passed_s / drying_s;
         drops.retain_mut(|drop| {
             let square = drop.radius_mm * drop.radius_mm - less;
             drop.radius_mm = square.max(0.0).sqrt();
@@ -46,7 +46,7 @@ fn advance(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from
     }
     if let Some(sliding) = course.sliding {
         for drop in drops.iter_mut() {
-            let velocity = sliding.velocity_mm_s(*drop, down, greatest_mm);
+            let velocity = sliding.velocity_mm_s(*drop, down, max_mm);
             touches |= velocity != DVec2::ZERO;
             drop.centre_mm += velocity * passed_s;
         }

@@ -7,7 +7,7 @@ const MAX_SIDE: f64 = 2048.0;
 
 /// Discs in the cells of a uniform grid.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Grid {
+pub(super) struct DiscGrid {
     origin_mm: DVec2,
     cell_mm: f64,
     cells: IVec2,
@@ -16,7 +16,7 @@ pub(super) struct Grid {
     discs: Vec<u32>,
 }
 
-impl Grid {
+impl DiscGrid {
     /// Builds a grid of discs: centres and radii, mm. Cells hold about one disc each.
     pub(super) fn new(discs: &[(DVec2, f64)]) -> Self {
         let corner = |side: f64| discs.iter().map(move |(at, r)| *at + side * *r);
@@ -53,7 +53,7 @@ impl Grid {
         (y * self.cells.x + x) as usize
     }
 
-    fn of_cell(&self, cell: IVec2) -> &[u32] {
+    fn cell_discs(&self, cell: IVec2) -> &[u32] {
         if cell.cmplt(IVec2::ZERO).any() || cell.cmpge(self.cells).any() {
             return &[];
         }
@@ -63,25 +63,25 @@ impl Grid {
 
     /// Discs in the cell of a point.
     pub(super) fn at(&self, point_mm: DVec2) -> &[u32] {
-        self.of_cell(self.cell(point_mm))
+        self.cell_discs(self.cell(point_mm))
     }
 
     /// Calls `visit` with the discs of every cell that a segment crosses; a disc in several cells is visited several times.
     pub(super) fn along(&self, from_mm: DVec2, to_mm: DVec2, mut visit: impl FnMut(&[u32])) {
         let Some((from, to)) = self.clip(from_mm, to_mm) else { return };
         let (mut cell, last) = (self.cell(from), self.cell(to));
-        let way = to - from;
-        let step = IVec2::new(way.x.signum() as i32, way.y.signum() as i32);
+        let direction = to - from;
+        let step = IVec2::new(direction.x.signum() as i32, direction.y.signum() as i32);
         // Fractions of the segment at the next border, and from border to border.
         let border = |i: usize| {
             let next = f64::from(cell[i] + step[i].max(0)) * self.cell_mm + self.origin_mm[i];
-            if way[i] == 0.0 { f64::INFINITY } else { (next - from[i]) / way[i] }
+            if direction[i] == 0.0 { f64::INFINITY } else { (next - from[i]) / direction[i] }
         };
         let mut next = DVec2::new(border(0), border(1));
-        let between = DVec2::splat(self.cell_mm) / way.abs();
-        let most = (last - cell).abs();
-        for _ in 0..=(most.x + most.y) {
-            visit(self.of_cell(cell));
+        let between = DVec2::splat(self.cell_mm) / direction.abs();
+        let maximum = (last - cell).abs();
+        for _ in 0..=(maximum.x + maximum.y) {
+            visit(self.cell_discs(cell));
             let axis = usize::from(next.y < next.x);
             cell[axis] += step[axis];
             next[axis] += between[axis];
@@ -91,20 +91,20 @@ impl Grid {
     /// The part of a segment over the grid.
     fn clip(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
         let high = self.origin_mm + self.cells.as_dvec2() * self.cell_mm;
-        let way = to - from;
+        let direction = to - from;
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
         for i in 0..2 {
-            if way[i] == 0.0 {
+            if direction[i] == 0.0 {
                 if from[i] < self.origin_mm[i] || from[i] > high[i] {
                     return None;
                 }
                 continue;
             }
-            let (a, b) = ((self.origin_mm[i] - from[i]) / way[i], (high[i] - from[i]) / way[i]);
+            let (a, b) = ((self.origin_mm[i] - from[i]) / direction[i], (high[i] - from[i]) / direction[i]);
             first = first.max(a.min(b));
             last = last.min(a.max(b));
         }
-        (first <= last).then(|| (from + way * first, from + way * last))
+        (first <= last).then(|| (from + direction * first, from + direction * last))
     }
 }
 
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn every_disc_that_a_segment_crosses_is_visited() {
         let discs = discs();
-        let grid = Grid::new(&discs);
+        let grid = DiscGrid::new(&discs);
         let mut crossed = 0;
         for i in 1000..1400 {
             let from = DVec2::new(word(i, 0) * 400.0 - 200.0, word(i, 1) * 120.0 - 10.0);
@@ -134,13 +134,13 @@ mod tests {
                 2 => from + 12.0 * DVec2::new(word(i, 2) - 0.5, word(i, 3) - 0.5),
                 _ => DVec2::new(word(i, 2) * 400.0 - 200.0, word(i, 3) * 120.0 - 10.0),
             };
-            let mut seen = Vec::new();
-            grid.along(from, to, |some| seen.extend_from_slice(some));
+            let mut visible = Vec::new();
+            grid.along(from, to, |some| visible.extend_from_slice(some));
             for (disc, (at, radius)) in (0_u32..).zip(&discs) {
                 let along = ((*at - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
                 if at.distance(from + (to - from) * along) < *radius {
                     crossed += 1;
-                    assert!(seen.contains(&disc), "segment {i}, disc {disc}");
+                    assert!(visible.contains(&disc), "segment {i}, disc {disc}");
                 }
             }
         }
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn every_disc_over_a_point_is_found() {
         let discs = discs();
-        let grid = Grid::new(&discs);
+        let grid = DiscGrid::new(&discs);
         for i in 2000..4000 {
             let point = DVec2::new(word(i, 0) * 320.0 - 160.0, word(i, 1) * 100.0 - 5.0);
             let over = (0_u32..).zip(&discs).filter(|(_, (at, radius))| at.distance(point) < *radius);

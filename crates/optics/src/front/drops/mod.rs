@@ -24,7 +24,7 @@ use glam::{DVec2, DVec3};
 
 use crate::error::FrontError;
 use coalescence::reach_factor;
-use grid::Grid;
+use grid::DiscGrid;
 
 pub use coalescence::Cap;
 pub use course::{Course, Droplet, Sliding, Wiper};
@@ -35,15 +35,15 @@ pub use population::DropsParameters;
 pub struct Drops {
     parameters: DropsParameters,
     droplets: Vec<Droplet>,
-    bodies: Vec<Body>,
-    grid: Grid,
+    bodies: Vec<DropBody>,
+    grid: DiscGrid,
     /// Height of the highest drop.
     height_mm: f64,
 }
 
 /// A cap in the glass's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Body {
+struct DropBody {
     /// Centre of the base, on the glass, mm.
     foot_mm: DVec3,
     /// Outward normal of the glass there.
@@ -54,25 +54,25 @@ struct Body {
 }
 
 /// The glass under the drops: maps a position (x right, y down, mm) to the point of the outer face and the outward normal.
-pub(super) type Face<'a> = &'a dyn Fn(DVec2) -> Option<(DVec3, DVec3)>;
+pub(super) type GlassFace<'a> = &'a dyn Fn(DVec2) -> Option<(DVec3, DVec3)>;
 
 impl Drops {
     /// Places drops on a face.
     ///
     /// # Errors
     /// If a number is outside its range, or the glass does not reach as far as the drops.
-    pub(super) fn new(parameters: DropsParameters, face: Face<'_>) -> Result<Self, FrontError> {
+    pub(super) fn new(parameters: DropsParameters, face: GlassFace<'_>) -> Result<Self, FrontError> {
         population::check(&parameters)?;
-        let mut droplets = population::first(&parameters);
+        let mut droplets = population::initial(&parameters);
         coalescence::coalesce(&mut droplets, reach_factor(parameters.contact_angle_rad));
-        Self::lying(parameters, droplets, face)
+        Self::with_droplets(parameters, droplets, face)
     }
 
-    fn lying(parameters: DropsParameters, droplets: Vec<Droplet>, face: Face<'_>) -> Result<Self, FrontError> {
+    fn with_droplets(parameters: DropsParameters, droplets: Vec<Droplet>, face: GlassFace<'_>) -> Result<Self, FrontError> {
         let angle = parameters.contact_angle_rad;
         let reach = |d: &Droplet| (d.centre_mm, d.radius_mm * reach_factor(angle));
-        let grid = Grid::new(&droplets.iter().map(reach).collect::<Vec<_>>());
-        let bodies: Option<Vec<Body>> = droplets.iter().map(|d| Body::of(d, angle, face)).collect();
+        let grid = DiscGrid::new(&droplets.iter().map(reach).collect::<Vec<_>>());
+        let bodies: Option<Vec<DropBody>> = droplets.iter().map(|d| DropBody::new(d, angle, face)).collect();
         let bodies = bodies.ok_or(FrontError::DropsOffGlass)?;
         let heights = droplets.iter().map(|d| Cap::new(d.radius_mm, angle).height_mm());
         let height_mm = heights.fold(0.0, f64::max);
@@ -80,10 +80,10 @@ impl Drops {
     }
 
     /// The drops at a time, s, if they change; `down` is the direction of gravity in the glass's frame. Drops that slid off the glass are removed.
-    pub(super) fn at(&self, course: &Course, time_s: f64, down: DVec3, face: Face<'_>) -> Result<Self, FrontError> {
+    pub(super) fn at(&self, course: &Course, time_s: f64, down: DVec3, face: GlassFace<'_>) -> Result<Self, FrontError> {
         let mut droplets = evolution::at(&self.parameters, course, time_s, down.truncate());
         droplets.retain(|drop| face(drop.centre_mm).is_some());
-        Self::lying(self.parameters.clone(), droplets, face)
+        Self::with_droplets(self.parameters.clone(), droplets, face)
     }
 
     /// Construction parameters.
@@ -112,8 +112,8 @@ impl Drops {
     }
 }
 
-impl Body {
-    fn of(droplet: &Droplet, contact_angle_rad: f64, face: Face<'_>) -> Option<Self> {
+impl DropBody {
+    fn new(droplet: &Droplet, contact_angle_rad: f64, face: GlassFace<'_>) -> Option<Self> {
         let (foot_mm, normal) = face(droplet.centre_mm)?;
         let cap = Cap::new(droplet.radius_mm, contact_angle_rad);
         let centre_mm = foot_mm + normal * cap.centre_height_mm();

@@ -2,20 +2,20 @@
 
 use glam::DVec3;
 
-use super::{Body, Drops};
-use crate::front::Line;
+use super::{DropBody, Drops};
+use crate::front::MemberRay;
 use crate::prescription::coating::{Coating, Crossing};
 
 /// Maximum number of water surfaces met by a ray; longer paths are dark.
 const MAX_SURFACES: usize = 16;
 
 /// Search distance for drops along a ray nearly parallel to the glass, mm.
-const FARTHEST_MM: f64 = 1e4;
+const MAX_SEARCH_MM: f64 = 1e4;
 
 /// The next water surface on a ray.
-struct Hit {
+struct WaterHit {
     drop: usize,
-    way_mm: f64,
+    distance_mm: f64,
 }
 
 impl Drops {
@@ -37,13 +37,13 @@ impl Drops {
     /// it ends in the glass or exceeds the maximum number of surfaces. `normal` is the outward normal of the glass where the ray left it.
     pub(in crate::front) fn leave(
         &self,
-        mut line: Line,
+        mut line: MemberRay,
         normal: DVec3,
         mut inside: Option<usize>,
         nm: f64,
-    ) -> Option<(Line, f64)> {
+    ) -> Option<(MemberRay, f64)> {
         let mut left = None;
-        let mut share = 1.0;
+        let mut fraction = 1.0;
         for _ in 0..MAX_SURFACES {
             match inside {
                 Some(drop) => {
@@ -52,7 +52,7 @@ impl Drops {
                     let outward = (line.point_mm - body.centre_mm) / body.radius_mm;
                     match refract(&mut line, -outward, [self.index(nm), 1.0], nm) {
                         Some(passed) => {
-                            share *= passed;
+                            fraction *= passed;
                             // Towards the glass: it sees the region behind it.
                             if line.direction.dot(body.normal) <= 0.0 {
                                 return None;
@@ -63,11 +63,11 @@ impl Drops {
                     }
                 }
                 None => {
-                    let Some(hit) = self.ahead(&line, normal, left) else { return Some((line, share)) };
+                    let Some(hit) = self.ahead(&line, normal, left) else { return Some((line, fraction)) };
                     let body = &self.bodies[hit.drop];
-                    line.point_mm += line.direction * hit.way_mm;
+                    line.point_mm += line.direction * hit.distance_mm;
                     let outward = (line.point_mm - body.centre_mm) / body.radius_mm;
-                    share *= refract(&mut line, outward, [1.0, self.index(nm)], nm)?;
+                    fraction *= refract(&mut line, outward, [1.0, self.index(nm)], nm)?;
                     inside = Some(hit.drop);
                 }
             }
@@ -76,17 +76,17 @@ impl Drops {
     }
 
     /// The first drop met by a ray in air, except the one that it has just left: spheres are convex.
-    fn ahead(&self, line: &Line, normal: DVec3, left: Option<usize>) -> Option<Hit> {
+    fn ahead(&self, line: &MemberRay, normal: DVec3, left: Option<usize>) -> Option<WaterHit> {
         // Beyond this distance it is higher than all drops: the glass curves away from its tangent plane.
         let rise = line.direction.dot(normal);
-        let far_mm = if rise > 0.0 { (self.height_mm / rise).min(FARTHEST_MM) } else { FARTHEST_MM };
-        let mut first: Option<Hit> = None;
+        let far_mm = if rise > 0.0 { (self.height_mm / rise).min(MAX_SEARCH_MM) } else { MAX_SEARCH_MM };
+        let mut first: Option<WaterHit> = None;
         let end_mm = line.point_mm + line.direction * far_mm;
         self.grid.along(line.point_mm.truncate(), end_mm.truncate(), |drops| {
             for drop in drops.iter().map(|i| *i as usize).filter(|i| Some(*i) != left) {
                 let Some(way_mm) = self.bodies[drop].surface_from_outside(line) else { continue };
-                if first.as_ref().is_none_or(|hit| way_mm < hit.way_mm) {
-                    first = Some(Hit { drop, way_mm });
+                if first.as_ref().is_none_or(|hit| way_mm < hit.distance_mm) {
+                    first = Some(WaterHit { drop, distance_mm: way_mm });
                 }
             }
         });
@@ -94,9 +94,9 @@ impl Drops {
     }
 }
 
-impl Body {
+impl DropBody {
     /// The point where a ray from within meets the sphere above the glass; `None` if it meets the glass first.
-    fn surface_from_within(&self, line: &Line) -> Option<DVec3> {
+    fn surface_from_within(&self, line: &MemberRay) -> Option<DVec3> {
         let from = line.point_mm - self.centre_mm;
         let along = from.dot(line.direction);
         let square = along * along - from.length_squared() + self.radius_mm * self.radius_mm;
@@ -106,7 +106,7 @@ impl Body {
     }
 
     /// Distance of a ray from outside to the sphere above the glass.
-    fn surface_from_outside(&self, line: &Line) -> Option<f64> {
+    fn surface_from_outside(&self, line: &MemberRay) -> Option<f64> {
         let from = line.point_mm - self.centre_mm;
         let along = from.dot(line.direction);
         let square = along * along - from.length_squared() + self.radius_mm * self.radius_mm;
@@ -122,7 +122,7 @@ impl Body {
 }
 
 /// Refracts a ray at a surface whose normal is against it; returns the transmitted fraction, `None` for total reflection.
-fn refract(line: &mut Line, against: DVec3, n: [f64; 2], nm: f64) -> Option<f64> {
+fn refract(line: &mut MemberRay, against: DVec3, n: [f64; 2], nm: f64) -> Option<f64> {
     let along = -line.direction.dot(against);
     let ratio = n[0] / n[1];
     let square = 1.0 - ratio * ratio * (1.0 - along * along);

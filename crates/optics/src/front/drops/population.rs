@@ -49,19 +49,19 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
     positive("size_mm", p.size_mm.min_element())?;
     positive("size_mm", p.size_mm.max_element())?;
     let arrive = p.course.is_some_and(|course| course.arrivals_hz > 0.0);
-    let least_count = if arrive { 0.0 } else { 1.0 };
+    let min_count = if arrive { 0.0 } else { 1.0 };
     within(
         "count",
         f64::from(p.count),
-        least_count,
+        min_count,
         f64::from(MAX_COUNT),
         "1 to 1 000 000 drops, or 0 if others arrive",
     )?;
-    let [least, greatest] = p.radius_mm;
-    positive("min_radius_mm", least)?;
-    positive("max_radius_mm", greatest)?;
-    within("min_radius_mm", least, 0.0, greatest, "at most max_radius_mm")?;
-    p.course.map_or(Ok(()), |course| course.check(greatest))?;
+    let [minimum, maximum] = p.radius_mm;
+    positive("min_radius_mm", minimum)?;
+    positive("max_radius_mm", maximum)?;
+    within("min_radius_mm", minimum, 0.0, maximum, "at most max_radius_mm")?;
+    p.course.map_or(Ok(()), |course| course.check(maximum))?;
     within("size_exponent", p.size_exponent, 0.0, 6.0, "0 to 6")?;
     let degrees = p.contact_angle_rad * 180.0 / PI;
     within("contact_angle_deg", degrees, 5.0 - 1e-9, 150.0 + 1e-9, "5 to 150")?;
@@ -70,7 +70,7 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
         return Ok(());
     }
     let value = if low > 1.0 { high } else { low };
-    Err(FrontError::Share { name: "the water's refractive index", value, range: "above 1 and at most 4" })
+    Err(FrontError::Fraction { name: "the water's refractive index", value, range: "above 1 and at most 4" })
 }
 
 /// Batch of drops that an address belongs to.
@@ -95,21 +95,21 @@ pub(super) fn droplet(p: &DropsParameters, batch: Batch, number: u64) -> (Drople
 }
 
 /// Initial drops before coalescence.
-pub(super) fn first(p: &DropsParameters) -> Vec<Droplet> {
+pub(super) fn initial(p: &DropsParameters) -> Vec<Droplet> {
     (0..u64::from(p.count)).map(|number| droplet(p, Batch::First, number).0).collect()
 }
 
 /// The base radius, mm, below which the fraction `u` of drops lies.
 fn radius_mm(p: &DropsParameters, u: f64) -> f64 {
-    let [least, greatest] = p.radius_mm;
+    let [minimum, maximum] = p.radius_mm;
     let power = 1.0 - p.size_exponent;
     let radius = if power.abs() < 1e-9 {
-        least * pow(greatest / least, u)
+        minimum * pow(maximum / minimum, u)
     } else {
-        let (low, high) = (pow(least, power), pow(greatest, power));
+        let (low, high) = (pow(minimum, power), pow(maximum, power));
         pow(low + u * (high - low), 1.0 / power)
     };
-    radius.clamp(least, greatest)
+    radius.clamp(minimum, maximum)
 }
 
 #[cfg(test)]
@@ -122,9 +122,9 @@ mod tests {
     fn sizes_follow_the_law() {
         for exponent in [0.0, 1.0, 8.0 / 3.0] {
             let p = DropsParameters { count: 20_000, radius_mm: [0.2, 2.0], size_exponent: exponent, ..parameters() };
-            let drops = first(&p);
+            let drops = initial(&p);
             for radius in [0.3_f64, 0.7, 1.5] {
-                let share = match exponent {
+                let fraction = match exponent {
                     1.0 => etendue_core::maths::f64::ln(radius / 0.2) / etendue_core::maths::f64::ln(10.0),
                     _ => {
                         let power = |r: f64| pow(r, 1.0 - exponent);
@@ -132,8 +132,8 @@ mod tests {
                     }
                 };
                 let below = drops.iter().filter(|d| d.radius_mm < radius).count() as f64;
-                let sigma = (20_000.0 * share * (1.0 - share)).sqrt();
-                assert!((below - 20_000.0 * share).abs() < 4.0 * sigma, "{exponent} {radius}: {below}");
+                let sigma = (20_000.0 * fraction * (1.0 - fraction)).sqrt();
+                assert!((below - 20_000.0 * fraction).abs() < 4.0 * sigma, "{exponent} {radius}: {below}");
             }
             let left = drops.iter().filter(|d| d.centre_mm.x < p.offset_mm.x).count() as f64;
             assert!((left - 10_000.0).abs() < 4.0 * 70.7);

@@ -10,11 +10,11 @@ use core::fmt;
 
 use glam::DVec3;
 
-use crate::{error::FrontError, front::Line};
+use crate::{error::FrontError, front::MemberRay};
 
 /// A hit on a mirror's surface in its frame, with the normal of the reflecting side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::front) struct Touch {
+pub(in crate::front) struct MirrorHit {
     pub(super) point_mm: DVec3,
     /// The geometric normal, which distinguishes the sides.
     pub(super) facing: DVec3,
@@ -33,7 +33,7 @@ const MARGIN: f64 = 1e-12;
 const HUGE: f64 = 1e300;
 
 #[derive(Clone, Debug, PartialEq)]
-struct Node {
+struct TreeNode {
     low: DVec3,
     high: DVec3,
     /// For a leaf, the range of `order`; else the right child; the left child follows directly.
@@ -44,7 +44,7 @@ struct Node {
 /// The acceleration tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tree {
-    nodes: Vec<Node>,
+    nodes: Vec<TreeNode>,
     order: Vec<u32>,
 }
 
@@ -69,7 +69,7 @@ impl Tree {
         let margin = DVec3::splat(MARGIN * low.abs().max(high.abs()).max_element());
         let at = self.nodes.len();
         let (first, count) = (from as u32, (to - from) as u32);
-        self.nodes.push(Node { low: low - margin, high: high + margin, first, count });
+        self.nodes.push(TreeNode { low: low - margin, high: high + margin, first, count });
         if to - from <= LEAF {
             return;
         }
@@ -91,7 +91,7 @@ impl Tree {
     }
 
     /// Visits the triangles that a ray may meet nearer than `nearest`, which the visitor lowers.
-    pub(super) fn visit(&self, line: &Line, nearest: &mut f64, mut each: impl FnMut(u32, &mut f64)) {
+    pub(super) fn visit(&self, line: &MemberRay, nearest: &mut f64, mut each: impl FnMut(u32, &mut f64)) {
         // Finite, so that no 0 · ∞ arises on a box's face.
         let inverse = DVec3::from_array(line.direction.to_array().map(|d| if d == 0.0 { HUGE } else { 1.0 / d }));
         let (mut stack, mut depth) = ([0_u32; DEPTH], 1);
@@ -113,7 +113,7 @@ impl Tree {
     }
 }
 
-impl Node {
+impl TreeNode {
     fn meets(&self, origin: DVec3, inverse: DVec3, nearest: f64) -> bool {
         let (a, b) = ((self.low - origin) * inverse, (self.high - origin) * inverse);
         let enter = a.x.min(b.x).max(a.y.min(b.y)).max(a.z.min(b.z)).max(0.0);
@@ -181,25 +181,25 @@ impl MeshMirror {
     }
 
     /// The first hit of a ray given in its frame.
-    pub(super) fn touch(&self, line: &Line) -> Option<Touch> {
-        let shear = Shear::of(line);
-        let (mut nearest, mut found) = (f64::INFINITY, None);
+    pub(super) fn intersect(&self, line: &MemberRay) -> Option<MirrorHit> {
+        let shear = AxisFrame::new(line);
+        let (mut nearest, mut actual) = (f64::INFINITY, None);
         self.tree.visit(line, &mut nearest, |index, nearest| {
             let corners = self.triangles[index as usize].map(|i| self.positions_mm[i as usize]);
             if let Some((t, weights)) = shear.hit(corners).filter(|(t, _)| *t > 0.0 && *t < *nearest) {
-                (*nearest, found) = (t, Some((index, weights)));
+                (*nearest, actual) = (t, Some((index, weights)));
             }
         });
-        let (index, weights) = found?;
+        let (index, weights) = actual?;
         Some(self.at(index, weights))
     }
 
-    fn at(&self, index: u32, weights: [f64; 3]) -> Touch {
+    fn at(&self, index: u32, weights: [f64; 3]) -> MirrorHit {
         let triangle = &self.triangles[index as usize];
         let mix = |of: &[DVec3]| -> DVec3 { triangle.iter().zip(weights).map(|(i, w)| of[*i as usize] * w).sum() };
         let facing = area_normal(&self.positions_mm, triangle).normalize();
         let normal = mix(&self.normals).try_normalize().unwrap_or(facing);
-        Touch { point_mm: mix(&self.positions_mm), facing, normal }
+        MirrorHit { point_mm: mix(&self.positions_mm), facing, normal }
     }
 }
 
@@ -221,15 +221,15 @@ fn smooth(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
 }
 
 /// The frame in which a ray runs along its longest axis.
-struct Shear {
+struct AxisFrame {
     origin: DVec3,
     axes: [usize; 3],
     slope: [f64; 2],
     length: f64,
 }
 
-impl Shear {
-    fn of(line: &Line) -> Self {
+impl AxisFrame {
+    fn new(line: &MemberRay) -> Self {
         let d = line.direction;
         let size = d.abs();
         let z = if size.x > size.y && size.x > size.z {

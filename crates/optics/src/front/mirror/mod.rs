@@ -12,13 +12,13 @@ mod mesh;
 mod quadric;
 mod reflectance;
 
-use super::{Fate, FrontError, Line, Placement};
+use super::{RayOutcome, FrontError, MemberRay, Placement};
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};
 pub use reflectance::Reflectance;
 
-pub(super) use mesh::Touch;
+pub(super) use mesh::MirrorHit;
 
 /// The surface of a mirror: the closed list.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Mirror {
 
 /// The camera's view of the mirror along a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sight {
+enum MirrorVisibility {
     Past,
     Front,
     Back,
@@ -76,47 +76,47 @@ impl Mirror {
         &self.parameters.reflectance
     }
 
-    fn touch(&self, local: &Line) -> Option<Touch> {
+    fn intersect(&self, local: &MemberRay) -> Option<MirrorHit> {
         match &self.parameters.shape {
-            MirrorShape::Quadric(quadric) => quadric.touch(local),
-            MirrorShape::Mesh(mesh) => mesh.touch(local),
+            MirrorShape::Quadric(quadric) => quadric.intersect(local),
+            MirrorShape::Mesh(mesh) => mesh.intersect(local),
         }
     }
 
-    pub(super) fn reflect(&self, line: Line, nm: f64) -> Fate {
+    pub(super) fn reflect(&self, line: MemberRay, nm: f64) -> RayOutcome {
         let local = self.parameters.placement.inward(line);
-        let Some(touch) = self.touch(&local) else { return Fate::Past };
+        let Some(touch) = self.intersect(&local) else { return RayOutcome::Missed };
         if local.direction.dot(touch.facing) >= 0.0 {
-            return Fate::Lost;
+            return RayOutcome::Absorbed;
         }
         // At the edge of a coarse mesh the smooth normal may face away: light would be reflected into the mirror.
         let normal = if local.direction.dot(touch.normal) < 0.0 { touch.normal } else { touch.facing };
         let along = local.direction.dot(normal);
         let direction = (local.direction - normal * (2.0 * along)).normalize();
-        let out = self.parameters.placement.outward(Line { point_mm: touch.point_mm, direction });
-        Fate::On(out, self.parameters.reflectance.at(nm, along.abs()))
+        let out = self.parameters.placement.outward(MemberRay { point_mm: touch.point_mm, direction });
+        RayOutcome::Transmitted(out, self.parameters.reflectance.at(nm, along.abs()))
     }
 
-    fn sight(&self, line: &Line) -> Sight {
+    fn visibility(&self, line: &MemberRay) -> MirrorVisibility {
         let local = self.parameters.placement.inward(*line);
-        match self.touch(&local) {
-            None => Sight::Past,
-            Some(touch) if local.direction.dot(touch.facing) < 0.0 => Sight::Front,
-            Some(_) => Sight::Back,
+        match self.intersect(&local) {
+            None => MirrorVisibility::Past,
+            Some(touch) if local.direction.dot(touch.facing) < 0.0 => MirrorVisibility::Front,
+            Some(_) => MirrorVisibility::Back,
         }
     }
 
     /// Checks that the camera, looking along `lines`, sees the mirror from the correct side.
-    pub(super) fn check(&self, lines: &[Line]) -> Result<(), FrontError> {
+    pub(super) fn check(&self, lines: &[MemberRay]) -> Result<(), FrontError> {
         // For a mesh, which may be open, the back side alone decides.
-        let inside = |line: &Line| match &self.parameters.shape {
+        let inside = |line: &MemberRay| match &self.parameters.shape {
             MirrorShape::Quadric(quadric) => quadric.holds(self.parameters.placement.inward(*line).point_mm),
             MirrorShape::Mesh(_) => false,
         };
-        let sees = |sight: Sight| lines.iter().any(|line| self.sight(line) == sight);
-        if lines.iter().any(inside) || (sees(Sight::Back) && !sees(Sight::Front)) {
+        let sees = |sight: MirrorVisibility| lines.iter().any(|line| self.visibility(line) == sight);
+        if lines.iter().any(inside) || (sees(MirrorVisibility::Back) && !sees(MirrorVisibility::Front)) {
             return Err(FrontError::SeenFromInside);
         }
-        if sees(Sight::Front) { Ok(()) } else { Err(FrontError::NotVisible) }
+        if sees(MirrorVisibility::Front) { Ok(()) } else { Err(FrontError::NotVisible) }
     }
 }

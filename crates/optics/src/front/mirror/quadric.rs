@@ -10,8 +10,8 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::tan;
 use glam::DVec3;
 
-use super::super::Line;
-use super::Touch;
+use super::super::MemberRay;
+use super::MirrorHit;
 use crate::error::front::{FrontError, positive};
 
 /// Kind of quadric.
@@ -69,7 +69,7 @@ impl Quadric {
             return Err(number("hole_radius_mm", hole_mm, "finite and 0 or more"));
         }
         if hole_mm >= rim_mm {
-            return Err(FrontError::AllHole { hole_mm, rim_mm });
+            return Err(FrontError::NoSurface { hole_mm, rim_mm });
         }
         Ok(Self { radius_mm, shape, rim_mm, hole_mm })
     }
@@ -105,11 +105,11 @@ impl Quadric {
     }
 
     /// The first hit of a ray given in the mirror's frame.
-    pub(super) fn touch(&self, line: &Line) -> Option<Touch> {
+    pub(super) fn intersect(&self, line: &MemberRay) -> Option<MirrorHit> {
         let d = line.direction;
         // From the ray's point nearest to the vertex, so that far pupils lose no digits.
-        let way = -line.point_mm.dot(d);
-        let o = line.point_mm + d * way;
+        let direction = -line.point_mm.dot(d);
+        let o = line.point_mm + d * direction;
         let (m, r) = (self.shape, self.radius_mm);
         let a = d.x * d.x + d.y * d.y + m * d.z * d.z;
         let b = o.x * d.x + o.y * d.y + m * o.z * d.z - r * d.z;
@@ -120,12 +120,12 @@ impl Quadric {
         }
         let q = -(b + square.sqrt().copysign(b));
         let (s, t) = (q / a, c / q);
-        let ahead = |t: &f64| t.is_finite() && way + t > 0.0;
+        let ahead = |t: &f64| t.is_finite() && direction + t > 0.0;
         [s.min(t), s.max(t)].into_iter().filter(ahead).find_map(|t| self.at(o + d * t))
     }
 
     /// The surface at a point of the quadric, if it lies on the mirror.
-    fn at(&self, p: DVec3) -> Option<Touch> {
+    fn at(&self, p: DVec3) -> Option<MirrorHit> {
         let r2 = p.x * p.x + p.y * p.y;
         let within = r2 <= self.rim_mm * self.rim_mm && r2 >= self.hole_mm * self.hole_mm;
         let sheet = self.radius_mm - self.shape * p.z;
@@ -133,7 +133,7 @@ impl Quadric {
             return None;
         }
         let normal = DVec3::new(p.x, p.y, -sheet).normalize();
-        Some(Touch { point_mm: p, facing: normal, normal })
+        Some(MirrorHit { point_mm: p, facing: normal, normal })
     }
 }
 

@@ -9,25 +9,25 @@ use crate::error::FrontError;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
     /// A reflectance independent of the angle.
-    Share(Curve),
+    Fraction(Curve),
     /// A bare metal: Fresnel's equations with a complex index, mean of both polarisations.
     Metal(Box<ComplexIndex>),
 }
 
 impl Reflectance {
     pub(super) fn check(&self) -> Result<(), FrontError> {
-        let Self::Share(curve) = self else { return Ok(()) };
+        let Self::Fraction(curve) = self else { return Ok(()) };
         let (low, high) = curve.range();
         let value = if low >= 0.0 { high } else { low };
         let right = low >= 0.0 && high <= 1.0 && high > 0.0;
-        if right { Ok(()) } else { Err(FrontError::Share { name: "reflectance", value, range: "0 and 1, not all 0" }) }
+        if right { Ok(()) } else { Err(FrontError::Fraction { name: "reflectance", value, range: "0 and 1, not all 0" }) }
     }
 
     /// True if it depends on the wavelength.
     #[must_use]
     pub fn varies(&self) -> bool {
         match self {
-            Self::Share(curve) => curve.varies(),
+            Self::Fraction(curve) => curve.varies(),
             Self::Metal(_) => true,
         }
     }
@@ -36,7 +36,7 @@ impl Reflectance {
     #[must_use]
     pub fn at(&self, nm: f64, cosine: f64) -> f64 {
         match self {
-            Self::Share(curve) => curve.at(nm),
+            Self::Fraction(curve) => curve.at(nm),
             Self::Metal(index) => {
                 let at = |s: &etendue_spectra::Spectrum| f64::from(s.at(nm as f32));
                 metal(at(&index.n), at(&index.k), cosine)

@@ -10,7 +10,7 @@ use etendue_core::maths::f64::sin_cos;
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::error::front::{FrontError, positive};
-use crate::front::{Line, Placement};
+use crate::front::{MemberRay, Placement};
 use crate::{front::placement::Curve, prescription::coating::Coating};
 
 /// A layer of a windscreen.
@@ -61,7 +61,7 @@ pub(super) fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
         let (low, high) = layer.index.range();
         if !(low > 1.0 && high <= 4.0) {
             let value = if low > 1.0 { high } else { low };
-            return Err(FrontError::Share { name: "index", value, range: "above 1 and at most 4" });
+            return Err(FrontError::Fraction { name: "index", value, range: "above 1 and at most 4" });
         }
     }
     for (name, radius) in [("radius_across_mm", p.radius_across_mm), ("radius_upright_mm", p.radius_upright_mm)] {
@@ -74,10 +74,10 @@ pub(super) fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
             name: "wedge_mrad", value: 1e3 * p.wedge_rad, range: "within −100 and 100"
         });
     }
-    if let Some(share) = p.double_image_fraction.filter(|share| !(0.0..1.0).contains(share)) {
+    if let Some(fraction) = p.double_image_fraction.filter(|fraction| !(0.0..1.0).contains(fraction)) {
         return Err(FrontError::Number {
             name: "double_image_sample_fraction",
-            value: share,
+            value: fraction,
             range: "at least 0 and below 1",
         });
     }
@@ -87,7 +87,7 @@ pub(super) fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
     let value = if low >= 0.0 { high } else { low };
     let right = low >= 0.0 && high <= 1.0 && high > 0.0;
     let range = "0 and 1, not all 0";
-    if right { Ok(()) } else { Err(FrontError::Share { name: "internal_transmittance", value, range }) }
+    if right { Ok(()) } else { Err(FrontError::Fraction { name: "internal_transmittance", value, range }) }
 }
 
 /// Maximum Newton steps; four or five suffice.
@@ -125,15 +125,15 @@ impl Face {
     /// Distance of a point from the face, outwards positive, and its gradient, the outward normal.
     pub(super) fn height(&self, p: DVec3) -> (f64, DVec3) {
         if self.turn == DMat3::IDENTITY {
-            let (height, normal) = self.bare(p);
+            let (height, normal) = self.untilted(p);
             return (height - self.height_mm, normal);
         }
         let vertex = DVec3::new(0.0, 0.0, self.height_mm);
-        let (height, normal) = self.bare(self.turn * (p - vertex) + vertex);
+        let (height, normal) = self.untilted(self.turn * (p - vertex) + vertex);
         (height - self.height_mm, self.turn.transpose() * normal)
     }
 
-    fn bare(&self, p: DVec3) -> (f64, DVec3) {
+    fn untilted(&self, p: DVec3) -> (f64, DVec3) {
         let (across, upright) = (self.across_mm, self.upright_mm);
         // Outwards from the axis: the height without vertical curvature, and its direction.
         let (out, direction) = if across.is_finite() {
@@ -170,7 +170,7 @@ impl Face {
     }
 
     /// The point where a ray crosses the face outwards (`sense` 1) or inwards (−1), and the outward normal.
-    pub(super) fn crossed(&self, line: &Line, sense: f64) -> Option<(DVec3, DVec3)> {
+    pub(super) fn crossed(&self, line: &MemberRay, sense: f64) -> Option<(DVec3, DVec3)> {
         let mut p = line.point_mm;
         for _ in 0..STEPS {
             let (height, normal) = self.height(p);
@@ -196,7 +196,7 @@ mod tests {
 
     fn faces_of(across_mm: f64, upright_mm: f64, wedge_rad: f64) -> Vec<Face> {
         faces(&WindscreenParameters {
-            placement: Placement::turned(DVec3::ZERO, [0.0; 3]),
+            placement: Placement::with_rotation_deg(DVec3::ZERO, [0.0; 3]),
             radius_across_mm: across_mm,
             radius_upright_mm: upright_mm,
             layers: vec![Layer { thickness_mm: 5.0, index: Curve::Constant(1.5) }],

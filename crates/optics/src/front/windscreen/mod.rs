@@ -20,7 +20,7 @@ mod wet_tests;
 use glam::DVec3;
 
 use super::drops::{Drops, DropsParameters};
-use super::{Fate, Line};
+use super::{RayOutcome, MemberRay};
 use crate::prescription::coating::{Coating, Crossing};
 use crate::{error::FrontError, overlap::PRINCIPAL_NM};
 use face::{Face, check};
@@ -28,15 +28,15 @@ use face::{Face, check};
 pub use face::{Layer, Tint, WindscreenParameters};
 
 /// About R² of glass in air, twice 4 %.
-const USUAL_SHARE: f64 = 0.002;
+const TYPICAL_DOUBLE_FRACTION: f64 = 0.002;
 
 /// Light path through the glass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum LightPath {
     /// Refracted only.
-    Straight,
+    Direct,
     /// Reflected at the outer face, then (seen from the camera) at the inner face.
-    Doubled,
+    DoubleReflection,
 }
 
 /// A windscreen.
@@ -60,8 +60,8 @@ impl Windscreen {
         let thickness_mm = parameters.layers.iter().map(|layer| layer.thickness_mm).sum();
         let mut glass = Self { parameters, faces, thickness_mm, double_image_fraction: 0.0, drops: None };
         glass.double_image_fraction = match glass.parameters.double_image_fraction {
-            Some(share) => share,
-            None => glass.untinted().share_of_double(),
+            Some(fraction) => fraction,
+            None => glass.untinted().double_fraction(),
         };
         Ok(glass)
     }
@@ -117,10 +117,10 @@ impl Windscreen {
     /// Transmittances on the camera's axis at 587.56 nm: direct and double image; `None` if the axis misses the glass.
     #[must_use]
     pub fn axial_transmittances(&self) -> Option<[f64; 2]> {
-        let axis = Line { point_mm: DVec3::ZERO, direction: DVec3::Z };
-        match (self.through(axis, PRINCIPAL_NM, Way::Straight), self.through(axis, PRINCIPAL_NM, Way::Doubled)) {
-            (Fate::On(_, straight), Fate::On(_, doubled)) => Some([straight, doubled]),
-            (Fate::On(_, straight), _) => Some([straight, 0.0]),
+        let axis = MemberRay { point_mm: DVec3::ZERO, direction: DVec3::Z };
+        match (self.through(axis, PRINCIPAL_NM, LightPath::Direct), self.through(axis, PRINCIPAL_NM, LightPath::DoubleReflection)) {
+            (RayOutcome::Transmitted(_, straight), RayOutcome::Transmitted(_, doubled)) => Some([straight, doubled]),
+            (RayOutcome::Transmitted(_, straight), _) => Some([straight, 0.0]),
             _ => None,
         }
     }
@@ -132,9 +132,9 @@ impl Windscreen {
     }
 
     /// Fraction of the double image in the axial light; that of usual glass if the axis misses this one.
-    fn share_of_double(&self) -> f64 {
-        let share = |[straight, doubled]: [f64; 2]| (straight > 0.0).then(|| doubled / (straight + doubled));
-        self.axial_transmittances().and_then(share).unwrap_or(USUAL_SHARE)
+    fn double_fraction(&self) -> f64 {
+        let fraction = |[straight, doubled]: [f64; 2]| (straight > 0.0).then(|| doubled / (straight + doubled));
+        self.axial_transmittances().and_then(fraction).unwrap_or(TYPICAL_DOUBLE_FRACTION)
     }
 
     /// True if a ray or its weight depends on the wavelength.
@@ -148,32 +148,32 @@ impl Windscreen {
     }
 
     /// Selects the light path of a sample by its first number; returns the path, the rescaled number, and the inverse probability.
-    pub(super) fn choose(&self, u: f64) -> (Way, f64, f64) {
+    pub(super) fn choose(&self, u: f64) -> (LightPath, f64, f64) {
         let q = self.double_image_fraction;
-        if u < q { (Way::Doubled, u / q, 1.0 / q) } else { (Way::Straight, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
+        if u < q { (LightPath::DoubleReflection, u / q, 1.0 / q) } else { (LightPath::Direct, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
     }
 
     /// True if a point of the camera frame is on the camera's side.
     fn is_before(&self, point_mm: DVec3) -> bool {
-        let local = self.parameters.placement.inward(Line { point_mm, direction: DVec3::Z });
+        let local = self.parameters.placement.inward(MemberRay { point_mm, direction: DVec3::Z });
         self.faces[0].height(local.point_mm).0 < 0.0
     }
 
     /// Checks that `points` of the lens are before the glass and that one of `lines` passes through it.
-    pub(super) fn check(&self, points: &[DVec3], lines: &[Line]) -> Result<(), FrontError> {
+    pub(super) fn check(&self, points: &[DVec3], lines: &[MemberRay]) -> Result<(), FrontError> {
         if !points.iter().all(|point| self.is_before(*point)) {
             return Err(FrontError::ThroughLens);
         }
         let (mut goes, mut over) = (false, self.drops.is_none());
         for line in lines {
-            match self.through(*line, PRINCIPAL_NM, Way::Straight) {
-                Fate::Lost => return Err(FrontError::FacesCross),
-                Fate::On(out, _) => {
+            match self.through(*line, PRINCIPAL_NM, LightPath::Direct) {
+                RayOutcome::Absorbed => return Err(FrontError::FacesCross),
+                RayOutcome::Transmitted(out, _) => {
                     goes = true;
                     let local = self.parameters.placement.inward(out);
                     over = over || self.drops().is_some_and(|drops| drops.is_over(local.point_mm));
                 }
-                Fate::Past => {}
+                RayOutcome::Missed => {}
             }
         }
         match (goes, over) {
@@ -201,51 +201,51 @@ struct Passage<'a> {
     /// Drops on the outer face.
     drops: Option<&'a Drops>,
     /// The drop that wets the outer face where the ray last met it.
-    wet: Option<usize>,
+    wetting_drop: Option<usize>,
     nm: f64,
-    line: Line,
+    line: MemberRay,
     /// The current medium: 0 is air inside, 1 the first layer, the last air outside.
     medium: usize,
-    share: f64,
+    weight: f64,
     path_mm: f64,
 }
 
 impl Windscreen {
     /// Traces a ray from the camera through dry glass.
-    pub(super) fn through(&self, line: Line, nm: f64, way: Way) -> Fate {
-        self.beyond(None, line, nm, way)
+    pub(super) fn through(&self, line: MemberRay, nm: f64, path: LightPath) -> RayOutcome {
+        self.beyond(None, line, nm, path)
     }
 
     /// Traces a ray from the camera through the glass and its drops.
-    pub(super) fn through_wet(&self, line: Line, nm: f64, way: Way) -> Fate {
-        self.beyond(self.drops(), line, nm, way)
+    pub(super) fn through_wet(&self, line: MemberRay, nm: f64, path: LightPath) -> RayOutcome {
+        self.beyond(self.drops(), line, nm, path)
     }
 
-    fn beyond(&self, drops: Option<&Drops>, line: Line, nm: f64, way: Way) -> Fate {
+    fn beyond(&self, drops: Option<&Drops>, line: MemberRay, nm: f64, path: LightPath) -> RayOutcome {
         let placement = &self.parameters.placement;
-        match through(self, drops, placement.inward(line), nm, way) {
-            Fate::On(out, share) => Fate::On(placement.outward(out), share),
+        match through(self, drops, placement.inward(line), nm, path) {
+            RayOutcome::Transmitted(out, fraction) => RayOutcome::Transmitted(placement.outward(out), fraction),
             other => other,
         }
     }
 }
 
-fn through(glass: &Windscreen, drops: Option<&Drops>, line: Line, nm: f64, way: Way) -> Fate {
+fn through(glass: &Windscreen, drops: Option<&Drops>, line: MemberRay, nm: f64, path: LightPath) -> RayOutcome {
     let outer = glass.faces.len() - 1;
-    let mut passage = Passage { glass, drops, wet: None, nm, line, medium: 0, share: 1.0, path_mm: 0.0 };
+    let mut passage = Passage { glass, drops, wetting_drop: None, nm, line, medium: 0, weight: 1.0, path_mm: 0.0 };
     if glass.faces[0].crossed(&line, 1.0).is_none() {
-        return Fate::Past;
+        return RayOutcome::Missed;
     }
-    match passage.run(outer, way) {
-        Some(()) => Fate::On(passage.line, passage.share * glass.bulk(passage.path_mm, nm)),
-        None => Fate::Lost,
+    match passage.run(outer, path) {
+        Some(()) => RayOutcome::Transmitted(passage.line, passage.weight * glass.bulk(passage.path_mm, nm)),
+        None => RayOutcome::Absorbed,
     }
 }
 
 impl Passage<'_> {
-    fn run(&mut self, outer: usize, way: Way) -> Option<()> {
+    fn run(&mut self, outer: usize, path: LightPath) -> Option<()> {
         (0..outer).try_for_each(|face| self.refract(face, 1.0).map(drop))?;
-        if way == Way::Doubled {
+        if path == LightPath::DoubleReflection {
             self.reflect(outer, 1.0)?;
             (1..outer).rev().try_for_each(|face| self.refract(face, -1.0).map(drop))?;
             self.reflect(0, -1.0)?;
@@ -253,16 +253,16 @@ impl Passage<'_> {
         }
         let normal = self.refract(outer, 1.0)?;
         let Some(drops) = self.drops else { return Some(()) };
-        let (line, share) = drops.leave(self.line, normal, self.wet, self.nm)?;
+        let (line, fraction) = drops.leave(self.line, normal, self.wetting_drop, self.nm)?;
         self.line = line;
-        self.share *= share;
+        self.weight *= fraction;
         Some(())
     }
 
     fn index(&self, medium: usize) -> f64 {
         match medium.checked_sub(1).and_then(|i| self.glass.parameters.layers.get(i)) {
             Some(layer) => layer.index.at(self.nm),
-            None => match self.drops.filter(|_| medium > 0 && self.wet.is_some()) {
+            None => match self.drops.filter(|_| medium > 0 && self.wetting_drop.is_some()) {
                 Some(drops) => drops.index(self.nm),
                 None => 1.0,
             },
@@ -277,7 +277,7 @@ impl Passage<'_> {
         }
         self.line.point_mm = point_mm;
         if let Some(drops) = self.drops.filter(|_| face + 1 == self.glass.faces.len()) {
-            self.wet = drops.wetting(point_mm);
+            self.wetting_drop = drops.wetting(point_mm);
         }
         Some(normal)
     }
@@ -294,7 +294,7 @@ impl Passage<'_> {
 
     fn coating(&self, face: usize) -> &Coating {
         let outer = self.glass.faces.len() - 1;
-        let is_dry = face == 0 || (face == outer && self.wet.is_none());
+        let is_dry = face == 0 || (face == outer && self.wetting_drop.is_none());
         if is_dry { &self.glass.parameters.coating } else { &Coating::Uncoated }
     }
 
@@ -302,7 +302,7 @@ impl Passage<'_> {
     fn refract(&mut self, face: usize, sense: f64) -> Option<DVec3> {
         let normal = self.arrive(face, sense)?;
         let (crossing, next) = self.crossing(face, sense, normal)?;
-        self.share *= self.coating(face).transmittance(&crossing, self.nm);
+        self.weight *= self.coating(face).transmittance(&crossing, self.nm);
         let (ratio, [along, beyond]) = (crossing.n[0] / crossing.n[1], crossing.cosine);
         let direction = self.line.direction * ratio + normal * (sense * (beyond - ratio * along));
         self.line.direction = direction.normalize();
@@ -314,7 +314,7 @@ impl Passage<'_> {
     fn reflect(&mut self, face: usize, sense: f64) -> Option<()> {
         let normal = self.arrive(face, sense)?;
         let (crossing, _) = self.crossing(face, sense, normal)?;
-        self.share *= 1.0 - self.coating(face).transmittance(&crossing, self.nm);
+        self.weight *= 1.0 - self.coating(face).transmittance(&crossing, self.nm);
         let direction = self.line.direction;
         self.line.direction = direction - normal * (2.0 * direction.dot(normal));
         Some(())

@@ -1,8 +1,8 @@
 //! Rays through drops on the glass, against closed forms and conservation laws.
 
-use super::{Layer, Way, Windscreen, WindscreenParameters};
+use super::{Layer, LightPath, Windscreen, WindscreenParameters};
 use crate::front::drops::{Cap, DropsParameters};
-use crate::front::{Curve, Fate, Line, Placement};
+use crate::front::{Curve, RayOutcome, MemberRay, Placement};
 use crate::prescription::coating::{Coating, Crossing};
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{asin, cos, sin, sin_cos, tan};
@@ -16,7 +16,7 @@ const THICK_MM: f64 = 5.0;
 /// Flat glass in the camera's frame: the inner face at z = 0.
 fn glass(tilt_deg: f64, radius_mm: f64) -> Windscreen {
     let parameters = WindscreenParameters {
-        placement: Placement::turned(DVec3::ZERO, [tilt_deg, 0.0, 0.0]),
+        placement: Placement::with_rotation_deg(DVec3::ZERO, [tilt_deg, 0.0, 0.0]),
         radius_across_mm: radius_mm,
         radius_upright_mm: radius_mm,
         layers: vec![Layer { thickness_mm: THICK_MM, index: Curve::Constant(GLASS) }],
@@ -51,24 +51,24 @@ fn one(contact_deg: f64) -> Windscreen {
     glass(0.0, f64::INFINITY).with_drops(centred).expect("legal drops")
 }
 
-fn ray(x: f64, angle_rad: f64) -> Line {
+fn ray(x: f64, angle_rad: f64) -> MemberRay {
     let (s, c) = sin_cos(angle_rad);
-    Line { point_mm: DVec3::new(x, 0.0, -10.0), direction: DVec3::new(s, 0.0, c) }
+    MemberRay { point_mm: DVec3::new(x, 0.0, -10.0), direction: DVec3::new(s, 0.0, c) }
 }
 
-fn on(fate: Fate) -> Option<(Line, f64)> {
-    match fate {
-        Fate::On(line, share) => Some((line, share)),
+fn on(outcome: RayOutcome) -> Option<(MemberRay, f64)> {
+    match outcome {
+        RayOutcome::Transmitted(line, fraction) => Some((line, fraction)),
         _ => None,
     }
 }
 
-fn wet(glass: &Windscreen, line: Line) -> Option<(Line, f64)> {
-    on(glass.through_wet(line, 550.0, Way::Straight))
+fn through_wet_glass(glass: &Windscreen, line: MemberRay) -> Option<(MemberRay, f64)> {
+    on(glass.through_wet(line, 550.0, LightPath::Direct))
 }
 
-fn dry(glass: &Windscreen, line: Line) -> (Line, f64) {
-    on(glass.through(line, 550.0, Way::Straight)).expect("a dry ray")
+fn through_dry_glass(glass: &Windscreen, line: MemberRay) -> (MemberRay, f64) {
+    on(glass.through(line, 550.0, LightPath::Direct)).expect("a dry ray")
 }
 
 fn transmittance(n: [f64; 2], angle_rad: f64) -> f64 {
@@ -83,7 +83,7 @@ fn a_drop_focuses_parallel_light_at_its_focal_length() {
     for contact_deg in [20.0, 60.0, 90.0] {
         let glass = one(contact_deg);
         let cap = Cap::new(1.0, contact_deg * PI / 180.0);
-        let (out, _) = wet(&glass, ray(1e-4, 0.0)).expect("light");
+        let (out, _) = through_wet_glass(&glass, ray(1e-4, 0.0)).expect("light");
         let crosses_mm = out.point_mm.z - out.direction.z * out.point_mm.x / out.direction.x;
         let focal_mm = crosses_mm - THICK_MM - cap.height_mm();
         // Spherical aberration goes with the square of 10⁻⁴.
@@ -103,10 +103,10 @@ fn a_drop_inverts_and_scales_what_is_behind_it() {
         for slope in [-2e-6, 1e-6, 3e-6] {
             let direction = DVec3::new(slope, 2.0 * slope, 1.0).normalize();
             let (out, _) =
-                wet(&glass, Line { point_mm: DVec3::new(0.0, 0.0, -distance_mm), direction }).expect("light");
-            let seen = out.direction / out.direction.z;
-            assert!((seen.x / (scale * slope) - 1.0).abs() < 1e-4, "{distance_mm}: {} {}", seen.x, scale * slope);
-            assert!((seen.y / (2.0 * scale * slope) - 1.0).abs() < 1e-4);
+                through_wet_glass(&glass, MemberRay { point_mm: DVec3::new(0.0, 0.0, -distance_mm), direction }).expect("light");
+            let visible = out.direction / out.direction.z;
+            assert!((visible.x / (scale * slope) - 1.0).abs() < 1e-4, "{distance_mm}: {} {}", visible.x, scale * slope);
+            assert!((visible.y / (2.0 * scale * slope) - 1.0).abs() < 1e-4);
         }
     }
 }
@@ -114,24 +114,24 @@ fn a_drop_inverts_and_scales_what_is_behind_it() {
 /// Under uniform illumination only Fresnel losses are visible: a ray r from the axis transmits T(glass, water) T(water, air at asin(r/R)) in place of
 /// T(glass, air), up to r = R/n, where total reflection begins. At the centre the drop is 1.9 % brighter than the glass next to it.
 #[test]
-fn in_even_light_a_drop_is_seen_by_its_fresnel_losses_alone() {
+fn in_uniform_light_a_drop_is_seen_by_its_fresnel_losses_alone() {
     let (glass, cap) = (one(60.0), Cap::new(1.0, PI / 3.0));
     for i in 0..86 {
         let r = f64::from(i) * 0.01;
         let line = ray(r, 0.0);
-        let (_, share) = wet(&glass, line).expect("light");
+        let (_, fraction) = through_wet_glass(&glass, line).expect("light");
         let within = asin(r / cap.sphere_radius_mm());
         let expected =
             transmittance([GLASS, WATER], 0.0) * transmittance([WATER, 1.0], within) / transmittance([GLASS, 1.0], 0.0);
-        assert!((share / dry(&glass, line).1 - expected).abs() < 1e-12, "{r}");
+        assert!((fraction / through_dry_glass(&glass, line).1 - expected).abs() < 1e-12, "{r}");
     }
-    let middle = wet(&glass, ray(0.0, 0.0)).expect("light").1 / dry(&glass, ray(0.0, 0.0)).1;
+    let middle = through_wet_glass(&glass, ray(0.0, 0.0)).expect("light").1 / through_dry_glass(&glass, ray(0.0, 0.0)).1;
     assert!((middle - 1.0188).abs() < 1e-4, "{middle}");
     // Beyond R/n light is reflected at the sphere: it leaves through the other side or not at all.
-    let rim = wet(&glass, ray(0.95, 0.0));
-    assert!(rim.is_none_or(|(out, _)| out.direction.x > 0.0), "no plain refraction: {rim:?}");
+    let aperture = through_wet_glass(&glass, ray(0.95, 0.0));
+    assert!(aperture.is_none_or(|(out, _)| out.direction.x > 0.0), "no plain refraction: {aperture:?}");
     // Next to the drop the glass is dry, to the bit.
-    assert_eq!(wet(&glass, ray(1.01, 0.0)), Some(dry(&glass, ray(1.01, 0.0))));
+    assert_eq!(through_wet_glass(&glass, ray(1.01, 0.0)), Some(through_dry_glass(&glass, ray(1.01, 0.0))));
 }
 
 /// Snell's law by hand: a ray in the plane of the axis at an angle, through glass, water and the sphere.
@@ -142,12 +142,12 @@ fn an_oblique_ray_obeys_snell_at_the_sphere() {
     let (inside, water) = (asin(sin(angle) / GLASS), asin(sin(angle) / WATER));
     // Meets the outer face 0.3 mm left of the axis.
     let start = -0.3 - 10.0 * tan(angle) - THICK_MM * tan(inside);
-    let (out, _) = wet(&glass, ray(start, angle)).expect("light");
+    let (out, _) = through_wet_glass(&glass, ray(start, angle)).expect("light");
     let foot = DVec2::new(-0.3, -cap.centre_height_mm());
-    let way = DVec2::new(sin(water), cos(water));
-    let along = foot.dot(way);
+    let direction = DVec2::new(sin(water), cos(water));
+    let along = foot.dot(direction);
     let r = cap.sphere_radius_mm();
-    let point = foot + way * ((along * along - foot.length_squared() + r * r).sqrt() - along);
+    let point = foot + direction * ((along * along - foot.length_squared() + r * r).sqrt() - along);
     let normal = asin(point.x / r);
     let expected = normal + asin(WATER * sin(water - normal));
     assert!((asin(out.direction.x) - expected).abs() < 1e-12, "{} {expected}", asin(out.direction.x));
@@ -157,8 +157,8 @@ fn an_oblique_ray_obeys_snell_at_the_sphere() {
 /// Position (x, y) and direction cosines, mm and 1, of a ray after the glass at a plane 20 mm away; before it, at its start.
 fn carried(glass: &Windscreen, state: DVec4) -> Option<DVec4> {
     let z = (1.0 - state.z * state.z - state.w * state.w).sqrt();
-    let line = Line { point_mm: DVec3::new(state.x, state.y, -10.0), direction: DVec3::new(state.z, state.w, z) };
-    let (out, _) = wet(glass, line)?;
+    let line = MemberRay { point_mm: DVec3::new(state.x, state.y, -10.0), direction: DVec3::new(state.z, state.w, z) };
+    let (out, _) = through_wet_glass(glass, line)?;
     let point = out.point_mm + out.direction * ((20.0 - out.point_mm.z) / out.direction.z);
     Some(DVec4::new(point.x, point.y, out.direction.x, out.direction.y))
 }
@@ -211,10 +211,10 @@ fn drops_on_tilted_curved_glass_lose_light_and_make_none() {
             let u = philox4x32([i, 0, 0, 0], [6, 0]).map(|w| f64::from(w) / 4_294_967_296.0);
             let direction = DVec3::new(u[2] - 0.5, 0.5 * (u[3] - 0.5), 1.0).normalize();
             let start = DVec3::new(30.0 * (u[0] - 0.5), 15.0 * (u[1] - 0.5), 0.0) - direction * 60.0;
-            match wet(&glass, Line { point_mm: start, direction }) {
-                Some((out, share)) => {
+            match through_wet_glass(&glass, MemberRay { point_mm: start, direction }) {
+                Some((out, fraction)) => {
                     bright += 1;
-                    assert!(share > 0.0 && share < 1.0 && (out.direction.length() - 1.0).abs() < 1e-12);
+                    assert!(fraction > 0.0 && fraction < 1.0 && (out.direction.length() - 1.0).abs() < 1e-12);
                     assert!(out.direction.dot(normal) > -0.02, "leaves: {}", out.direction.dot(normal));
                 }
                 None => dark += 1,
@@ -228,10 +228,10 @@ fn drops_on_tilted_curved_glass_lose_light_and_make_none() {
 #[test]
 fn the_double_image_is_fainter_under_a_drop() {
     let glass = one(60.0);
-    let doubled = |fate| on(fate).expect("a double image").1;
+    let doubled = |outcome| on(outcome).expect("a double image").1;
     let line = ray(0.0, 0.0);
     let ratio =
-        doubled(glass.through_wet(line, 550.0, Way::Doubled)) / doubled(glass.through(line, 550.0, Way::Doubled));
+        doubled(glass.through_wet(line, 550.0, LightPath::DoubleReflection)) / doubled(glass.through(line, 550.0, LightPath::DoubleReflection));
     let (water, air) = (transmittance([GLASS, WATER], 0.0), transmittance([GLASS, 1.0], 0.0));
     let expected = (1.0 - water) * water * transmittance([WATER, 1.0], 0.0) / ((1.0 - air) * air);
     assert!((ratio - expected).abs() < 1e-12, "{ratio} {expected}");

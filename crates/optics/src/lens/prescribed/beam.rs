@@ -10,7 +10,7 @@ use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
 use super::bundles::Cell;
-use crate::prescription::trace::{LensRay, Rims, Way};
+use crate::prescription::trace::{LensRay, ApertureTest, TravelDirection};
 use crate::{prescription::Prescription, prescription::indices::Media};
 
 /// Points of the first surface that determine the box of its clear aperture: along the radius, and over half a turn.
@@ -24,16 +24,16 @@ const STEPS: usize = 60;
 
 /// Origin of the rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
+pub(super) enum BeamRaySource {
     /// A direction towards the sensor.
     Direction(DVec3),
     /// A point of the lens frame.
     Point(DVec3),
 }
 
-impl Source {
+impl BeamRaySource {
     /// The point of the plane in focus on a principal ray (directed towards the scene), or its direction for infinity.
-    pub(super) fn of(lens: &Prescription, principal: LensRay) -> Self {
+    pub(super) fn from_principal_ray(lens: &Prescription, principal: LensRay) -> Self {
         let plane_mm = lens.paraxial().entrance_pupil_position_mm - lens.focus_distance_m() * 1e3;
         let t = (plane_mm - principal.point.z) / principal.direction.z;
         let ahead = t.is_finite() && t > 0.0;
@@ -58,7 +58,7 @@ impl Source {
 pub(super) struct Beam<'a> {
     lens: &'a Prescription,
     media: Media,
-    source: Source,
+    source: BeamRaySource,
     origin: DVec3,
     /// The principal ray's direction, towards the sensor, and the meridional direction perpendicular to it.
     ahead: DVec3,
@@ -72,7 +72,7 @@ impl<'a> Beam<'a> {
         let outward = DVec3::new(ahead.z, 0.0, -ahead.x);
         let nearest = DVec3::new(0.0, 0.0, lens.paraxial().entrance_pupil_position_mm);
         let origin = principal.point + ahead * (nearest - principal.point).dot(ahead);
-        Self { lens, media: lens.media(nm), source: Source::of(lens, principal), origin, ahead, outward }
+        Self { lens, media: lens.media(nm), source: BeamRaySource::from_principal_ray(lens, principal), origin, ahead, outward }
     }
 
     pub(super) fn ray(&self, q: DVec2) -> LensRay {
@@ -81,12 +81,12 @@ impl<'a> Beam<'a> {
 
     /// Filling of the clear apertures by a ray; see [`super::bundles`].
     pub(super) fn filling(&self, q: DVec2) -> Option<f64> {
-        self.lens.filling(self.ray(q), Way::ToSensor, &self.media)
+        self.lens.filling(self.ray(q), TravelDirection::ToSensor, &self.media)
     }
 
     /// Light per area of the plane, relative to that on the principal ray.
     pub(super) fn light(&self, q: DVec2) -> f64 {
-        let Source::Point(source) = self.source else { return 1.0 };
+        let BeamRaySource::Point(source) = self.source else { return 1.0 };
         let to = self.origin - source;
         let ray = self.ray(q).direction;
         let cosine = ray.dot(self.ahead);
@@ -95,8 +95,8 @@ impl<'a> Beam<'a> {
     }
 
     /// Position where a ray meets the sensor plane, clipped or not, mm.
-    pub(super) fn lands(&self, q: DVec2) -> Option<DVec2> {
-        let out = self.lens.arrives(self.ray(q), &self.media, Rims::Ignore).ok()?;
+    pub(super) fn sensor_point(&self, q: DVec2) -> Option<DVec2> {
+        let out = self.lens.arrives(self.ray(q), &self.media, ApertureTest::Ignore).ok()?;
         let t = (self.lens.sensor_position_mm() - out.point.z) / out.direction.z;
         Some((out.point + out.direction * t).truncate())
     }
@@ -104,10 +104,10 @@ impl<'a> Beam<'a> {
     /// A box that contains all rays through the first surface's clear aperture, from the line of symmetry on.
     pub(super) fn bounds(&self) -> Cell {
         let surface = &self.lens.surfaces()[0];
-        let rim = |i: usize| surface.semi_aperture_mm * i as f64 / RADII as f64;
+        let height_mm = |i: usize| surface.semi_aperture_mm * i as f64 / RADII as f64;
         let point = |i: usize| {
             let (sine, cosine) = sin_cos(PI * (i % (TURNS + 1)) as f64 / TURNS as f64);
-            let r = rim(i / (TURNS + 1));
+            let r = height_mm(i / (TURNS + 1));
             DVec3::new(r * cosine, r * sine, surface.shape().sag(r).unwrap_or(0.0))
         };
         let start = Cell { low: DVec2::new(f64::INFINITY, 0.0), high: DVec2::NEG_INFINITY };
@@ -147,9 +147,9 @@ impl<'a> Beam<'a> {
 
     /// Focus of two rays next to the principal ray, in its meridional plane or across it: mm behind the sensor.
     pub(super) fn fan_focus_mm(&self, across: bool) -> Option<f64> {
-        let (beside, axis) = if across { (DVec2::Y, DVec3::Y) } else { (DVec2::X, DVec3::X) };
+        let (sideways, axis) = if across { (DVec2::Y, DVec3::Y) } else { (DVec2::X, DVec3::X) };
         let step = FAN * self.lens.paraxial().entrance_radius_mm;
-        let out = |sign: f64| self.lens.arrives(self.ray(beside * (sign * step)), &self.media, Rims::Ignore);
+        let out = |sign: f64| self.lens.arrives(self.ray(sideways * (sign * step)), &self.media, ApertureTest::Ignore);
         let (a, b) = (out(-1.0).ok()?, out(1.0).ok()?);
         // Heights and slopes across the axis, at the sensor.
         let slope = |ray: &LensRay| ray.direction.dot(axis) / ray.direction.z;

@@ -15,15 +15,15 @@ use glam::DVec2;
 const COLUMNS: usize = 24;
 const ROWS: usize = 12;
 /// Levels of halving: of all cells with an edge, and of those that may hide a small bundle.
-const FINE: usize = 3;
-const DEEP: usize = 11;
+const EDGE_HALVINGS: usize = 3;
+const MAX_HALVINGS: usize = 11;
 /// Levels at which cells without any ray, and cells that pass at all tested points, are halved nevertheless.
-const COARSE: usize = 2;
+const MIN_HALVINGS: usize = 2;
 /// Required variation within a cell, as a factor, for a possible passing point.
-const HOPE: f64 = 1.5;
+const MAX_VARIATIONS: f64 = 1.5;
 
 /// Relative area below which a part counts as a fragment of another one nearer than a first cell.
-const CRUMB: f64 = 0.01;
+const MAX_FRAGMENT_RATIO: f64 = 0.01;
 
 /// A rectangle of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl Cell {
 }
 
 /// Classification of a cell by its points.
-enum Look {
+enum CellState {
     /// Some points pass; true if all do.
     Passes(bool),
     /// None passes, but the filling varies enough that one might.
@@ -73,19 +73,19 @@ enum Look {
     Blind,
 }
 
-fn look(cell: &Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> Look {
+fn classify(cell: &Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> CellState {
     let values = cell.points().map(filling);
     let known = values.iter().flatten();
-    let least = known.clone().copied().fold(f64::INFINITY, f64::min);
-    let most = known.copied().fold(f64::NEG_INFINITY, f64::max);
-    if least <= 1.0 {
-        Look::Passes(most <= 1.0 && values.iter().all(Option::is_some))
-    } else if least == f64::INFINITY {
-        Look::Blind
-    } else if least - 1.0 <= HOPE * (most - least) {
-        Look::Near
+    let minimum = known.clone().copied().fold(f64::INFINITY, f64::min);
+    let maximum = known.copied().fold(f64::NEG_INFINITY, f64::max);
+    if minimum <= 1.0 {
+        CellState::Passes(maximum <= 1.0 && values.iter().all(Option::is_some))
+    } else if minimum == f64::INFINITY {
+        CellState::Blind
+    } else if minimum - 1.0 <= MAX_VARIATIONS * (maximum - minimum) {
+        CellState::Near
     } else {
-        Look::Dark
+        CellState::Dark
     }
 }
 
@@ -121,23 +121,23 @@ pub(super) fn bundles(bounds: Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> 
         Cell { low, high: low + size }
     };
     let mut open: Vec<Cell> = (0..COLUMNS * ROWS).map(cell).collect();
-    let mut found = Vec::new();
-    for level in 0..=DEEP {
+    let mut parts = Vec::new();
+    for level in 0..=MAX_HALVINGS {
         let (mut halved, mut near) = (Vec::new(), Vec::new());
         for cell in open {
-            match look(&cell, filling) {
-                Look::Passes(all) if level >= FINE || (all && level >= COARSE) => found.push(cell),
-                Look::Near if level >= FINE => near.push(cell),
-                Look::Passes(_) | Look::Near => halved.push(cell),
-                Look::Blind if level < COARSE => halved.push(cell),
-                Look::Blind | Look::Dark => {}
+            match classify(&cell, filling) {
+                CellState::Passes(all) if level >= EDGE_HALVINGS || (all && level >= MIN_HALVINGS) => parts.push(cell),
+                CellState::Near if level >= EDGE_HALVINGS => near.push(cell),
+                CellState::Passes(_) | CellState::Near => halved.push(cell),
+                CellState::Blind if level < MIN_HALVINGS => halved.push(cell),
+                CellState::Blind | CellState::Dark => {}
             }
         }
         // The surroundings of a known bundle are its edge.
-        near.retain(|cell| !found.iter().any(|known: &Cell| known.touches(cell)));
+        near.retain(|cell| !parts.iter().any(|known: &Cell| known.touches(cell)));
         open = halved.into_iter().chain(near).flat_map(Cell::quarters).collect();
     }
-    without_crumbs(connected(found), size.max_element())
+    without_crumbs(connected(parts), size.max_element())
 }
 
 /// Joins fragments to the largest part that is nearer than `reach`.
@@ -145,9 +145,9 @@ fn without_crumbs(mut parts: Vec<Bundle>, reach: f64) -> Vec<Bundle> {
     parts.sort_by(|a, b| b.area().total_cmp(&a.area()));
     let mut list: Vec<Bundle> = Vec::new();
     for part in parts {
-        let crumb_of = |whole: &Bundle| {
-            let near = part.cells.iter().any(|cell| whole.distance(0.5 * (cell.low + cell.high)) < reach);
-            part.area() < CRUMB * whole.area() && near
+        let crumb_of = |parent: &Bundle| {
+            let near = part.cells.iter().any(|cell| parent.distance(0.5 * (cell.low + cell.high)) < reach);
+            part.area() < MAX_FRAGMENT_RATIO * parent.area() && near
         };
         match list.iter().position(crumb_of) {
             Some(i) => list[i].cells.extend(part.cells),
@@ -184,9 +184,9 @@ mod tests {
     #[test]
     fn a_disc_of_a_ten_thousandth_of_the_box_is_found() {
         for (x, radius) in [(0.3, 0.001), (-7.77, 0.01), (4.0, 2.0)] {
-            let found = bundles(bounds(), &|q: DVec2| Some((q - DVec2::new(x, 0.0)).length() / radius));
-            assert_eq!(found.len(), 1);
-            let middle = found[0].bounds();
+            let actual = bundles(bounds(), &|q: DVec2| Some((q - DVec2::new(x, 0.0)).length() / radius));
+            assert_eq!(actual.len(), 1);
+            let middle = actual[0].bounds();
             assert!((0.5 * (middle.low.x + middle.high.x) - x).abs() < 0.05 + radius, "{middle:?}");
         }
     }
@@ -196,8 +196,8 @@ mod tests {
         let disc = |q: DVec2| q.length() / 2.0;
         // The part of a ring of radii 5 to 6 with x above 4.
         let crescent = |q: DVec2| (1.0 + (q.length() - 5.5).abs() - 0.5).max(1.0 + 4.0 - q.x);
-        let found = bundles(bounds(), &|q: DVec2| Some(disc(q).min(crescent(q))));
-        let mut widths: Vec<f64> = found.iter().map(|b| b.bounds().high.x - b.bounds().low.x).collect();
+        let actual = bundles(bounds(), &|q: DVec2| Some(disc(q).min(crescent(q))));
+        let mut widths: Vec<f64> = actual.iter().map(|b| b.bounds().high.x - b.bounds().low.x).collect();
         widths.sort_by(f64::total_cmp);
         assert_eq!(widths.len(), 2);
         assert!((widths[0] - 2.0).abs() < 0.3 && (widths[1] - 4.0).abs() < 0.3, "{widths:?}");

@@ -10,7 +10,7 @@ use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3};
 
 use super::opening::Meridian;
-use crate::prescription::trace::{LensRay, Rims};
+use crate::prescription::trace::{LensRay, ApertureTest};
 use crate::{lens::FieldAngles, overlap::PRINCIPAL_NM, prescription::Prescription, prescription::indices::Media};
 
 const KNOTS: usize = 128;
@@ -43,8 +43,8 @@ impl Chiefs {
         let mut chiefs = Self { step_mm, slopes: vec![0.0], angles: vec![0.0] };
         for i in 1..knots {
             let s_mm = step_mm * i as f64;
-            let found = solve(lens, &media, s_mm, chiefs.guess(s_mm, lens));
-            let Some((slope, ray)) = found.and_then(|t| Some((t, front(lens, &media, s_mm, t)?))) else { break };
+            let solved = solve(lens, &media, s_mm, chiefs.guess(s_mm, lens));
+            let Some((slope, ray)) = solved.and_then(|t| Some((t, front(lens, &media, s_mm, t)?))) else { break };
             let angle = field_angle(ray.direction);
             if angle <= chiefs.angles[i - 1] {
                 break;
@@ -116,7 +116,7 @@ pub(super) fn field_angle(direction: DVec3) -> f64 {
 
 fn front(lens: &Prescription, media: &Media, s_mm: f64, slope: f64) -> Option<LensRay> {
     let ray = Meridian::at(s_mm, lens.sensor_position_mm()).ray(DVec2::new(slope, 0.0));
-    lens.passes(ray, media, Rims::Ignore).ok()
+    lens.passes(ray, media, ApertureTest::Ignore).ok()
 }
 
 /// The slope at which a ray from a height meets the stop's centre, near a guess.

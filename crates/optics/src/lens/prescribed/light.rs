@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
 
-use super::opening::{Meridian, Opening};
-use super::{Prescribed, region::Ellipse};
+use super::opening::{Meridian, PupilOpening};
+use super::{PrescriptionLens, region::Ellipse};
 use crate::lens::search::{GAUSS, unit};
 use crate::pupil::{MM, concentric};
 use crate::{overlap::PRINCIPAL_NM, prescription::trace::LensRay};
@@ -14,7 +14,7 @@ use crate::{overlap::PRINCIPAL_NM, prescription::trace::LensRay};
 /// Directions over half a turn for the étendue's quadrature.
 pub(crate) const DIRECTIONS: usize = 96;
 
-impl Prescribed {
+impl PrescriptionLens {
     pub(in crate::lens) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
         let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
         let (disc, turn) = concentric(pupil);
@@ -34,16 +34,16 @@ impl Prescribed {
     }
 
     pub(in crate::lens) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        self.seen(sensor_mm, self.chiefs.slope(&self.prescription, sensor_mm.length())?)
+        self.pupil_ray(sensor_mm, self.chiefs.slope(&self.prescription, sensor_mm.length())?)
     }
 
     /// The ray through the centroid of the open part of the pupil.
     pub(in crate::lens) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        self.seen(sensor_mm, self.regions.centroid(sensor_mm.length())?)
+        self.pupil_ray(sensor_mm, self.regions.centroid(sensor_mm.length())?)
     }
 
     /// A meridional ray at 587.56 nm with the whole pupil's weight, from its point nearest to the entrance pupil's centre.
-    fn seen(&self, sensor_mm: DVec2, slope: f64) -> Option<PupilRay> {
+    fn pupil_ray(&self, sensor_mm: DVec2, slope: f64) -> Option<PupilRay> {
         let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
         let t = DVec2::new(slope, 0.0);
         let (ray, transmittance) = self.out(&meridian, t, PRINCIPAL_NM)?;
@@ -68,7 +68,7 @@ impl Prescribed {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
         let meridian = Meridian::at(s_mm, self.prescription.sensor_position_mm());
-        let opening = Opening { lens: &self.prescription, media: &media, meridian };
+        let opening = PupilOpening { lens: &self.prescription, media: &media, meridian };
         let passing = |t: DVec2| self.passing(&meridian, t, nm);
         over_a_star(&opening, &ellipse, directions, &passing).unwrap_or_else(|| opening.integral(&passing))
     }
@@ -80,7 +80,7 @@ impl Prescribed {
 
 /// An integral over an opening that is star-shaped about its region's centre: for a number of directions the edge is found by bisection, then Gauss's
 /// rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
-fn over_a_star(opening: &Opening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
+fn over_a_star(opening: &PupilOpening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
     let centre = DVec2::new(ellipse.centre, 0.0);
     let edge = |direction: DVec2| {
         let edge = opening.reach(centre, direction, 3.0, 48, 40);

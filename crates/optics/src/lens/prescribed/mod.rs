@@ -38,14 +38,14 @@ pub(crate) use light::DIRECTIONS;
 
 /// A focused prescription with its pupils determined for an image of a given size.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Prescribed {
+pub struct PrescriptionLens {
     prescription: Prescription,
     filter: Option<InterferenceFilter>,
     chiefs: Chiefs,
     regions: Regions,
 }
 
-impl Prescribed {
+impl PrescriptionLens {
     /// Creates a lens for images that reach `picture_radius_mm` from the axis (farther out it is dark), with an optional filter in front of the
     /// sensor.
     ///

@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 use super::bundles::{Cell, bundles};
 use super::quadrature::Area;
-use crate::prescription::trace::{LensRay, Rims, Way};
+use crate::prescription::trace::{LensRay, ApertureTest, TravelDirection};
 use crate::{lens::search::last_open, prescription::Prescription, prescription::indices::Media};
 
 /// A sensor point in its meridional frame.
@@ -61,7 +61,7 @@ impl Meridian {
 }
 
 /// The opening at one sensor height and wavelength.
-pub(super) struct Opening<'a> {
+pub(super) struct PupilOpening<'a> {
     pub(super) lens: &'a Prescription,
     pub(super) media: &'a Media,
     pub(super) meridian: Meridian,
@@ -72,20 +72,20 @@ const SCAN: usize = 1024;
 /// Bisections of the scan's step.
 const HALVINGS: usize = 24;
 /// Positions along a radius at which an opening is tested for gaps.
-const LOOKS: usize = 20;
+const GAP_SAMPLES: usize = 20;
 /// Positions of the meridional plane, and of a grid across all slopes, at which separate pieces are distinguished.
 const PIECES: usize = 256;
 const GRID: usize = 96;
 /// Margin of the box of all slopes, relative to its width.
-const BEYOND: f64 = 0.01;
+const BOX_MARGIN: f64 = 0.01;
 /// Rows of a part's first and last quadrature, and the relative change that counts as converged.
 const ROWS: usize = 24;
 const MAX_ROWS: usize = 192;
-const SETTLED: f64 = 1e-6;
+const CONVERGED: f64 = 1e-6;
 
-impl Opening<'_> {
+impl PupilOpening<'_> {
     pub(super) fn passes(&self, t: DVec2) -> bool {
-        self.lens.passes(self.meridian.ray(t), self.media, Rims::Clip).is_ok()
+        self.lens.passes(self.meridian.ray(t), self.media, ApertureTest::Clip).is_ok()
     }
 
     /// The interval of meridional slopes that passes, from its first to its last point; `None` if none passes. `seed` is a slope likely to be inside
@@ -145,12 +145,12 @@ impl Opening<'_> {
 
     /// True if everything passes from `centre` to an edge.
     pub(super) fn is_open_to(&self, centre: DVec2, edge: DVec2) -> bool {
-        (0..LOOKS).all(|i| self.passes(centre + edge * (i as f64 / LOOKS as f64)))
+        (0..GAP_SAMPLES).all(|i| self.passes(centre + edge * (i as f64 / GAP_SAMPLES as f64)))
     }
 
     /// The integral of a function over all that passes, summed over the separate parts.
     pub(super) fn integral(&self, f: &impl Fn(DVec2) -> f64) -> f64 {
-        let filling = |t: DVec2| self.lens.filling(self.meridian.ray(t), Way::ToScene, self.media);
+        let filling = |t: DVec2| self.lens.filling(self.meridian.ray(t), TravelDirection::ToScene, self.media);
         let parts = bundles(self.bounds(), &filling);
         (0..parts.len()).map(|own| converged(&mut Area::new(&parts, own, filling), f)).sum()
     }
@@ -160,7 +160,7 @@ impl Opening<'_> {
         let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
         let [near, _] = self.lens.rear_distances_mm();
         let across = self.lens.surfaces().last().map_or(0.0, |surface| surface.semi_aperture_mm) / near;
-        let margin = BEYOND * (high - low);
+        let margin = BOX_MARGIN * (high - low);
         Cell { low: DVec2::new(low - margin, 0.0), high: DVec2::new(high + margin, across + margin) }
     }
 }
@@ -172,7 +172,7 @@ fn converged<F: Fn(DVec2) -> Option<f64>>(area: &mut Area<'_, F>, f: &impl Fn(DV
     loop {
         rows *= 2;
         let next = sum(rows);
-        if (next - last).abs() <= SETTLED * next || rows >= MAX_ROWS {
+        if (next - last).abs() <= CONVERGED * next || rows >= MAX_ROWS {
             return next;
         }
         last = next;

@@ -21,7 +21,7 @@ const GOLDEN_STEPS: usize = 24;
 
 /// A ray with its part of the bundle's area; zero for points of the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Node {
+pub(super) struct BundleNode {
     pub(super) q: DVec2,
     pub(super) area: f64,
 }
@@ -52,7 +52,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
     }
 
     /// Nodes of some rows; their areas cover both sides of the line of symmetry.
-    pub(super) fn nodes(&mut self, rows: usize) -> Vec<Node> {
+    pub(super) fn nodes(&mut self, rows: usize) -> Vec<BundleNode> {
         self.scan = SCAN.max(2 * rows);
         let Some([low, high]) = self.ends() else { return Vec::new() };
         // The angle runs from 0 on the line of symmetry, otherwise from −π/2.
@@ -82,12 +82,12 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         (self.filling)(DVec2::new(x, y)).unwrap_or(f64::INFINITY)
     }
 
-    fn row(&self, y: f64, height: f64, nodes: &mut Vec<Node>) {
+    fn row(&self, y: f64, height: f64, nodes: &mut Vec<BundleNode>) {
         for [a, b] in self.intervals(y) {
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-            nodes.extend([a, b].map(|x| Node { q: DVec2::new(x, y), area: 0.0 }));
+            nodes.extend([a, b].map(|x| BundleNode { q: DVec2::new(x, y), area: 0.0 }));
             for [x, weight] in GAUSS {
-                let node = |x: f64| Node { q: DVec2::new(x, y), area: weight * half * height };
+                let node = |x: f64| BundleNode { q: DVec2::new(x, y), area: weight * half * height };
                 nodes.extend([middle - half * x, middle + half * x].map(node));
             }
         }
@@ -95,7 +95,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
 
     /// Intervals of a row inside this bundle.
     fn intervals(&self, y: f64) -> Vec<[f64; 2]> {
-        let Cell { low, high } = self.searched();
+        let Cell { low, high } = self.search_cell();
         let at = |i: usize| low.x + (high.x - low.x) * i as f64 / self.scan as f64;
         let fullness: Vec<f64> = (0..=self.scan).map(|i| self.fullness(at(i), y)).collect();
         let (mut list, mut begun) = (Vec::new(), (fullness[0] <= 1.0).then_some(low.x));
@@ -141,7 +141,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
     }
 
     /// The bundle's box, slightly enlarged.
-    fn searched(&self) -> Cell {
+    fn search_cell(&self) -> Cell {
         let Cell { low, high } = self.bundles[self.own].bounds();
         let margin = 0.03 * (high - low);
         Cell { low: low - margin, high: high + margin }
@@ -176,8 +176,8 @@ mod tests {
 
     fn integral(filling: impl Fn(DVec2) -> Option<f64>, rows: usize, f: impl Fn(DVec2) -> f64) -> f64 {
         let bounds = Cell { low: DVec2::new(-10.0, 0.0), high: DVec2::new(10.0, 10.0) };
-        let found = bundles(bounds, &filling);
-        let mut area = Area::new(&found, 0, filling);
+        let actual = bundles(bounds, &filling);
+        let mut area = Area::new(&actual, 0, filling);
         area.nodes(rows).iter().map(|node| node.area * f(node.q)).sum()
     }
 

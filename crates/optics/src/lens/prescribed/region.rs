@@ -15,8 +15,8 @@ use core::f64::consts::PI;
 use glam::DVec2;
 
 use super::bundles::Cell;
-use super::opening::{Meridian, Opening};
-use crate::lens::search::{lit_as_far_as, unit};
+use super::opening::{Meridian, PupilOpening};
+use crate::lens::search::{max_lit_radius, unit};
 use crate::{overlap::PRINCIPAL_NM, prescription::Prescription};
 
 /// Wavelengths whose bundles the region contains, nm; dispersion is monotone, so bundles in between lie in between.
@@ -24,7 +24,7 @@ const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
 
 const INTERVALS: usize = 40;
 /// Heights sampled per interval, including both ends.
-const LOOKS: usize = 4;
+const INTERVAL_SAMPLES: usize = 4;
 /// Tabulated directions over half a turn.
 const DIRECTIONS: usize = 24;
 /// Directions sampled for each tabulated one.
@@ -40,10 +40,10 @@ pub(super) struct Ellipse {
 }
 
 impl Ellipse {
-    fn mix(&self, other: &Self, share: f64) -> Self {
+    fn mix(&self, other: &Self, fraction: f64) -> Self {
         Self {
-            centre: self.centre + share * (other.centre - self.centre),
-            axes: self.axes + (other.axes - self.axes) * share,
+            centre: self.centre + fraction * (other.centre - self.centre),
+            axes: self.axes + (other.axes - self.axes) * fraction,
         }
     }
 
@@ -78,12 +78,12 @@ impl Regions {
     /// Determines the regions by tracing, up to `picture_mm` from the axis or the end of the light. `chief` is the chief ray's slope at a height, if
     /// it exists. `None` if the centre of the sensor is dark.
     pub(super) fn new(lens: &Prescription, picture_mm: f64, chief: impl Fn(f64) -> Option<f64>) -> Option<Self> {
-        let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
-        let limit_mm = lit_as_far_as(picture_mm, 2 * INTERVALS, |s_mm| look(s_mm).is_some())?;
+        let ellipse_at = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
+        let limit_mm = max_lit_radius(picture_mm, 2 * INTERVALS, |s_mm| ellipse_at(s_mm).is_some())?;
         let width = limit_mm / INTERVALS as f64;
         // A dark height between lit ones may have any ellipse: nothing passes there.
         let next = |last: &mut Option<Ellipse>, i: usize| {
-            *last = look(width * i as f64).or(*last);
+            *last = ellipse_at(width * i as f64).or(*last);
             *last
         };
         let ellipses: Vec<Ellipse> = (0..=INTERVALS).scan(None, next).collect();
@@ -103,8 +103,8 @@ impl Regions {
     /// The proposal for a point of the unit disc whose unsigned angle from the meridian is `turn`.
     #[inline]
     pub(super) fn propose(&self, s_mm: f64, disc: DVec2, turn: f64) -> Option<Proposal> {
-        let (interval, share) = self.interval(s_mm)?;
-        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let (interval, fraction) = self.interval(s_mm)?;
+        let ellipse = interval.ends[0].mix(&interval.ends[1], fraction);
         let radius = interval.radius_at(turn * (DIRECTIONS as f64 / PI));
         let area = PI * ellipse.axes.x * ellipse.axes.y * radius * radius;
         Some(Proposal { slope: ellipse.at(disc * radius), area })
@@ -112,14 +112,14 @@ impl Regions {
 
     /// The ellipse at a height; `None` beyond the limit.
     pub(super) fn ellipse(&self, s_mm: f64) -> Option<Ellipse> {
-        let (interval, share) = self.interval(s_mm)?;
-        Some(interval.ends[0].mix(&interval.ends[1], share))
+        let (interval, fraction) = self.interval(s_mm)?;
+        Some(interval.ends[0].mix(&interval.ends[1], fraction))
     }
 
     /// The region's own centroid along the meridian, as a slope.
     pub(super) fn centroid(&self, s_mm: f64) -> Option<f64> {
-        let (interval, share) = self.interval(s_mm)?;
-        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let (interval, fraction) = self.interval(s_mm)?;
+        let ellipse = interval.ends[0].mix(&interval.ends[1], fraction);
         let (mut area, mut moment) = (0.0, 0.0);
         for (i, r) in interval.radius.iter().enumerate() {
             let weight = if i == 0 || i == DIRECTIONS { 0.5 } else { 1.0 };
@@ -131,8 +131,8 @@ impl Regions {
 
     /// Slope area of the region at a height.
     pub(super) fn area(&self, s_mm: f64) -> f64 {
-        let Some((interval, share)) = self.interval(s_mm) else { return 0.0 };
-        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let Some((interval, fraction)) = self.interval(s_mm) else { return 0.0 };
+        let ellipse = interval.ends[0].mix(&interval.ends[1], fraction);
         let squares = interval.radius.windows(2).map(|w| (w[0] * w[0] + w[0] * w[1] + w[1] * w[1]) / 3.0);
         ellipse.axes.x * ellipse.axes.y * PI * squares.sum::<f64>() / DIRECTIONS as f64
     }
@@ -142,7 +142,7 @@ impl Regions {
 pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Option<Ellipse> {
     WAVELENGTHS_NM.into_iter().find_map(|nm| {
         let media = lens.media(nm);
-        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
+        let opening = PupilOpening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
         let [low, high] = opening.meridional(chief)?;
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let across = match opening.extent().filter(|_| !opening.is_one_piece()) {
@@ -156,22 +156,22 @@ pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Opt
 impl Interval {
     fn new(lens: &Prescription, ends: [Ellipse; 2], start_mm: f64, width_mm: f64) -> Self {
         let mut interval = Self { ends, radius: [0.0; DIRECTIONS + 1] };
-        for look in 0..LOOKS {
-            let share = look as f64 / (LOOKS - 1) as f64;
-            WAVELENGTHS_NM.into_iter().for_each(|nm| interval.hold(lens, start_mm + width_mm * share, share, nm));
+        for sample in 0..INTERVAL_SAMPLES {
+            let fraction = sample as f64 / (INTERVAL_SAMPLES - 1) as f64;
+            WAVELENGTHS_NM.into_iter().for_each(|nm| interval.include(lens, start_mm + width_mm * fraction, fraction, nm));
         }
         interval.radius.iter_mut().for_each(|r| *r *= MARGIN);
         interval
     }
 
     /// Raises R until the region contains all that passes at one height and wavelength: first at the tabulated directions, then between them.
-    fn hold(&mut self, lens: &Prescription, s_mm: f64, share: f64, nm: f64) {
+    fn include(&mut self, lens: &Prescription, s_mm: f64, fraction: f64, nm: f64) {
         let media = lens.media(nm);
-        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
-        let ellipse = self.ends[0].mix(&self.ends[1], share);
+        let opening = PupilOpening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
+        let ellipse = self.ends[0].mix(&self.ends[1], fraction);
         if !opening.is_one_piece() {
             if let Some(Cell { low, high }) = opening.extent() {
-                self.hold_box(&ellipse, low, high);
+                self.include_box(&ellipse, low, high);
             }
             return;
         }
@@ -192,9 +192,9 @@ impl Interval {
     }
 
     /// Raises R until the region contains a box.
-    fn hold_box(&mut self, ellipse: &Ellipse, low: DVec2, high: DVec2) {
-        let beside = (high.x - ellipse.centre).max(ellipse.centre - low.x);
-        let corner = (DVec2::new(beside, high.y) / ellipse.axes).length();
+    fn include_box(&mut self, ellipse: &Ellipse, low: DVec2, high: DVec2) {
+        let half_width = (high.x - ellipse.centre).max(ellipse.centre - low.x);
+        let corner = (DVec2::new(half_width, high.y) / ellipse.axes).length();
         // Sagitta of the straight lines between the tabulated points.
         let [chord, _] = unit(0.5 * PI / DIRECTIONS as f64).to_array();
         self.radius.iter_mut().for_each(|r| *r = r.max(corner / chord));
@@ -208,10 +208,10 @@ impl Interval {
 
     fn raise(&mut self, place: f64, by: f64) {
         let i = (place as usize).min(DIRECTIONS - 1);
-        let share = place - i as f64;
+        let fraction = place - i as f64;
         // The smallest change of both neighbours that raises the line between them by `by`.
-        let scale = by / (share * share + (1.0 - share) * (1.0 - share));
-        self.radius[i] += scale * (1.0 - share);
-        self.radius[i + 1] += scale * share;
+        let scale = by / (fraction * fraction + (1.0 - fraction) * (1.0 - fraction));
+        self.radius[i] += scale * (1.0 - fraction);
+        self.radius[i + 1] += scale * fraction;
     }
 }

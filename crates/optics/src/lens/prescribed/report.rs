@@ -20,7 +20,7 @@ use etendue_spectra::glass::{LINE_C_NM, LINE_F_NM};
 use glam::DVec2;
 
 use super::spot::{OtherBundle, Pupil, Spot};
-use super::{Prescribed, beam::Beam};
+use super::{PrescriptionLens, beam::Beam};
 use crate::{overlap::PRINCIPAL_NM, prescription::paraxial::Paraxial};
 
 /// The measured properties of a lens.
@@ -95,7 +95,7 @@ pub struct LateralShift {
     pub chief_mm: Option<f64>,
 }
 
-impl Prescribed {
+impl PrescriptionLens {
     /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit image; first-order quantities at the lens's reference
     /// wavelength.
     #[must_use]
@@ -142,12 +142,12 @@ impl Prescribed {
         let c = self.prescription.principal_distance_mm();
         let relative = |ideal: f64| if height_mm == 0.0 { 0.0 } else { height_mm / ideal - 1.0 };
         let pupil = Pupil::new(&at_d);
-        let lit = pupil.as_ref().and_then(|pupil| pupil.lit(&at_d));
+        let lit = pupil.as_ref().and_then(|pupil| pupil.principal_spot(&at_d));
         let spot = lit.map(|lit| lit.spot);
         let chief_d_mm = chief_mm(&at_d);
         let lateral = |nm: f64| {
             let beam = beam(nm);
-            let (spot, at) = (spot?, pupil.as_ref()?.lit(&beam)?.spot);
+            let (spot, at) = (spot?, pupil.as_ref()?.principal_spot(&beam)?.spot);
             let chief_mm = chief_mm(&beam).zip(chief_d_mm).map(|(at, d)| at - d);
             let centroid_error_mm = at.centroid_error_mm + spot.centroid_error_mm;
             Some(LateralShift { centroid_mm: at.centroid_mm - spot.centroid_mm, centroid_error_mm, chief_mm })
@@ -161,12 +161,12 @@ impl Prescribed {
             spot,
             lateral_f: lateral(LINE_F_NM),
             lateral_c: lateral(LINE_C_NM),
-            other_bundles: pupil.zip(lit).map_or_else(Vec::new, |(pupil, lit)| pupil.others(&at_d, &lit)),
+            other_bundles: pupil.zip(lit).map_or_else(Vec::new, |(pupil, lit)| pupil.other_bundles(&at_d, &lit)),
         })
     }
 }
 
 /// The landing position of the chief ray of a wavelength, mm.
 fn chief_mm(beam: &Beam<'_>) -> Option<f64> {
-    Some(beam.lands(beam.chief()?)?.x)
+    Some(beam.sensor_point(beam.chief()?)?.x)
 }

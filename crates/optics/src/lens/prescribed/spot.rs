@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::beam::Beam;
 use super::bundles::{Bundle, bundles};
-use super::quadrature::{Area, Node};
+use super::quadrature::{Area, BundleNode};
 
 /// Rows of the first quadrature, and the maximum number of doublings.
 const ROWS: usize = 12;
@@ -42,7 +42,7 @@ pub struct OtherBundle {
 
 /// Light and spot of a bundle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lit {
+pub(super) struct BundleSpot {
     light: f64,
     pub(super) spot: Spot,
 }
@@ -63,27 +63,27 @@ impl Pupil {
     }
 
     /// The principal ray's bundle, also at a wavelength near that of the search.
-    pub(super) fn lit(&self, beam: &Beam<'_>) -> Option<Lit> {
+    pub(super) fn principal_spot(&self, beam: &Beam<'_>) -> Option<BundleSpot> {
         self.converged(beam, self.main)
     }
 
     /// The other bundles, the brightest first.
-    pub(super) fn others(&self, beam: &Beam<'_>, main: &Lit) -> Vec<OtherBundle> {
+    pub(super) fn other_bundles(&self, beam: &Beam<'_>, main: &BundleSpot) -> Vec<OtherBundle> {
         let lit = (0..self.list.len()).filter(|i| *i != self.main).filter_map(|i| self.converged(beam, i));
         let mut others: Vec<_> =
-            lit.map(|Lit { light, spot }| OtherBundle { light: light / main.light, spot }).collect();
+            lit.map(|BundleSpot { light, spot }| OtherBundle { light: light / main.light, spot }).collect();
         others.sort_by(|a, b| b.light.total_cmp(&a.light));
         others
     }
 
-    fn converged(&self, beam: &Beam<'_>, own: usize) -> Option<Lit> {
+    fn converged(&self, beam: &Beam<'_>, own: usize) -> Option<BundleSpot> {
         let mut area = Area::new(&self.list, own, |q| beam.filling(q));
         let (mut rows, mut nodes) = (ROWS, area.nodes(ROWS));
-        let mut last = landed(beam, &nodes)?;
+        let mut last = spot_of_nodes(beam, &nodes)?;
         for _ in 0..DOUBLINGS {
             rows *= 2;
             nodes = area.nodes(rows);
-            let Some(mut next) = landed(beam, &nodes) else { break };
+            let Some(mut next) = spot_of_nodes(beam, &nodes) else { break };
             next.spot.rms_error_mm = (next.spot.rms_mm - last.spot.rms_mm).abs();
             next.spot.centroid_error_mm = (next.spot.centroid_mm - last.spot.centroid_mm).abs();
             let settled = RELATIVE * next.spot.rms_mm + ABSOLUTE_MM;
@@ -98,24 +98,24 @@ impl Pupil {
 }
 
 /// Largest distance from the centroid, mm: of the rays, and of the edge about the farthest of them.
-fn farthest<F>(beam: &Beam<'_>, area: &Area<'_, F>, rows: usize, nodes: &[Node], centroid_mm: f64) -> f64
+fn farthest<F>(beam: &Beam<'_>, area: &Area<'_, F>, rows: usize, nodes: &[BundleNode], centroid_mm: f64) -> f64
 where
     F: Fn(DVec2) -> Option<f64>,
 {
-    let distance = |q: DVec2| beam.lands(q).map_or(0.0, |p| (p - DVec2::new(centroid_mm, 0.0)).length());
-    let most = nodes.iter().max_by(|a, b| distance(a.q).total_cmp(&distance(b.q)));
-    most.map_or(0.0, |node| area.highest(node.q, rows, distance))
+    let distance = |q: DVec2| beam.sensor_point(q).map_or(0.0, |p| (p - DVec2::new(centroid_mm, 0.0)).length());
+    let maximum = nodes.iter().max_by(|a, b| distance(a.q).total_cmp(&distance(b.q)));
+    maximum.map_or(0.0, |node| area.highest(node.q, rows, distance))
 }
 
 /// The spot of a set of rays; a single set gives no error estimate.
-fn landed(beam: &Beam<'_>, nodes: &[Node]) -> Option<Lit> {
+fn spot_of_nodes(beam: &Beam<'_>, nodes: &[BundleNode]) -> Option<BundleSpot> {
     let rays: Vec<(DVec2, f64)> =
-        nodes.iter().filter_map(|node| Some((beam.lands(node.q)?, node.area * beam.light(node.q)))).collect();
+        nodes.iter().filter_map(|node| Some((beam.sensor_point(node.q)?, node.area * beam.light(node.q)))).collect();
     let light: f64 = rays.iter().map(|(_, weight)| weight).sum();
     let centroid_mm = rays.iter().map(|(p, weight)| p.x * weight).sum::<f64>() / light;
     let square = |p: &DVec2| (*p - DVec2::new(centroid_mm, 0.0)).length_squared();
     let rms_mm = (rays.iter().map(|(p, weight)| square(p) * weight).sum::<f64>() / light).sqrt();
     let unknown = f64::INFINITY;
     let spot = Spot { rms_mm, rms_error_mm: unknown, radius_mm: unknown, centroid_mm, centroid_error_mm: unknown };
-    (light > 0.0).then_some(Lit { light, spot })
+    (light > 0.0).then_some(BundleSpot { light, spot })
 }

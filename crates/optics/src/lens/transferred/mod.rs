@@ -29,7 +29,7 @@ use crate::pupil::{MM, concentric_disc};
 use crate::ray_transfer::{RayTransfer, RayTransferError, TransferRay};
 use near_axis::NearAxis;
 use pupils::{Oval, Pupils};
-use sight::Sight;
+use sight::PupilQuery;
 
 /// Position of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub enum SensorPlace {
 
 /// A lens known by its ray-transfer functions, focused.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Transferred {
+pub struct RayTransferLens {
     transfer: RayTransfer,
     transmittance: f64,
     near: NearAxis,
@@ -58,7 +58,7 @@ const HALVINGS: usize = 60;
 /// Directions of the quadrature over the pupil.
 const DIRECTIONS: usize = 96;
 
-impl Transferred {
+impl RayTransferLens {
     /// Creates a lens for images that reach `picture_radius_mm` from the axis; farther out it is dark.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ impl Transferred {
             SensorPlace::Distance(sensor_mm) => NearAxis::at(&transfer, sensor_mm, reach_mm),
             SensorPlace::Focus(focus_m) => NearAxis::focused(&transfer, focus_m, reach_mm),
         }?;
-        let sight = Sight { transfer: &transfer, sensor_mm: near.sensor_mm, of: None };
+        let sight = PupilQuery { transfer: &transfer, sensor_mm: near.sensor_mm, of: None };
         let dark = RayTransferError::Dark { sensor_mm: near.sensor_mm };
         let pupils = Pupils::new(&sight, reach_mm).ok_or(dark)?;
         let mut lens = Self { transfer, transmittance, near, pupils, angles: vec![0.0] };
@@ -161,8 +161,8 @@ impl Transferred {
     }
 
     /// The rays that pass at a wavelength, or at any.
-    fn sight(&self, of: Option<usize>) -> Sight<'_> {
-        Sight { transfer: &self.transfer, sensor_mm: self.near.sensor_mm, of }
+    fn query(&self, of: Option<usize>) -> PupilQuery<'_> {
+        PupilQuery { transfer: &self.transfer, sensor_mm: self.near.sensor_mm, of }
     }
 
     pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
@@ -175,7 +175,7 @@ impl Transferred {
         if !self.transfer.passes(self.transfer.nearest(nm), &entry) {
             return None;
         }
-        let ray = self.transfer.leaving(&entry, self.near.sensor_mm, nm)?;
+        let ray = self.transfer.exit_ray(&entry, self.near.sensor_mm, nm)?;
         let weight_sr = self.transmittance * proposal.area_mm2 * self.per_area(entry.direction.z);
         Some(PupilRay { origin_m: self.point_m(ray.point_mm), direction: flipped(ray.direction), weight_sr })
     }
@@ -190,7 +190,7 @@ impl Transferred {
     /// The principal ray of a distance from the axis, in the plane x = 0 of the lens.
     fn meridian_ray(&self, radius_mm: f64) -> Option<(TransferRay, Oval)> {
         let oval = self.pupils.oval(radius_mm)?;
-        Some((self.sight(None).meridian_ray(radius_mm, oval.centre_mm, PRINCIPAL_NM)?, oval))
+        Some((self.query(None).meridian_ray(radius_mm, oval.centre_mm, PRINCIPAL_NM)?, oval))
     }
 
     /// The angle from the axis seen at a distance from it, rad, towards the opposite side of the point.
@@ -253,7 +253,7 @@ impl Transferred {
 
     pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         let radius_mm = sensor_mm.length();
-        let sight = self.sight(Some(self.transfer.nearest(PRINCIPAL_NM)));
+        let sight = self.query(Some(self.transfer.nearest(PRINCIPAL_NM)));
         let Some(oval) = Oval::about(&sight, radius_mm) else { return 0.0 };
         let (centre, distance_mm) = (DVec2::new(oval.centre_mm, 0.0), sight.distance_mm());
         let along = |i: usize| {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{pupils::Oval, sight::Sight};
+use super::{pupils::Oval, sight::PupilQuery};
 use crate::ray_transfer::{RayTransfer, RayTransferError};
 use crate::{lens::paraxial_properties::Conjugates, lens::search::towards, overlap::PRINCIPAL_NM, pupil::MM};
 
@@ -29,7 +29,7 @@ const FIELDS: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
 const HEIGHTS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.2];
 /// Number of zones of the axial bundle: the centres of equal areas.
 const ZONES: usize = 16;
-const RIM: usize = 32;
+const EDGE_DIRECTIONS: usize = 32;
 /// The largest sensor distance tried for focus, in focal lengths from the input plane.
 const MAX_SENSOR_DISTANCE: f64 = 6.0;
 const HALVINGS: usize = 80;
@@ -45,9 +45,9 @@ impl NearAxis {
         if transfer.pupil_distance_mm(sensor_mm) <= 0.0 {
             return Err(RayTransferError::PassPlane { sensor_mm });
         }
-        let sight = Sight { transfer, sensor_mm, of: Some(transfer.nearest(PRINCIPAL_NM)) };
-        let known_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.greatest_height_mm();
-        let chiefs = Chiefs::near(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
+        let sight = PupilQuery { transfer, sensor_mm, of: Some(transfer.nearest(PRINCIPAL_NM)) };
+        let known_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.max_height_mm();
+        let chiefs = Chiefs::near_axis(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
         let oval = Oval::about(&sight, 0.0).ok_or_else(dark)?;
         let radius_mm = oval.axes_mm.x;
         let heights = |zone: f64| {
@@ -59,17 +59,17 @@ impl NearAxis {
         let bundle: Vec<_> = zones.filter_map(heights).collect();
         let squares: f64 = bundle.iter().map(|(y, _)| y * y).sum();
         let turns: f64 = bundle.iter().map(|(y, slope)| y * slope).sum();
-        let rim = (0..RIM).filter_map(|i| rim_height(&sight, &oval, towards(i, RIM), chiefs.entrance_mm));
-        let rim: Vec<f64> = rim.collect();
+        let edge = (0..EDGE_DIRECTIONS).filter_map(|i| edge_height(&sight, &oval, towards(i, EDGE_DIRECTIONS), chiefs.entrance_mm));
+        let edge: Vec<f64> = edge.collect();
         let focal_length_mm = focal_length_mm(transfer, radius_mm).ok_or(RayTransferError::Powerless)?;
-        if !(squares > 0.0 && !rim.is_empty() && chiefs.principal_distance_mm > 0.0) {
+        if !(squares > 0.0 && !edge.is_empty() && chiefs.principal_distance_mm > 0.0) {
             return Err(dark());
         }
         Ok(Self {
             sensor_mm,
             focal_length_mm,
             entrance_mm: chiefs.entrance_mm,
-            entrance_radius_mm: rim.iter().sum::<f64>() / rim.len() as f64,
+            entrance_radius_mm: edge.iter().sum::<f64>() / edge.len() as f64,
             exit_mm: chiefs.exit_mm,
             principal_distance_mm: chiefs.principal_distance_mm,
             vergence_per_mm: -turns / squares,
@@ -78,12 +78,12 @@ impl NearAxis {
 
     /// Properties for the sensor position at which a distance (m, infinity is legal) is sharp.
     pub(super) fn focused(transfer: &RayTransfer, focus_m: f64, reach_mm: f64) -> Result<Self, RayTransferError> {
-        let wanted = MM / focus_m;
+        let power_per_mm = MM / focus_m;
         let radius_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.radius_on_axis_mm();
         let focal_mm = focal_length_mm(transfer, radius_mm).ok_or(RayTransferError::Powerless)?;
         let low_mm = transfer.input_offset_mm().max(0.0) + 1e-6 * focal_mm;
         let mut places = [low_mm, low_mm + MAX_SENSOR_DISTANCE * focal_mm];
-        let off = |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - wanted);
+        let off = |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - power_per_mm);
         // A sensor too far away or too near may be dark: the bracket lies where both ends are defined.
         let known: Vec<(f64, f64)> = (0..=48)
             .map(|i| places[0] + (places[1] - places[0]) * f64::from(i * i) / f64::from(48 * 48))
@@ -96,7 +96,7 @@ impl NearAxis {
             let middle = 0.5 * (places[0] + places[1]);
             places[usize::from(off(middle)? > 0.0)] = middle;
         }
-        Ok(Self { vergence_per_mm: wanted, ..Self::at(transfer, places[0], reach_mm)? })
+        Ok(Self { vergence_per_mm: power_per_mm, ..Self::at(transfer, places[0], reach_mm)? })
     }
 
     /// First-order focusing, in the terms of the paraxial lenses.
@@ -110,12 +110,12 @@ impl NearAxis {
 }
 
 /// Distance from the axis at which a marginal ray of the axial bundle meets the plane of the entrance pupil, mm.
-fn rim_height(sight: &Sight<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64) -> Option<f64> {
+fn edge_height(sight: &PupilQuery<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64) -> Option<f64> {
     let centre = DVec2::new(oval.centre_mm, 0.0);
     let step = direction * oval.axes_mm;
     let q = centre + step * sight.reach(0.0, centre, step, 1.5);
     let entry = sight.transfer.entry(DVec2::ZERO, q, sight.sensor_mm);
-    let ray = sight.transfer.leaving(&entry, sight.sensor_mm, PRINCIPAL_NM)?;
+    let ray = sight.transfer.exit_ray(&entry, sight.sensor_mm, PRINCIPAL_NM)?;
     let at: DVec3 = ray.point_mm + ray.direction * ((entrance_mm - ray.point_mm.z) / ray.direction.z);
     Some(at.truncate().length())
 }
@@ -124,7 +124,7 @@ fn rim_height(sight: &Sight<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64
 fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
     // The sensor is far enough behind for the rays to be parallel, at the height of each.
     let sensor_mm = transfer.input_offset_mm().max(0.0) + radius_mm;
-    let sight = Sight { transfer, sensor_mm, of: None };
+    let sight = PupilQuery { transfer, sensor_mm, of: None };
     let slope = |height_mm: f64| {
         let ray = sight.meridian_ray(height_mm, height_mm, PRINCIPAL_NM)?;
         Some((height_mm, ray.direction.y / ray.direction.z))
@@ -143,7 +143,7 @@ struct Chiefs {
 }
 
 impl Chiefs {
-    fn near(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
+    fn near_axis(sight: &PupilQuery<'_>, reach_mm: f64) -> Option<Self> {
         let distance_mm = sight.distance_mm();
         // Sums of squares of slopes in front and of their products with the axis crossings; of slopes behind; of heights and slopes.
         let (mut front, mut crossings, mut behind, mut exits, mut heights, mut products) =

@@ -10,7 +10,7 @@ use crate::ray_transfer::{RayTransfer, TransferRay};
 
 /// A lens with its sensor position.
 #[derive(Clone, Copy)]
-pub(super) struct Sight<'a> {
+pub(super) struct PupilQuery<'a> {
     pub(super) transfer: &'a RayTransfer,
     /// Distance from the rear vertex to the sensor, mm.
     pub(super) sensor_mm: f64,
@@ -23,9 +23,9 @@ const MAX_SLOPE: f64 = 2.0;
 const SCAN: i32 = 2048;
 const HALVINGS: usize = 48;
 /// Positions along a line at which its last open point is searched.
-const LOOKS: usize = 40;
+const LINE_SAMPLES: usize = 40;
 
-impl Sight<'_> {
+impl PupilQuery<'_> {
     /// The distance of the pupil's plane from the sensor, mm.
     pub(super) fn distance_mm(&self) -> f64 {
         self.transfer.pupil_distance_mm(self.sensor_mm)
@@ -51,10 +51,10 @@ impl Sight<'_> {
     }
 
     /// Extent of the pupil from a point along a step, in steps, searched up to `most` of them; 0 if nothing is open.
-    pub(super) fn reach(&self, radius_mm: f64, from: DVec2, step: DVec2, most: f64) -> f64 {
-        let at = |i: usize| most * i as f64 / LOOKS as f64;
+    pub(super) fn reach(&self, radius_mm: f64, from: DVec2, step: DVec2, maximum: f64) -> f64 {
+        let at = |i: usize| maximum * i as f64 / LINE_SAMPLES as f64;
         let is_open = |t: f64| self.passes(radius_mm, from + step * t);
-        let last = (0..=LOOKS).rev().find(|i| is_open(at(*i)));
+        let last = (0..=LINE_SAMPLES).rev().find(|i| is_open(at(*i)));
         last.map_or(0.0, |i| last_open([at(i), at(i + 1)], HALVINGS, is_open))
     }
 
@@ -63,7 +63,7 @@ impl Sight<'_> {
     pub(super) fn meridian_ray(&self, radius_mm: f64, along_mm: f64, nm: f64) -> Option<TransferRay> {
         let (point, pupil) = (DVec2::new(0.0, radius_mm), DVec2::new(0.0, along_mm));
         let entry = self.transfer.entry(point, pupil, self.sensor_mm);
-        let mut ray = self.transfer.leaving(&entry, self.sensor_mm, nm)?;
+        let mut ray = self.transfer.exit_ray(&entry, self.sensor_mm, nm)?;
         // The fit's component across the meridian is an error.
         (ray.point_mm.x, ray.direction.x) = (0.0, 0.0);
         ray.direction = ray.direction.normalize();

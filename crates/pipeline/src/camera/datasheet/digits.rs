@@ -4,13 +4,13 @@ use etendue_core::maths::f64::pow;
 
 /// Range of numbers with the same printed value, and that value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
+pub(super) struct PrintedRange {
     pub(super) low: f64,
     pub(super) printed: f64,
     pub(super) high: f64,
 }
 
-impl Span {
+impl PrintedRange {
     /// Range of the numbers that print as `value`: half a unit of its last digit to both sides.
     pub(super) fn printed(value: f64) -> Self {
         let text = format!("{value}");
@@ -44,8 +44,8 @@ impl Span {
 
     /// Returns true if both ranges have a number in common. Rounding of the bounds is no contradiction.
     pub(super) fn meets(self, other: Self) -> bool {
-        let slack = 1e-9 * self.high.abs().max(other.high.abs());
-        self.low <= other.high + slack && other.low <= self.high + slack
+        let tolerance = 1e-9 * self.high.abs().max(other.high.abs());
+        self.low <= other.high + tolerance && other.low <= self.high + tolerance
     }
 }
 
@@ -55,13 +55,13 @@ mod tests {
 
     #[test]
     fn digits_say_how_far_a_number_may_be_off() {
-        let near = |span: Span, low: f64, high: f64| {
+        let near = |span: PrintedRange, low: f64, high: f64| {
             assert!((span.low - low).abs() < 1e-12 && (span.high - high).abs() < 1e-12, "{span:?}");
         };
-        near(Span::printed(40.1), 40.05, 40.15);
-        near(Span::printed(10_000.0), 9999.5, 10_000.5);
-        near(Span::printed(0.25).falling(|x| 1.0 / x), 1.0 / 0.255, 1.0 / 0.245);
-        near(Span::printed(8.0).over(Span::printed(2.0)), 7.5 / 2.5, 8.5 / 1.5);
-        assert!(Span::printed(1.0).meets(Span::printed(2.0)) && !Span::printed(1.0).meets(Span::printed(2.1)));
+        near(PrintedRange::printed(40.1), 40.05, 40.15);
+        near(PrintedRange::printed(10_000.0), 9999.5, 10_000.5);
+        near(PrintedRange::printed(0.25).falling(|x| 1.0 / x), 1.0 / 0.255, 1.0 / 0.245);
+        near(PrintedRange::printed(8.0).over(PrintedRange::printed(2.0)), 7.5 / 2.5, 8.5 / 1.5);
+        assert!(PrintedRange::printed(1.0).meets(PrintedRange::printed(2.0)) && !PrintedRange::printed(1.0).meets(PrintedRange::printed(2.1)));
     }
 }

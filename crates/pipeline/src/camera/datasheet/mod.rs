@@ -10,16 +10,16 @@ mod consistency;
 mod digits;
 mod write;
 
-pub use consistency::LOOSE;
-use consistency::{Figures, largest_dn};
+pub use consistency::MAX_RELATIVE_DIFFERENCE;
+use consistency::{SheetFigures, largest_dn};
 
 use etendue_scene::record::DataSheet;
-use etendue_scene::{ErrorCode, Fault};
+use etendue_scene::{ErrorCode, DescriptionError};
 use etendue_sensor::figures::{MIN_DARK_DN2, dark_noise_e};
 
 /// A camera file made from a data sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Imported {
+pub struct DataSheetCamera {
     /// The camera file, TOML.
     pub camera: String,
     /// The tables that it names: file name and text of each.
@@ -32,17 +32,17 @@ pub struct Imported {
 ///
 /// # Errors
 /// All contradictions, with their places.
-pub fn imported(sheet: &DataSheet, stem: &str) -> Result<Imported, Vec<Fault>> {
+pub fn imported(sheet: &DataSheet, stem: &str) -> Result<DataSheetCamera, Vec<DescriptionError>> {
     let gain_dn_e = gain(sheet);
-    let noise = noise(sheet, gain_dn_e).map_err(|fault| vec![fault])?;
-    let consistency::Found { faults, mut warnings } = consistency::check(sheet, gain_dn_e);
-    if !faults.is_empty() {
-        return Err(faults);
+    let noise = noise(sheet, gain_dn_e).map_err(|error| vec![error])?;
+    let consistency::SheetFindings { errors, mut warnings } = consistency::check(sheet, gain_dn_e);
+    if !errors.is_empty() {
+        return Err(errors);
     }
-    let figures = Figures { gain_dn_e, dark_noise_e: noise, black_level_dn: black_level(sheet, gain_dn_e, noise) };
-    warnings.extend(remarks(sheet));
+    let figures = SheetFigures { gain_dn_e, dark_noise_e: noise, black_level_dn: black_level(sheet, gain_dn_e, noise) };
+    warnings.extend(notes(sheet));
     let tables = write::tables(sheet, stem);
-    Ok(Imported { camera: write::camera(sheet, figures, stem), tables, warnings })
+    Ok(DataSheetCamera { camera: write::camera(sheet, figures, stem), tables, warnings })
 }
 
 /// K; if its inverse is stated too, K itself is used.
@@ -52,14 +52,14 @@ fn gain(sheet: &DataSheet) -> f64 {
 }
 
 /// σ_d, e⁻, as stated or from σ_y.dark without its quantisation.
-fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, Fault> {
+fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, DescriptionError> {
     if let Some(noise) = &sheet.temporal_dark_noise_e {
         return Ok(noise.value);
     }
     let dn = sheet.temporal_dark_noise_dn.as_ref().expect("a record that was read has one");
     dark_noise_e(dn.value, gain_dn_e).ok_or_else(|| {
         let problem = format!("a dark noise of {} DN is below the quantisation noise of 0.289 DN", dn.value);
-        Fault::new(
+        DescriptionError::new(
             ErrorCode::OutOfRange,
             &dn.place,
             problem,
@@ -78,30 +78,30 @@ fn black_level(sheet: &DataSheet, gain_dn_e: f64, noise_e: f64) -> f64 {
 }
 
 /// Figures that the sheet does not state, or that the camera omits.
-fn remarks(sheet: &DataSheet) -> Vec<String> {
-    let mut remarks = Vec::new();
+fn notes(sheet: &DataSheet) -> Vec<String> {
+    let mut plan_notes = Vec::new();
     let missing = [
         (sheet.dsnu_e.is_none(), "dsnu_e"),
         (sheet.prnu_percent.is_none(), "prnu_percent"),
         (sheet.dark_current_e_s.is_none(), "dark_current_e_s"),
     ];
-    remarks
+    plan_notes
         .extend(missing.iter().filter(|m| m.0).map(|m| format!("{}: \"{}\" is missing; 0 is used", sheet.place, m.1)));
     let photons = sheet.saturation_capacity_p.is_some() || sheet.sensitivity_threshold_p.is_some();
     if let (Some(key), false) = (&sheet.measured_at_nm, photons) {
-        remarks.push(format!(
+        plan_notes.push(format!(
             "{}: \"measured_at_nm\" is not used: \"saturation_capacity_p\" and \"sensitivity_threshold_p\" are missing",
             key.place
         ));
     }
     if let Some(error) = &sheet.linearity_error_percent {
-        remarks.push(format!(
+        plan_notes.push(format!(
             "{}: a linearity error of {} % is not modelled: the response is linear",
             error.place, error.value
         ));
     }
     if let Some(dn) = sheet.temporal_dark_noise_dn.as_ref().filter(|dn| dn.value * dn.value <= MIN_DARK_DN2) {
-        remarks.push(format!(
+        plan_notes.push(format!(
             "{}: {} DN is the minimum that the standard reports: the noise may be smaller",
             dn.place, dn.value
         ));
@@ -109,8 +109,8 @@ fn remarks(sheet: &DataSheet) -> Vec<String> {
     for (channel, points) in sheet.quantum_efficiency_percent.curves() {
         if let [only] = points.as_slice() {
             let message = format!("the efficiency of \"{channel}\" at {} nm is used at all wavelengths", only.value[0]);
-            remarks.push(format!("{}: {message}", only.place));
+            plan_notes.push(format!("{}: {message}", only.place));
         }
     }
-    remarks
+    plan_notes
 }

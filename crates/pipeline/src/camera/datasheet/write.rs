@@ -1,7 +1,7 @@
 //! The camera file of a data sheet, with the origin of every number.
 
-use super::Figures;
-use etendue_scene::record::datasheet::Points;
+use super::SheetFigures;
+use etendue_scene::record::datasheet::CurvePoints;
 use etendue_scene::record::lens::Pinhole;
 use etendue_scene::record::sensor::QuantumEfficiency;
 use etendue_scene::record::sensor::cfa::CfaSource;
@@ -9,7 +9,7 @@ use etendue_scene::record::sensor::charge::{Dark, NonUniformity};
 use etendue_scene::record::{Camera, Curve, DataSheet, Electronics, Lens, Sensor};
 use etendue_scene::written::File;
 
-pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String {
+pub(super) fn camera(sheet: &DataSheet, figures: SheetFigures, stem: &str) -> String {
     let width_um = sheet.pixel_pitch_um.value * sheet.width_px.value as f64;
     let lens = Lens::Pinhole(Pinhole::new(width_um.round().max(1.0) / 1e3, 8.0));
     let (width, height, pitch) = (sheet.width_px.value, sheet.height_px.value, sheet.pixel_pitch_um.value);
@@ -19,7 +19,7 @@ pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String 
         format!("{name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\": given on the data sheet.");
     // A comment of several lines would not belong to the name.
     let file = File::new(Camera::new(lens, sensor).to_table()).head(head.replace('\n', " "));
-    let file = origins(sheet).into_iter().fold(file, |file, (key, about)| file.above(key, about));
+    let file = origins(sheet).into_iter().fold(file, |file, (key, comment)| file.above(key, comment));
     match &sheet.linearity_error_percent {
         Some(error) => {
             file.above("sensor", format!("The stated linearity error of {} % is not modelled.", error.value))
@@ -29,7 +29,7 @@ pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String 
     .to_string()
 }
 
-fn electronics(sheet: &DataSheet, figures: Figures, stem: &str) -> Electronics {
+fn electronics(sheet: &DataSheet, figures: SheetFigures, stem: &str) -> Electronics {
     let dark_current_e_s = sheet.dark_current_e_s.as_ref().map_or(0.0, |i| i.value);
     let needed = Electronics::new(
         0.01,
@@ -47,7 +47,7 @@ fn electronics(sheet: &DataSheet, figures: Figures, stem: &str) -> Electronics {
 
 /// Source of each number, by its key.
 fn origins(sheet: &DataSheet) -> [(&'static str, &'static str); 10] {
-    let stated = |is_stated: bool, otherwise: &'static str| if is_stated { "Stated." } else { otherwise };
+    let stated_or = |is_stated: bool, otherwise: &'static str| if is_stated { "Stated." } else { otherwise };
     let noise = match sheet.temporal_dark_noise_e {
         Some(_) => "Stated temporal dark noise, without quantisation.",
         None => "From the stated dark noise in DN: √(σ² − 1/12)/K, so that rounding is not counted twice.",
@@ -70,16 +70,16 @@ fn origins(sheet: &DataSheet) -> [(&'static str, &'static str); 10] {
             "Stated saturation capacity: where the temporal variance is largest, slightly below the full well.",
         ),
         ("sensor.read_noise_e", noise),
-        ("sensor.dark_current_e_s", stated(sheet.dark_current_e_s.is_some(), "Not on the sheet.")),
-        ("sensor.gain_dn_per_e", stated(sheet.gain_dn_per_e.is_some(), "The inverse of the stated 1/K.")),
-        ("sensor.black_level_dn", stated(sheet.black_level_dn.is_some(), black)),
+        ("sensor.dark_current_e_s", stated_or(sheet.dark_current_e_s.is_some(), "Not on the sheet.")),
+        ("sensor.gain_dn_per_e", stated_or(sheet.gain_dn_per_e.is_some(), "The inverse of the stated 1/K.")),
+        ("sensor.black_level_dn", stated_or(sheet.black_level_dn.is_some(), black)),
         ("sensor.non_uniformity", "Stated."),
         ("sensor.dark", "The temperature of the stated dark current; set that of the sensor in the first line."),
     ]
 }
 
 fn pattern(sheet: &DataSheet) -> Option<NonUniformity> {
-    let prnu = sheet.prnu_percent.as_ref().map(|prnu| share(prnu.value).into());
+    let prnu = sheet.prnu_percent.as_ref().map(|prnu| fraction(prnu.value).into());
     let dsnu_e = sheet.dsnu_e.as_ref().map(|dsnu| dsnu.value.into());
     (prnu.is_some() || dsnu_e.is_some()).then(|| NonUniformity { prnu, dsnu_e, ..NonUniformity::default() })
 }
@@ -95,14 +95,14 @@ fn dark(sheet: &DataSheet) -> Option<Dark> {
 }
 
 /// A percentage as a fraction, without the rounding error of a division.
-fn share(percent: f64) -> f64 {
+fn fraction(percent: f64) -> f64 {
     (percent * 1e9).round() / 1e11
 }
 
 /// One number, or a table, for each channel.
 fn efficiency(sheet: &DataSheet, stem: &str) -> QuantumEfficiency {
-    let value = |channel: &str, points: &Points| match points.as_slice() {
-        [only] => Curve::Constant(share(only.value[1]).into()),
+    let value = |channel: &str, points: &CurvePoints| match points.as_slice() {
+        [only] => Curve::Constant(fraction(only.value[1]).into()),
         _ => Curve::File(table_name(stem, channel).as_str().into()),
     };
     let curves = sheet.quantum_efficiency_percent.curves();
@@ -121,8 +121,8 @@ fn table_name(stem: &str, channel: &str) -> String {
 /// The curves with several points.
 pub(super) fn tables(sheet: &DataSheet, stem: &str) -> Vec<(String, String)> {
     let curves = sheet.quantum_efficiency_percent.curves();
-    let table = |(channel, points): &(&str, &Points)| {
-        let row = |p: &etendue_scene::Placed<[f64; 2]>| format!("{},{}\n", p.value[0], share(p.value[1]));
+    let table = |(channel, points): &(&str, &CurvePoints)| {
+        let row = |p: &etendue_scene::Placed<[f64; 2]>| format!("{},{}\n", p.value[0], fraction(p.value[1]));
         let rows: String = points.iter().map(row).collect();
         (table_name(stem, channel), format!("wavelength_nm,quantum_efficiency\n{rows}"))
     };

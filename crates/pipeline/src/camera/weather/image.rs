@@ -1,6 +1,6 @@
 //! A stored image of a camera in the world.
 
-use crate::camera::stored::Stored;
+use crate::camera::stored::StoredRadianceImage;
 use core::f64::consts::FRAC_PI_2;
 use etendue_core::maths::f64::asin;
 use etendue_core::quantity::Length;
@@ -8,13 +8,13 @@ use etendue_core::{CameraPose, Plane, Ray};
 use glam::{DVec2, DVec3};
 
 /// A stored image of a camera in the world.
-pub(super) struct Image<'a> {
-    pub(super) stored: &'a Stored<'a>,
+pub(super) struct PosedImage<'a> {
+    pub(super) stored: &'a StoredRadianceImage<'a>,
     pub(super) distance: &'a Plane<Length>,
     pub(super) pose: &'a CameraPose,
 }
 
-impl Image<'_> {
+impl PosedImage<'_> {
     /// Direction of a pixel's ray, in the camera's frame.
     pub(super) fn direction(&self, i: usize) -> Option<DVec3> {
         let (x, y) = (i % self.distance.width(), i / self.distance.width());

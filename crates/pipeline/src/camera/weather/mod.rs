@@ -16,18 +16,18 @@ mod streaks;
 #[cfg(test)]
 mod tests;
 
-use crate::camera::stored::Stored;
+use crate::camera::stored::StoredRadianceImage;
 use crate::plan::{Airlight, Weather};
 use etendue_core::maths::f64::exp;
 use etendue_core::quantity::{Cover, Length, Radiance, Transmittance};
 use etendue_core::{Bands, CameraPose, Plane, Ray, SpectralCube, TimeInterval};
 use etendue_tracer::media::Media;
-use image::Image;
+use image::PosedImage;
 use rayon::prelude::*;
 
 /// An image seen through weather.
 #[derive(Clone, Debug)]
-pub struct Weathered {
+pub struct WeatheredImage {
     /// Radiance seen through the weather.
     pub radiance: SpectralCube<Radiance>,
     /// Fraction of the scene's light that is transmitted, by band.
@@ -61,57 +61,57 @@ impl Weather {
     ///
     /// # Errors
     /// The image has no distances, or none of the sky from which the airlight is to be computed.
-    pub fn over(
+    pub fn apply(
         &self,
-        stored: &Stored<'_>,
+        stored: &StoredRadianceImage<'_>,
         pose: &CameraPose,
         moment: TimeInterval,
-    ) -> Result<Weathered, WeatherError> {
+    ) -> Result<WeatheredImage, WeatherError> {
         let distance = stored.distance.ok_or(WeatherError::Distance)?;
-        let image = Image { stored, distance, pose };
+        let image = PosedImage { stored, distance, pose };
         let airlight = self.airlight(&image)?;
         let media = Media::new(&self.media, pose.position_m, moment);
         let Some(falling) = &self.falling else { return Ok(self.through_media(&image, &media, &airlight)) };
         let streaks = falling.streaks(&image, moment.start_s());
-        let media = streaks.hollowed(media);
-        let mut seen = self.through_media(&image, &media, &airlight);
-        streaks.compose(&mut seen, &image, &self.before(&media, &airlight, stored.radiance.bands()));
-        Ok(seen)
+        let media = streaks.without_near_particles(media);
+        let mut weathered = self.through_media(&image, &media, &airlight);
+        streaks.compose(&mut weathered, &image, &self.foreground(&media, &airlight, stored.radiance.bands()));
+        Ok(weathered)
     }
 
     /// Applies Koschmieder's law.
-    fn through_media(&self, image: &Image<'_>, media: &Media<'_>, airlight: &[f64]) -> Weathered {
+    fn through_media(&self, image: &PosedImage<'_>, media: &Media<'_>, airlight: &[f64]) -> WeatheredImage {
         let (distance, bands) = (image.distance, image.stored.radiance.bands());
-        let before = self.before(media, airlight, bands);
+        let before = self.foreground(media, airlight, bands);
         let columns_m: Vec<_> =
             (0..distance.samples().len()).into_par_iter().map(|i| media.columns_m(&image.ray(i))).collect();
-        let mut seen = Weathered {
+        let mut weathered = WeatheredImage {
             radiance: image.stored.radiance.clone(),
             transmittance: SpectralCube::new(distance.width(), distance.height(), bands),
             airlight: SpectralCube::new(distance.width(), distance.height(), bands),
             cover: None,
             depth: image.depth(),
         };
-        let planes = seen.radiance.planes_mut().iter_mut().zip(seen.transmittance.planes_mut());
-        for (band, ((radiance, share), added)) in planes.zip(seen.airlight.planes_mut()).enumerate() {
-            let pixels = radiance.samples_mut().par_iter_mut().zip(share.samples_mut()).zip(added.samples_mut());
-            pixels.enumerate().for_each(|(i, ((radiance, share), added))| {
+        let planes = weathered.radiance.planes_mut().iter_mut().zip(weathered.transmittance.planes_mut());
+        for (band, ((radiance, scene_transmittance), added)) in planes.zip(weathered.airlight.planes_mut()).enumerate() {
+            let pixels = radiance.samples_mut().par_iter_mut().zip(scene_transmittance.samples_mut()).zip(added.samples_mut());
+            pixels.enumerate().for_each(|(i, ((radiance, scene_transmittance), added))| {
                 let through = before.transmittance(&columns_m[i], band);
                 let air = airlight[band] * (1.0 - through);
-                (*share, *added) = (through as f32, air as f32);
+                (*scene_transmittance, *added) = (through as f32, air as f32);
                 *radiance = (f64::from(*radiance) * through + air) as f32;
             });
         }
-        seen
+        weathered
     }
 
-    fn before<'a>(&self, media: &'a Media<'a>, airlight: &'a [f64], bands: Bands) -> Before<'a> {
+    fn foreground<'a>(&self, media: &'a Media<'a>, airlight: &'a [f64], bands: Bands) -> ForegroundMedia<'a> {
         let extinctions = self.media.iter().map(|medium| medium.extinction().band_means(bands)).collect();
-        Before { media, extinctions, airlight }
+        ForegroundMedia { media, extinctions, airlight }
     }
 
     /// Airlight by band.
-    fn airlight(&self, image: &Image<'_>) -> Result<Vec<f64>, WeatherError> {
+    fn airlight(&self, image: &PosedImage<'_>) -> Result<Vec<f64>, WeatherError> {
         let radiance = image.stored.radiance;
         match &self.airlight {
             Airlight::Uniform(spectrum) => Ok(spectrum.band_means(radiance.bands())),
@@ -130,7 +130,7 @@ impl Weather {
 }
 
 /// Weather before a surface: media, and the radiance of the air in them.
-struct Before<'a> {
+struct ForegroundMedia<'a> {
     media: &'a Media<'a>,
     /// Extinction by medium and band, 1/m.
     extinctions: Vec<Vec<f64>>,
@@ -138,7 +138,7 @@ struct Before<'a> {
     airlight: &'a [f64],
 }
 
-impl Before<'_> {
+impl ForegroundMedia<'_> {
     /// Transmittance in a band over path lengths in each medium, m.
     fn transmittance(&self, columns_m: &[f64], band: usize) -> f64 {
         // Zero extinction gives zero depth, even over an infinite length.
@@ -147,11 +147,11 @@ impl Before<'_> {
     }
 
     /// Radiance by band as seen along a ray from its `t_max`.
-    fn seen(&self, radiance: &[f64], ray: &Ray) -> Vec<f64> {
+    fn radiance_along(&self, radiance: &[f64], ray: &Ray) -> Vec<f64> {
         let columns_m = self.media.columns_m(ray);
         let of = |(band, radiance): (usize, &f64)| {
-            let through = self.transmittance(&columns_m, band);
-            radiance * through + self.airlight[band] * (1.0 - through)
+            let transmittance = self.transmittance(&columns_m, band);
+            radiance * transmittance + self.airlight[band] * (1.0 - transmittance)
         };
         radiance.iter().enumerate().map(of).collect()
     }

@@ -4,7 +4,7 @@
 //! reach pixels of the image if it contains their direction, otherwise the mean of its sky or of its part below the horizon. The drop is assumed to be at the
 //! camera: near objects are seen from there.
 
-use super::image::Image;
+use super::image::PosedImage;
 use etendue_core::Wavelengths;
 use etendue_core::quantity::Radiance;
 use etendue_tracer::media::Phase;
@@ -21,7 +21,7 @@ const DIRECTIONS: u32 = 1024;
 const TURN: f32 = 0.618_034;
 
 /// Radiance of drops or flakes, by the pixel that they are in front of.
-pub(super) struct ShownLight {
+pub(super) struct ParticleRadiance {
     cell_px: usize,
     columns: usize,
     width: usize,
@@ -31,46 +31,46 @@ pub(super) struct ShownLight {
 
 /// Target of a continued ray.
 #[derive(Clone, Copy)]
-enum Onward {
+enum ContinuedRay {
     Pixel(usize),
     Above,
     Below,
 }
 
-impl ShownLight {
+impl ParticleRadiance {
     /// For an image, with `airlight` by band where its sky is not visible.
-    pub(super) fn new(image: &Image<'_>, phase: &Phase, airlight: &[f64]) -> Self {
+    pub(super) fn new(image: &PosedImage<'_>, phase: &Phase, airlight: &[f64]) -> Self {
         let (width, height) = (image.distance.width(), image.distance.height());
         let cell_px = width.max(height).div_ceil(CELLS);
         let (columns, rows) = (width.div_ceil(cell_px), height.div_ceil(cell_px));
-        let about = About::new(image, airlight);
+        let surroundings = SurroundingMeans::new(image, airlight);
         let cell = |i: usize| {
             let first = DVec2::new((i % columns) as f64, (i / columns) as f64) * cell_px as f64;
             let middle = first + 0.5 * cell_px as f64;
             let direction = image.direction_at(middle).or_else(|| image.direction_at(first + 0.5));
-            direction.map_or_else(|| airlight.to_vec(), |direction| about.mean(image, phase, direction))
+            direction.map_or_else(|| airlight.to_vec(), |direction| surroundings.mean(image, phase, direction))
         };
         Self { cell_px, columns, width, cells: (0..columns * rows).into_par_iter().map(cell).collect() }
     }
 
     /// Radiance by band, in front of a pixel.
-    pub(super) fn before(&self, pixel: usize) -> &[f64] {
+    pub(super) fn in_front_of(&self, pixel: usize) -> &[f64] {
         let (x, y) = (pixel % self.width / self.cell_px, pixel / self.width / self.cell_px);
         &self.cells[y * self.columns + x]
     }
 }
 
 /// Means of the radiance in the image, by band.
-struct About {
+struct SurroundingMeans {
     /// Mean of the sky.
     above: Vec<f64>,
     /// Mean below the horizon.
     below: Vec<f64>,
 }
 
-impl About {
-    fn new(image: &Image<'_>, airlight: &[f64]) -> Self {
-        let looks: Vec<(usize, f64, bool)> = (0..image.distance.samples().len())
+impl SurroundingMeans {
+    fn new(image: &PosedImage<'_>, airlight: &[f64]) -> Self {
+        let sightings: Vec<(usize, f64, bool)> = (0..image.distance.samples().len())
             .filter_map(|i| {
                 let direction = image.direction(i)?;
                 Some((i, image.solid_angle(i), (image.pose.rotation * direction).z >= 0.0))
@@ -78,12 +78,12 @@ impl About {
             .collect();
         let is_sky = |i: usize| image.distance.samples()[i] == f32::INFINITY;
         let mean = |of: &dyn Fn(usize, bool) -> bool| {
-            let chosen = || looks.iter().filter(|(i, _, is_above)| of(*i, *is_above));
-            let whole: f64 = chosen().map(|(_, weight, _)| weight).sum();
+            let chosen = || sightings.iter().filter(|(i, _, is_above)| of(*i, *is_above));
+            let total_weight: f64 = chosen().map(|(_, weight, _)| weight).sum();
             let planes = image.stored.radiance.planes().iter();
-            let sums = planes.map(|plane| chosen().map(|(i, weight, _)| f64::from(plane.samples()[*i]) * weight).sum());
-            let sums: Vec<f64> = sums.collect();
-            (whole > 0.0).then(|| sums.into_iter().map(|sum| sum / whole).collect::<Vec<f64>>())
+            let weighted = planes.map(|plane| chosen().map(|(i, weight, _)| f64::from(plane.samples()[*i]) * weight).sum());
+            let weighted: Vec<f64> = weighted.collect();
+            (total_weight > 0.0).then(|| weighted.into_iter().map(|sum| sum / total_weight).collect::<Vec<f64>>())
         };
         let above = mean(&|i, is_above| is_above && is_sky(i)).unwrap_or_else(|| airlight.to_vec());
         let below =
@@ -92,27 +92,27 @@ impl About {
     }
 
     /// Radiance by band of a particle that is seen along a direction of the camera's frame.
-    fn mean(&self, image: &Image<'_>, phase: &Phase, direction: DVec3) -> Vec<f64> {
+    fn mean(&self, image: &PosedImage<'_>, phase: &Phase, direction: DVec3) -> Vec<f64> {
         let rotation = image.pose.rotation;
-        let along = (rotation * direction).as_vec3();
+        let direction_to = (rotation * direction).as_vec3();
         let wavelengths = Wavelengths::<1> { nm: [550.0], pdf: [1.0] };
-        let onward = |k: u32| {
+        let continued = |k: u32| {
             let u = Vec2::new((k as f32 + 0.5) / DIRECTIONS as f32, (k as f32 * TURN).fract());
-            let towards = phase.sample(along, 0.5, u, &wavelengths).as_dvec3();
+            let towards = phase.sample(direction_to, 0.5, u, &wavelengths).as_dvec3();
             match image.pixel(rotation.transpose() * towards) {
-                Some(pixel) => Onward::Pixel(pixel),
-                None if towards.z >= 0.0 => Onward::Above,
-                None => Onward::Below,
+                Some(pixel) => ContinuedRay::Pixel(pixel),
+                None if towards.z >= 0.0 => ContinuedRay::Above,
+                None => ContinuedRay::Below,
             }
         };
-        let onwards: Vec<Onward> = (0..DIRECTIONS).map(onward).collect();
-        let radiance = |plane: &etendue_core::Plane<Radiance>, band: usize, onward: &Onward| match onward {
-            Onward::Pixel(i) => f64::from(plane.samples()[*i]),
-            Onward::Above => self.above[band],
-            Onward::Below => self.below[band],
+        let continued_rays: Vec<ContinuedRay> = (0..DIRECTIONS).map(continued).collect();
+        let radiance = |plane: &etendue_core::Plane<Radiance>, band: usize, continued: &ContinuedRay| match continued {
+            ContinuedRay::Pixel(i) => f64::from(plane.samples()[*i]),
+            ContinuedRay::Above => self.above[band],
+            ContinuedRay::Below => self.below[band],
         };
         let planes = image.stored.radiance.planes().iter().enumerate();
-        let sums = planes.map(|(band, plane)| onwards.iter().map(|onward| radiance(plane, band, onward)).sum::<f64>());
-        sums.map(|sum| sum / f64::from(DIRECTIONS)).collect()
+        let weighted = planes.map(|(band, plane)| continued_rays.iter().map(|continued| radiance(plane, band, continued)).sum::<f64>());
+        weighted.map(|sum| sum / f64::from(DIRECTIONS)).collect()
     }
 }

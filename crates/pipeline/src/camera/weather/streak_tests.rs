@@ -1,13 +1,13 @@
 //! Streaks over images of uniform walls, compared with closed forms and laws.
 
 use super::*;
-use crate::plan::{Falling, Precipitation};
+use crate::plan::{PrecipitationExposure, Precipitation};
 use etendue_core::Motion;
 use etendue_core::maths::f64::ln;
 use etendue_optics::PupilProjection;
 use etendue_spectra::Spectrum;
-use etendue_tracer::media::{Medium, Phase, Shape};
-use etendue_tracer::precipitation::{ChangeOver, Field, SizeLaw};
+use etendue_tracer::media::{Medium, Phase, MediumRegion};
+use etendue_tracer::precipitation::{ChangeOver, PrecipitationField, SizeLaw};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::ThreadPoolBuilder;
 
@@ -41,33 +41,33 @@ impl Wall {
         }
     }
 
-    fn even(radiance: f32) -> Self {
+    fn uniform(radiance: f32) -> Self {
         Self::new(|_| radiance, |_| 40.0)
     }
 
-    fn stored(&self) -> Stored<'_> {
-        Stored { projection: &self.projection, radiance: &self.radiance, distance: Some(&self.distance) }
+    fn stored(&self) -> StoredRadianceImage<'_> {
+        StoredRadianceImage { projection: &self.projection, radiance: &self.radiance, distance: Some(&self.distance) }
     }
 
-    fn seen(&self, weather: &Weather) -> Weathered {
-        weather.over(&self.stored(), &self.pose, TimeInterval::at(2.0).expect("finite")).expect("distances")
+    fn through_weather(&self, weather: &Weather) -> WeatheredImage {
+        weather.apply(&self.stored(), &self.pose, TimeInterval::at(2.0).expect("finite")).expect("distances")
     }
 }
 
 fn precipitation(law: SizeLaw, seed: u32, smallest_px: f64) -> Precipitation {
-    let field = Field::new(law, DVec3::new(0.5, 1.0, 0.0), 500.0, seed);
-    Precipitation { field, medium: 0, clear_m: 1.0, smallest_px, most: 10_000_000 }
+    let field = PrecipitationField::new(law, DVec3::new(0.5, 1.0, 0.0), 500.0, seed);
+    Precipitation { field, medium: 0, clear_m: 1.0, smallest_px, max_drops: 10_000_000 }
 }
 
 fn weather(precipitation: Precipitation, exposure_s: f64, airlight: f64) -> Weather {
     // With a uniform phase function, so that the table of drops need not be computed.
     let (extinction, albedo) = (Spectrum::constant(precipitation.field.extinction_per_m()), Spectrum::constant(1.0));
     let medium =
-        Medium::new(extinction, albedo, Phase::Isotropic, Shape::Everywhere, Motion::still(DAffine3::IDENTITY));
+        Medium::new(extinction, albedo, Phase::Isotropic, MediumRegion::Everywhere, Motion::constant(DAffine3::IDENTITY));
     Weather {
         airlight: Airlight::Uniform(Spectrum::constant(airlight)),
         media: vec![medium.expect("legal")],
-        falling: Some(Falling { precipitation, exposure_s }),
+        falling: Some(PrecipitationExposure { precipitation, exposure_s }),
     }
 }
 
@@ -75,8 +75,8 @@ fn rain(seed: u32, exposure_s: f64) -> Weather {
     weather(precipitation(SizeLaw::rain(100.0).expect("legal"), seed, 0.25), exposure_s, 5.0)
 }
 
-fn cover(seen: &Weathered) -> &[f32] {
-    seen.cover.as_ref().expect("something falls").samples()
+fn cover(weathered: &WeatheredImage) -> &[f32] {
+    weathered.cover.as_ref().expect("something falls").samples()
 }
 
 fn moments(values: &[f64]) -> [f64; 2] {
@@ -94,10 +94,10 @@ fn near_drops_and_flakes_take_what_their_cross_sections_say() {
         SizeLaw::snow(2.0, etendue_tracer::precipitation::Crystals::Aggregates).expect("legal"),
     ];
     for law in laws {
-        let (wall, exposure_s) = (Wall::even(1.0), 0.02);
+        let (wall, exposure_s) = (Wall::uniform(1.0), 0.02);
         let depth = |seed| {
-            let seen = wall.seen(&weather(precipitation(law, seed, 0.25), exposure_s, 5.0));
-            let left: Vec<f64> = cover(&seen).iter().map(|c| f64::from(1.0 - c)).collect();
+            let weathered = wall.through_weather(&weather(precipitation(law, seed, 0.25), exposure_s, 5.0));
+            let left: Vec<f64> = cover(&weathered).iter().map(|c| f64::from(1.0 - c)).collect();
             -ln(moments(&left)[0])
         };
         let depths: Vec<f64> = (0..9).map(depth).collect();
@@ -116,11 +116,11 @@ fn near_drops_and_flakes_take_what_their_cross_sections_say() {
 /// Garg and Nayar ("Vision and rain", IJCV 75, 2007), measured on the image itself.
 #[test]
 fn rain_shows_less_by_the_root_of_the_exposure() {
-    let wall = Wall::even(1.0);
+    let wall = Wall::uniform(1.0);
     let points = [0.008, 0.016, 0.032, 0.064, 0.125].map(|exposure_s| {
         let variance = |seed| {
-            let seen = wall.seen(&rain(seed, exposure_s));
-            let values: Vec<f64> = seen.radiance.planes()[0].samples().iter().map(|v| f64::from(*v)).collect();
+            let weathered = wall.through_weather(&rain(seed, exposure_s));
+            let values: Vec<f64> = weathered.radiance.planes()[0].samples().iter().map(|v| f64::from(*v)).collect();
             let [_, deviation] = moments(&values);
             deviation * deviation
         };
@@ -137,40 +137,40 @@ fn rain_shows_less_by_the_root_of_the_exposure() {
 fn nothing_is_drawn_behind_what_is_nearer() {
     let is_near = |i: usize| i % SIZE[0] < SIZE[0] / 2;
     let wall = Wall::new(|_| 1.0, |i| if is_near(i) { 0.9 } else { 40.0 });
-    let seen = wall.seen(&rain(1, 0.01));
-    let radiance = seen.radiance.planes()[0].samples();
-    for (i, (radiance, cover)) in radiance.iter().zip(cover(&seen)).enumerate().filter(|(i, _)| is_near(*i)) {
+    let weathered = wall.through_weather(&rain(1, 0.01));
+    let radiance = weathered.radiance.planes()[0].samples();
+    for (i, (radiance, cover)) in radiance.iter().zip(cover(&weathered)).enumerate().filter(|(i, _)| is_near(*i)) {
         assert!(*radiance == 1.0 && *cover == 0.0, "{i}: {radiance} {cover}");
     }
-    assert!(cover(&seen).iter().any(|cover| *cover > 0.01));
-    assert_eq!(seen.depth.samples()[0].to_bits(), image_depth(&wall).to_bits(), "depth does not see it");
+    assert!(cover(&weathered).iter().any(|cover| *cover > 0.01));
+    assert_eq!(weathered.depth.samples()[0].to_bits(), image_depth(&wall).to_bits(), "depth does not see it");
 }
 
 fn image_depth(wall: &Wall) -> f32 {
-    Image { stored: &wall.stored(), distance: &wall.distance, pose: &wall.pose }.depth().samples()[0]
+    PosedImage { stored: &wall.stored(), distance: &wall.distance, pose: &wall.pose }.depth().samples()[0]
 }
 
 #[test]
 fn threads_do_not_change_streaks() {
-    let wall = Wall::even(1.0);
+    let wall = Wall::uniform(1.0);
     let run = |threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| wall.seen(&rain(2, 0.01)))
+        pool.install(|| wall.through_weather(&rain(2, 0.01)))
     };
     let (one, three) = (run(1), run(3));
     assert!(cover(&one) == cover(&three) && one.radiance == three.radiance);
-    assert!(cover(&one) != cover(&wall.seen(&rain(3, 0.01))), "another seed, other drops");
+    assert!(cover(&one) != cover(&wall.through_weather(&rain(3, 0.01))), "another seed, other drops");
 }
 
 #[test]
 fn in_even_light_rain_is_not_seen() {
-    let wall = Wall::even(5.0);
-    let seen = wall.seen(&rain(1, 0.01));
+    let wall = Wall::uniform(5.0);
+    let weathered = wall.through_weather(&rain(1, 0.01));
     // Sums of a few dozen f32.
-    seen.radiance.planes()[0].samples().iter().for_each(|radiance| assert!((radiance - 5.0).abs() < 1e-5));
+    weathered.radiance.planes()[0].samples().iter().for_each(|radiance| assert!((radiance - 5.0).abs() < 1e-5));
     // Added and transmitted light together are the visible light.
-    let parts = seen.airlight.planes()[0].samples().iter().zip(seen.transmittance.planes()[0].samples());
-    parts.for_each(|(added, share)| assert!((added + 5.0 * share - 5.0).abs() < 1e-5));
+    let parts = weathered.airlight.planes()[0].samples().iter().zip(weathered.transmittance.planes()[0].samples());
+    parts.for_each(|(added, transmittance)| assert!((added + 5.0 * transmittance - 5.0).abs() < 1e-5));
 }
 
 /// Under a sky of 1 over a black ground a drop before the horizon shows one half: its field is symmetric above and below. The uncertainty is a tenth of a per
@@ -183,9 +183,9 @@ fn a_drop_shows_the_mean_of_its_field() {
     let medium = [of.field.medium().expect("legal")];
     let media = Media::new(&medium, DVec3::ZERO, TimeInterval::default());
     let stored = wall.stored();
-    let image = Image { stored: &stored, distance: &wall.distance, pose: &wall.pose };
-    let shown = shown_light::ShownLight::new(&image, media.phase(0), &[9.0]);
-    let at = |x: usize, y: usize| shown.before(y * SIZE[0] + x)[0];
+    let image = PosedImage { stored: &stored, distance: &wall.distance, pose: &wall.pose };
+    let light = shown_light::ParticleRadiance::new(&image, media.phase(0), &[9.0]);
+    let at = |x: usize, y: usize| light.in_front_of(y * SIZE[0] + x)[0];
     // Above and below the horizon by half a cell, 6 mrad; over the whole of a drop's 82.8° this is 1 %.
     let middle = 0.5 * (at(60, SIZE[1] / 2 - 1) + at(60, SIZE[1] / 2));
     assert!((middle - 0.5).abs() < 0.01, "{middle}");

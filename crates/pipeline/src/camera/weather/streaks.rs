@@ -6,10 +6,10 @@
 //!
 //! Not included: the camera's own motion (one pose represents the exposure), and rolling shutters.
 
-use super::image::Image;
-use super::shown_light::ShownLight;
-use super::{Before, Weathered};
-use crate::plan::Falling;
+use super::image::PosedImage;
+use super::shown_light::ParticleRadiance;
+use super::{ForegroundMedia, WeatheredImage};
+use crate::plan::PrecipitationExposure;
 use crate::render::region_of_projection;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::sin_cos;
@@ -31,10 +31,10 @@ const POINTS: [f64; 2] = [64.0, 4.0e6];
 const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 /// Number of particles composed together, to limit memory.
-const TOGETHER: usize = 4096;
+const PARTICLE_BATCH: usize = 4096;
 
 /// The near particles of an image.
-pub(super) struct Streaks {
+pub(super) struct ParticleStreaks {
     /// In order of increasing distance.
     streaks: Vec<Streak>,
     exposure_s: f64,
@@ -44,15 +44,15 @@ pub(super) struct Streaks {
 }
 
 /// Pixels covered by a particle, with the fraction of each.
-struct Footprint {
+struct StreakFootprint {
     pixels: Vec<(u32, f32)>,
     /// Radiance of the particle, by band.
     light: Vec<f64>,
 }
 
-impl Falling {
+impl PrecipitationExposure {
     /// Particles before an image, exposed from a start time on.
-    pub(super) fn streaks(&self, image: &Image<'_>, start_s: f64) -> Streaks {
+    pub(super) fn streaks(&self, image: &PosedImage<'_>, start_s: f64) -> ParticleStreaks {
         let Self { precipitation, exposure_s } = self;
         let interval = TimeInterval::new(start_s, start_s + exposure_s).expect("both are finite");
         let field = &precipitation.field;
@@ -61,68 +61,68 @@ impl Falling {
         let resolution = precipitation.resolution(projection.pitch_tan(), *exposure_s);
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
         let origin_m = image.pose.position_m;
-        let particles = field.about(origin_m, interval, &region, &change_over);
+        let particles = field.particles_near(origin_m, interval, &region, &change_over);
         let streak = |particle| field.streak(particle, origin_m, interval, &change_over);
         let mut streaks: Vec<Streak> = particles.iter().map(streak).collect();
         let middle_s = (0.5 * exposure_s) as f32;
         streaks.sort_by(|a, b| a.centre(middle_s).length().total_cmp(&b.centre(middle_s).length()));
-        Streaks { streaks, exposure_s: *exposure_s, hollow: field.hollow(&change_over), medium: precipitation.medium }
+        ParticleStreaks { streaks, exposure_s: *exposure_s, hollow: field.hollow(&change_over), medium: precipitation.medium }
     }
 }
 
-impl Streaks {
+impl ParticleStreaks {
     /// Media without the individually modelled particles.
-    pub(super) fn hollowed<'a>(&self, media: Media<'a>) -> Media<'a> {
-        media.hollowed(self.medium, self.hollow.clone())
+    pub(super) fn without_near_particles<'a>(&self, media: Media<'a>) -> Media<'a> {
+        media.with_hollow(self.medium, self.hollow.clone())
     }
 
     /// Composes the particles over the view.
-    pub(super) fn compose(&self, seen: &mut Weathered, image: &Image<'_>, before: &Before<'_>) {
-        let shown = ShownLight::new(image, before.media.phase(self.medium), before.airlight);
+    pub(super) fn compose(&self, weathered: &mut WeatheredImage, image: &PosedImage<'_>, before: &ForegroundMedia<'_>) {
+        let light = ParticleRadiance::new(image, before.media.phase(self.medium), before.airlight);
         let count = image.distance.samples().len();
-        let mut through = vec![1.0_f32; count];
+        let mut transmittance = vec![1.0_f32; count];
         let mut added: Vec<Vec<f32>> = vec![vec![0.0; count]; before.airlight.len()];
-        for streaks in self.streaks.chunks(TOGETHER) {
+        for streaks in self.streaks.chunks(PARTICLE_BATCH) {
             let scratch = || vec![0.0_f32; count];
             let footprint =
-                |scratch: &mut Vec<f32>, streak: &Streak| self.footprint(streak, image, scratch, &shown, before);
+                |scratch: &mut Vec<f32>, streak: &Streak| self.footprint(streak, image, scratch, &light, before);
             let footprints: Vec<_> =
                 streaks.par_iter().map_init(scratch, footprint).filter(|of| !of.pixels.is_empty()).collect();
-            compose(&footprints, &mut through, &mut added);
+            compose(&footprints, &mut transmittance, &mut added);
         }
         for (band, added) in added.iter().enumerate() {
-            let radiance = seen.radiance.planes_mut()[band].samples_mut().iter_mut();
-            let share = seen.transmittance.planes_mut()[band].samples_mut().iter_mut();
-            let air = seen.airlight.planes_mut()[band].samples_mut().iter_mut();
-            for ((((radiance, share), air), through), added) in radiance.zip(share).zip(air).zip(&through).zip(added) {
-                *share *= through;
-                *air = *air * through + added;
-                *radiance = *radiance * through + added;
+            let radiance = weathered.radiance.planes_mut()[band].samples_mut().iter_mut();
+            let scene_transmittance = weathered.transmittance.planes_mut()[band].samples_mut().iter_mut();
+            let air = weathered.airlight.planes_mut()[band].samples_mut().iter_mut();
+            for ((((radiance, scene_transmittance), air), transmittance), added) in radiance.zip(scene_transmittance).zip(air).zip(&transmittance).zip(added) {
+                *scene_transmittance *= transmittance;
+                *air = *air * transmittance + added;
+                *radiance = *radiance * transmittance + added;
             }
         }
-        let cover = through.into_iter().map(|through| 1.0 - through).collect();
+        let cover = transmittance.into_iter().map(|transmittance| 1.0 - transmittance).collect();
         let (width, height) = (image.distance.width(), image.distance.height());
-        seen.cover = Some(Plane::<Cover>::from_samples(width, height, cover).expect("one sample a pixel"));
+        weathered.cover = Some(Plane::<Cover>::from_samples(width, height, cover).expect("one sample a pixel"));
     }
 
     fn footprint(
         &self,
         streak: &Streak,
-        image: &Image<'_>,
+        image: &PosedImage<'_>,
         scratch: &mut [f32],
-        shown: &ShownLight,
-        before: &Before<'_>,
-    ) -> Footprint {
+        shown: &ParticleRadiance,
+        before: &ForegroundMedia<'_>,
+    ) -> StreakFootprint {
         let pixels = self.pixels(streak, image, scratch);
-        let Some((pixel, _)) = pixels.get(pixels.len() / 2) else { return Footprint { pixels, light: vec![] } };
+        let Some((pixel, _)) = pixels.get(pixels.len() / 2) else { return StreakFootprint { pixels, light: vec![] } };
         let centre = streak.centre((0.5 * self.exposure_s) as f32);
         let mut ray = Ray::new(Vec3::ZERO, centre.normalize_or(Vec3::X), 0.0);
         ray.t_max = centre.length();
-        Footprint { light: before.seen(shown.before(*pixel as usize), &ray), pixels }
+        StreakFootprint { light: before.radiance_along(shown.in_front_of(*pixel as usize), &ray), pixels }
     }
 
     /// Fraction of each pixel and of the exposure that a particle covers; `scratch` is 0 everywhere, before and after.
-    fn pixels(&self, streak: &Streak, image: &Image<'_>, scratch: &mut [f32]) -> Vec<(u32, f32)> {
+    fn pixels(&self, streak: &Streak, image: &PosedImage<'_>, scratch: &mut [f32]) -> Vec<(u32, f32)> {
         let n = self.points(streak, image.stored.projection.pitch_tan());
         let mut touched = vec![];
         for k in 0..n {
@@ -138,8 +138,8 @@ impl Streaks {
                 scratch[pixel] += (silhouette.area_m2() * area_px / f64::from(n)) as f32;
             }
         }
-        let taken = |pixel: usize| (pixel as u32, core::mem::take(&mut scratch[pixel]).min(1.0));
-        touched.into_iter().map(taken).collect()
+        let take_cover = |pixel: usize| (pixel as u32, core::mem::take(&mut scratch[pixel]).min(1.0));
+        touched.into_iter().map(take_cover).collect()
     }
 
     /// Number of points that represent a particle.
@@ -155,10 +155,10 @@ impl Streaks {
 }
 
 /// Composes footprints, from near to far, over the light behind and before them.
-fn compose(footprints: &[Footprint], through: &mut [f32], added: &mut [Vec<f32>]) {
+fn compose(footprints: &[StreakFootprint], transmittance: &mut [f32], added: &mut [Vec<f32>]) {
     let mut weights = Vec::with_capacity(footprints.iter().map(|of| of.pixels.len()).sum());
     for (pixel, cover) in footprints.iter().flat_map(|of| &of.pixels) {
-        let left = &mut through[*pixel as usize];
+        let left = &mut transmittance[*pixel as usize];
         weights.push(*left * cover);
         *left *= 1.0 - cover;
     }
@@ -189,10 +189,10 @@ impl Silhouette {
         if away_m < f64::from(streak.from_m) || away_m >= f64::from(streak.to_m) || away_m <= wide_m * 1.001 {
             return None;
         }
-        let along = centre_m / away_m;
-        let level = DVec3::Z.cross(along).try_normalize().unwrap_or(DVec3::X);
-        let upright = along.cross(level);
-        let rise2 = along.z * along.z;
+        let line_of_sight = centre_m / away_m;
+        let level = DVec3::Z.cross(line_of_sight).try_normalize().unwrap_or(DVec3::X);
+        let upright = line_of_sight.cross(level);
+        let rise2 = line_of_sight.z * line_of_sight.z;
         let upright_m = (wide_m * wide_m * rise2 + high_m * high_m * (1.0 - rise2)).sqrt();
         // A ball's tangents meet the plane through its centre farther out.
         let wider = (1.0 - (wide_m / away_m) * (wide_m / away_m)).sqrt().recip();

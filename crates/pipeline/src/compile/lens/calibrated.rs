@@ -4,12 +4,12 @@ use super::super::context::{Context, ErrorCode};
 use super::super::scale::{divisor, full_raster};
 use super::projection;
 use crate::compile::stated::{focus_m, transmittance};
-use etendue_optics::{CalibratedParameters, Falloff, FalloffBy, Lens, OpticsError, PupilStance};
+use etendue_optics::{CalibratedParameters, Falloff, FalloffArgument, Lens, OpticsError, PupilOrientation};
 use etendue_projection::{Calibration, Raster};
 use etendue_scene::Place;
 use etendue_scene::asset::{LensNumbers, LensQuantity};
 use etendue_scene::record::Sensor;
-use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, View};
+use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, PixelDirections};
 use etendue_scene::record::lens::projection::CalibrationFile;
 
 /// Lens, and the raster around the calibration's principal point.
@@ -21,10 +21,10 @@ pub(super) fn lens(
 ) -> Option<(Lens, Raster)> {
     let full = context.accept(&record.place, full_raster(raster, divisor(sensor)))?;
     let (place, calibration) = match &record.view {
-        View::Projection(projection) => {
+        PixelDirections::Projection(projection) => {
             (&record.place, projection::calibration(projection, &record.place, &full, context)?)
         }
-        View::Calibration(file) => {
+        PixelDirections::Calibration(file) => {
             let calibration = imported(file, context)?;
             context.accept(&sensor.place, check_size(&calibration, &full))?;
             (&file.file.place, calibration)
@@ -34,7 +34,7 @@ pub(super) fn lens(
     let calibration = calibration.with_larger_pixels(divisor(sensor) as usize);
     let calibration = match &record.greatest_angle_deg {
         None => calibration,
-        Some(angle) => context.accept(&angle.place, calibration.limited_to(angle.value.to_radians()))?,
+        Some(angle) => context.accept(&angle.place, calibration.with_max_angle(angle.value.to_radians()))?,
     };
     let matrix = calibration.matrix();
     let principal = glam::DVec2::new(matrix.cx, matrix.cy);
@@ -69,8 +69,8 @@ fn parameters(
         transmittance: transmittance(record.transmittance.as_ref()),
         focus_distance_m: record.focus_distance_m.as_ref().map(focus_m),
         pupil: record.pupil.as_ref().map(|pupil| match pupil.value {
-            Pupil::Flat => PupilStance::Flat,
-            Pupil::Turning => PupilStance::Turning,
+            Pupil::Flat => PupilOrientation::Flat,
+            Pupil::Turning => PupilOrientation::Oriented,
         }),
         relative_illumination,
     }
@@ -78,7 +78,7 @@ fn parameters(
 
 /// The table, or that of its file, with notes on the conversion.
 fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Falloff> {
-    let (place, made) = match &table.source {
+    let (place, result) = match &table.source {
         IlluminationSource::Radii(radii) => {
             let points = radii.iter().zip(table.ratio.iter().flatten());
             (&table.place, Falloff::new(points.map(|(radius, ratio)| (radius.value, ratio.value)).collect()))
@@ -87,20 +87,20 @@ fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Fa
             let key = (file.value.clone(), LensQuantity::RelativeIllumination);
             let assets = context.assets;
             let asset = assets.lens_tables.get(&key)?;
-            asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+            asset.notes.iter().for_each(|note| context.note_on(file.value.display(), note));
             let by_angle = asset.numbers == LensNumbers::IlluminationByAngle;
-            let by = if by_angle { FalloffBy::Angle } else { FalloffBy::Radius };
+            let by = if by_angle { FalloffArgument::Angle } else { FalloffArgument::Radius };
             (&file.place, Falloff::over(by, asset.points.clone()))
         }
     };
-    context.accept(place, made)
+    context.accept(place, result)
 }
 
 /// Camera of a calibration file, with notes on the parts of the file that are ignored.
 fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
     let assets = context.assets;
     let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.camera_in_file())) else {
-        context.fault(
+        context.error(
             ErrorCode::UnreadableFile,
             &file.file.place,
             "the calibration was not loaded",
@@ -109,7 +109,7 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
         return None;
     };
     for note in &asset.report {
-        context.remark_on(file.file.value.display(), note);
+        context.note_on(file.file.value.display(), note);
     }
     Some(asset.calibration.clone())
 }
@@ -126,14 +126,14 @@ fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsErro
 
 /// Distance of a principal point from the centre of the image, as a fraction of its width or height, above which the calibration is assumed to be for another
 /// image size.
-const FAR_SHARE: f64 = 0.25;
+const FAR_FRACTION: f64 = 0.25;
 
 /// Warns of a principal point outside the image, or far from its centre, as with a calibration of another resolution.
 fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut Context<'_>) {
     let size = glam::DVec2::new(raster.width() as f64, raster.height() as f64);
     let principal = raster.principal_px();
     let off = ((principal - 0.5 * size) / size).abs().max_element();
-    if off <= FAR_SHARE {
+    if off <= FAR_FRACTION {
         return;
     }
     let place = if off > 0.5 { "outside the image" } else { "far from the centre of the image" };
@@ -143,20 +143,20 @@ fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut C
         principal.x, principal.y, size.x, size.y
     );
     match &record.view {
-        View::Projection(_) => context.warn_on(&record.place, text),
-        View::Calibration(file) => context.warn_on(file.file.value.display(), text),
+        PixelDirections::Projection(_) => context.warn_on(&record.place, text),
+        PixelDirections::Calibration(file) => context.warn_on(file.file.value.display(), text),
     }
 }
 
 /// Refuses a second principal point: a calibration has its own.
 fn one_principal_point(record: &Calibrated, sensor: &Sensor, context: &mut Context<'_>) -> Option<()> {
-    let Some(stated) = &sensor.principal_point_px else { return Some(()) };
+    let Some(principal_point) = &sensor.principal_point_px else { return Some(()) };
     let by: Option<&Place> = match &record.view {
-        View::Projection(projection) => projection::stated_centre(projection),
-        View::Calibration(file) => Some(&file.place),
+        PixelDirections::Projection(projection) => projection::stated_centre(projection),
+        PixelDirections::Calibration(file) => Some(&file.place),
     };
     let Some(by) = by else { return Some(()) };
     let problem = format!("the principal point is stated here and by the lens ({by})");
-    context.fault(ErrorCode::Contradiction, &stated.place, problem, "remove one of them");
+    context.error(ErrorCode::Contradiction, &principal_point.place, problem, "remove one of them");
     None
 }

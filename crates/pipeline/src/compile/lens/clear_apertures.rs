@@ -1,41 +1,41 @@
 //! Clear semi-apertures that a lens file does not state: as large as the light of its field points needs.
 
-use super::lens_file::of_file;
-use super::lens_file::{Stated, narrow_beside, reference_nm};
+use super::lens_file::surface_from_file;
+use super::lens_file::{FileAperture, paraxial_lens, reference_nm};
 use etendue_optics::prescription::clear_apertures::{FieldBundle, FieldPoint, clear_apertures_mm, provisional_mm};
 use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{Prescription, PrescriptionError};
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
 use etendue_spectra::glass::{GlassError, LINE_D_NM};
 
-const M: f64 = 1e3;
+const MM_PER_M: f64 = 1e3;
 
 /// Semi-apertures of all surfaces, and a note on them.
-pub(super) struct Found {
+pub(super) struct ClearApertures {
     pub(super) semi_apertures_mm: Vec<f64>,
-    pub(super) told: String,
+    pub(super) note: String,
 }
 
 /// Semi-apertures from chief and marginal rays, for surfaces without a stated one.
 ///
 /// # Errors
 /// They cannot be found: the reason, to follow "the file gives none, and".
-pub(super) fn found(asset: &PrescriptionAsset) -> Result<Found, String> {
+pub(super) fn find(asset: &PrescriptionAsset) -> Result<ClearApertures, String> {
     let fields = asset.fields.as_ref().ok_or("no fields (YAN, YOB, YIM) from which they could be computed")?;
     let own_mm = asset.surfaces.iter().find(|s| s.stop).and_then(|s| s.semi_aperture_mm);
-    let lens = provisional(asset).map_err(|error| of_line(asset, &error))?;
+    let lens = provisional_lens(asset).map_err(|error| with_line(asset, &error))?;
     let stop_mm =
-        lens.stated.stop_mm.or(own_mm).ok_or("no aperture (EPD, FNO, NA) from which they could be computed")?;
-    let bundles = bundles(asset, fields, lens.stated.distance_m)?;
+        lens.file_aperture.stop_mm.or(own_mm).ok_or("no aperture (EPD, FNO, NA) from which they could be computed")?;
+    let bundles = bundles(asset, fields, lens.file_aperture.distance_m)?;
     let wavelengths_nm = if asset.wavelengths_nm.is_empty() { vec![LINE_D_NM] } else { asset.wavelengths_nm.clone() };
-    let needed = clear_apertures_mm(&lens.prescription, stop_mm, &bundles, &wavelengths_nm).map_err(lost)?;
+    let needed = clear_apertures_mm(&lens.prescription, stop_mm, &bundles, &wavelengths_nm).map_err(lost_bundle)?;
     let semi_apertures_mm: Vec<f64> =
         asset.surfaces.iter().zip(needed).map(|(s, needed_mm)| s.semi_aperture_mm.unwrap_or(needed_mm)).collect();
-    let told = told(asset, &semi_apertures_mm);
-    Ok(Found { semi_apertures_mm, told })
+    let note = note(asset, &semi_apertures_mm);
+    Ok(ClearApertures { semi_apertures_mm, note: note })
 }
 
-fn told(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
+fn note(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
     let without =
         asset.surfaces.iter().zip(semi_apertures_mm).enumerate().filter(|(_, (s, _))| s.semi_aperture_mm.is_none());
     let list: Vec<String> = without.map(|(i, (_, semi_mm))| format!("{}: {semi_mm:.3} mm", i + 1)).collect();
@@ -49,15 +49,15 @@ fn told(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
 }
 
 /// An error of the surfaces, or of the aperture with the line of the file that states it.
-fn of_line(asset: &PrescriptionAsset, error: &Fault) -> String {
+fn with_line(asset: &PrescriptionAsset, error: &LensFileError) -> String {
     match error {
-        Fault::Lens(cone @ PrescriptionError::Cone { .. }) => format!("{cone} (line {})", asset.opening_line),
-        Fault::Lens(other) => other.to_string(),
-        Fault::Glass(other) => other.to_string(),
+        LensFileError::Lens(cone @ PrescriptionError::Cone { .. }) => format!("{cone} (line {})", asset.opening_line),
+        LensFileError::Lens(other) => other.to_string(),
+        LensFileError::Glass(other) => other.to_string(),
     }
 }
 
-fn lost(bundle: usize) -> String {
+fn lost_bundle(bundle: usize) -> String {
     match bundle {
         0 => "they cannot be computed: its marginal ray on the axis does not pass the lens".to_owned(),
         i => format!("they cannot be computed: the chief or a marginal ray of its field {i} does not pass the lens"),
@@ -65,33 +65,33 @@ fn lost(bundle: usize) -> String {
 }
 
 /// The lens before its clear apertures are known.
-struct Provisional {
-    stated: Stated,
+struct ProvisionalLens {
+    file_aperture: FileAperture,
     prescription: Prescription,
 }
 
 /// Reasons for which there is none.
-enum Fault {
+enum LensFileError {
     Lens(PrescriptionError),
     Glass(GlassError),
 }
 
-impl From<PrescriptionError> for Fault {
+impl From<PrescriptionError> for LensFileError {
     fn from(error: PrescriptionError) -> Self {
         Self::Lens(error)
     }
 }
 
-fn provisional(asset: &PrescriptionAsset) -> Result<Provisional, Fault> {
-    let surfaces = asset.surfaces.iter().map(|s| of_file(s, 1.0)).collect::<Result<Vec<_>, _>>();
-    let surfaces = surfaces.map_err(Fault::Glass)?;
+fn provisional_lens(asset: &PrescriptionAsset) -> Result<ProvisionalLens, LensFileError> {
+    let surfaces = asset.surfaces.iter().map(|s| surface_from_file(s, 1.0)).collect::<Result<Vec<_>, _>>();
+    let surfaces = surfaces.map_err(LensFileError::Glass)?;
     let semi_aperture_mm = provisional_mm(&surfaces);
     let surfaces: Vec<Surface> = surfaces.into_iter().map(|s| Surface { semi_aperture_mm, ..s }).collect();
-    let stated = Stated::of(asset, &surfaces)?;
-    let focus = Focus::Sensor { distance_m: stated.distance_m };
-    let defocus_mm = stated.defocus_mm.unwrap_or(asset.defocus_mm);
-    let prescription = narrow_beside(&surfaces, focus, defocus_mm, reference_nm(asset))?;
-    Ok(Provisional { stated, prescription })
+    let file_aperture = FileAperture::new(asset, &surfaces)?;
+    let focus = Focus::Sensor { distance_m: file_aperture.distance_m };
+    let defocus_mm = file_aperture.defocus_mm.unwrap_or(asset.defocus_mm);
+    let prescription = paraxial_lens(&surfaces, focus, defocus_mm, reference_nm(asset))?;
+    Ok(ProvisionalLens { file_aperture: stated: file_aperture, prescription })
 }
 
 /// Ray bundles of the axis and of the file's fields.
@@ -101,7 +101,7 @@ fn bundles(asset: &PrescriptionAsset, fields: &LensFields, distance_m: f64) -> R
     let object = |height_mm: f64| FieldPoint::Object { height_mm, distance_mm };
     let points: Vec<FieldPoint> = match fields {
         // The point of the near object in that direction from the entrance pupil: light that travels upwards comes from below.
-        LensFields::AnglesDeg(list) if near => list.iter().map(|deg| object(-tangent(*deg) * distance_m * M)).collect(),
+        LensFields::AnglesDeg(list) if near => list.iter().map(|deg| object(-tangent(*deg) * distance_m * MM_PER_M)).collect(),
         LensFields::AnglesDeg(list) => list.iter().map(|deg| FieldPoint::Angle(deg.to_radians())).collect(),
         LensFields::ObjectMm(list) if near => list.iter().map(|height_mm| object(*height_mm)).collect(),
         LensFields::ObjectMm(_) => return Err("its fields are heights of an object at infinity".to_owned()),

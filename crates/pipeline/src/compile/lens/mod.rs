@@ -14,9 +14,9 @@ use super::stated::{focus_m, transmittance};
 
 use super::context::Context;
 use super::effects::widest_film;
-use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
+use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilParameters, ThickParameters, ThinParameters};
 use etendue_optics::{LateralColour, Lens, OpticsError, TelecentricParameters};
-use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
+use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, DistortionDirection};
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
 use glam::DVec2;
@@ -129,8 +129,8 @@ fn thin(r: &description::Thin) -> Result<Lens, OpticsError> {
 
 fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
     let number = |v: &Option<Placed<f64>>| v.as_ref().map(|v| v.value);
-    let rim = |rim: &Option<description::Rim>| {
-        rim.as_ref().map(|r| lens::Rim { position_mm: r.position_mm.value, radius_mm: r.radius_mm.value })
+    let aperture = |aperture: &Option<description::ClearAperture>| {
+        aperture.as_ref().map(|r| lens::ClippingAperture { position_mm: r.position_mm.value, radius_mm: r.radius_mm.value })
     };
     Lens::thick(ThickParameters {
         focal_length_mm: r.focal_length_mm.value,
@@ -138,7 +138,7 @@ fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
         focus_distance_m: focus_m(&r.focus_distance_m),
         transmittance: transmittance(r.transmittance.as_ref()),
         principal_separation_mm: number(&r.principal_separation_mm).unwrap_or(0.0),
-        pupils: PupilStatements {
+        pupils: PupilParameters {
             entrance_pupil_mm: number(&r.entrance_pupil_mm),
             exit_pupil_mm: number(&r.exit_pupil_mm),
             pupil_magnification: number(&r.pupil_magnification),
@@ -147,8 +147,8 @@ fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
             description::Pupil::Entrance => ConstantPupil::Entrance,
             description::Pupil::Exit => ConstantPupil::Exit,
         },
-        front_aperture: rim(&r.front_aperture),
-        rear_aperture: rim(&r.rear_aperture),
+        front_aperture: aperture(&r.front_aperture),
+        rear_aperture: aperture(&r.rear_aperture),
     })
 }
 
@@ -159,8 +159,8 @@ fn radial(r: &description::Distortion, lens: &Lens, raster: &Raster) -> Result<R
         pixel_pitch_mm: raster.pitch_mm().x,
     };
     let sense = match r.direction.value {
-        description::Direction::IdealToObserved => Sense::IdealToObserved,
-        description::Direction::ObservedToIdeal => Sense::ObservedToIdeal,
+        description::Direction::IdealToObserved => DistortionDirection::IdealToObserved,
+        description::Direction::ObservedToIdeal => DistortionDirection::ObservedToIdeal,
     };
     let unit = match r.radius_unit.value {
         description::RadiusUnit::Millimetres => RadiusUnit::Millimetres,

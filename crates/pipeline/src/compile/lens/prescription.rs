@@ -3,25 +3,25 @@
 use super::super::context::{Context, ErrorCode};
 use super::super::spectrum::from_file;
 use super::clear_apertures;
-use super::lens_file::of_file;
-use super::lens_file::{self, Stated};
+use super::lens_file::surface_from_file;
+use super::lens_file::{self, FileAperture};
 use crate::compile::stated::focus_m;
 use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
-use etendue_optics::prescription::{Focus, OtherRims, Surface};
-use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_optics::prescription::{Focus, AxialClipping, Surface};
+use etendue_optics::{Lens, PRINCIPAL_NM, PrescriptionLens, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_scene::asset::PrescriptionAsset;
-use etendue_scene::record::lens::prescription::{self as record, Glass, GlassKnown, IrCutCurve, Source};
+use etendue_scene::record::lens::prescription::{self as record, Glass, GlassConstants, IrCutCurve, SurfaceListSource};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::glass::{self, Dispersion, GlassError};
-use etendue_spectra::{Outside, Spectrum};
+use etendue_spectra::{Extrapolation, Spectrum};
 use std::path::PathBuf;
 
 /// Surfaces, and their source file, if any.
-struct Given<'a> {
+struct LensSurfaces<'a> {
     surfaces: Vec<Surface>,
     file: Option<&'a PrescriptionAsset>,
 }
@@ -33,43 +33,43 @@ pub(super) fn lens(
     film: &Raster,
     context: &mut Context<'_>,
 ) -> Option<Lens> {
-    let given = given(record, context);
+    let source_surfaces = lens_surfaces(record, context);
     let filter = record.ir_cut.as_ref().map(|filter| ir_cut(filter, context));
-    let given = given.map(|Given { surfaces, file }| Given { surfaces: coated(surfaces, record), file })?;
-    let prescription = made(record, given, context).map_err(|error| refuse(record, &error, context)).ok()?;
+    let source_surfaces = source_surfaces.map(|LensSurfaces { surfaces, file }| LensSurfaces { surfaces: coated(surfaces, record), file })?;
+    let prescription = build(record, source_surfaces, context).map_err(|error| refuse(record, &error, context)).ok()?;
     let filter = filter.map_or(Some(None), |filter| filter.map(Some))?;
-    let lens = Prescribed::new(prescription, filter, film.max_radius_mm());
+    let lens = PrescriptionLens::new(prescription, filter, film.max_radius_mm());
     let lens = context.accept(&record.place, lens)?;
     if lens.lit_radius_mm() < raster.max_radius_mm() * (1.0 - 1e-9) {
-        let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
-        let told = format!("the lens illuminates {lit:.3} mm around the axis, but the image extends to {needed:.3} mm");
-        context.warn_on(&record.place, told);
+        let (lit_mm, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
+        let problem = format!("the lens illuminates {lit_mm:.3} mm around the axis, but the image extends to {needed:.3} mm");
+        context.warn_on(&record.place, problem);
     }
     Some(Lens::prescription(lens))
 }
 
-fn given<'a>(record: &record::Prescription, context: &mut Context<'a>) -> Option<Given<'a>> {
+fn lens_surfaces<'a>(record: &record::Prescription, context: &mut Context<'a>) -> Option<LensSurfaces<'a>> {
     match &record.source {
-        Source::Published(name) => published(name, context),
-        Source::File(file) => {
+        SurfaceListSource::Published(name) => published_surfaces(name, context),
+        SurfaceListSource::File(file) => {
             let asset = context.assets.prescriptions.get(&file.value)?;
             from_lens_file(asset, record, file, context)
         }
-        Source::Surfaces(surfaces) => {
-            let made: Vec<_> = surfaces.iter().map(|s| surface(s, context)).collect();
-            Some(Given { surfaces: made.into_iter().collect::<Option<_>>()?, file: None })
+        SurfaceListSource::Surfaces(surfaces) => {
+            let compiled: Vec<_> = surfaces.iter().map(|s| surface(s, context)).collect();
+            Some(LensSurfaces { surfaces: compiled.into_iter().collect::<Option<_>>()?, file: None })
         }
     }
 }
 
-fn published<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<Given<'a>> {
+fn published_surfaces<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<LensSurfaces<'a>> {
     let Some(lens) = named(&name.value) else {
         let known: Vec<_> = LENSES.iter().map(|lens| lens.name).collect();
         let problem = format!("no published lens is called \"{}\"", name.value);
-        context.fault(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", known.join(", ")));
+        context.error(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", known.join(", ")));
         return None;
     };
-    Some(Given { surfaces: lens.surfaces(), file: None })
+    Some(LensSurfaces { surfaces: lens.surfaces(), file: None })
 }
 
 /// Surfaces of a lens file.
@@ -78,12 +78,12 @@ fn from_lens_file<'a>(
     record: &record::Prescription,
     file: &Placed<PathBuf>,
     context: &mut Context<'_>,
-) -> Option<Given<'a>> {
+) -> Option<LensSurfaces<'a>> {
     let place = &file.place;
     let apertures = apertures(asset, record, file, context)?;
-    let surfaces = asset.surfaces.iter().zip(apertures).map(|(surface, semi_mm)| of_file(surface, semi_mm));
+    let surfaces = asset.surfaces.iter().zip(apertures).map(|(surface, semi_mm)| surface_from_file(surface, semi_mm));
     let surfaces = context.accept(place, surfaces.collect::<Result<Vec<_>, _>>())?;
-    Some(Given { surfaces, file: Some(asset) })
+    Some(LensSurfaces { surfaces, file: Some(asset) })
 }
 
 fn apertures(
@@ -99,16 +99,16 @@ fn apertures(
         }
         let place = list.first().map_or(place, |first| &first.place);
         let problem = format!("found {} semi-apertures for the {count} surfaces of the file", list.len());
-        context.fault(ErrorCode::WrongCount, place, problem, format!("give {count}"));
+        context.error(ErrorCode::WrongCount, place, problem, format!("give {count}"));
         return None;
     }
     if asset.surfaces.iter().all(|s| s.semi_aperture_mm.is_some()) {
         return asset.surfaces.iter().map(|s| s.semi_aperture_mm).collect();
     }
-    match clear_apertures::found(asset) {
-        Ok(found) => {
-            context.remark(format!("{}: {}", file.display(), found.told));
-            Some(found.semi_apertures_mm)
+    match clear_apertures::find(asset) {
+        Ok(clear) => {
+            context.note(format!("{}: {}", file.display(), clear.note));
+            Some(clear.semi_apertures_mm)
         }
         Err(reason) => {
             let without = asset.surfaces.iter().enumerate().filter(|(_, s)| s.semi_aperture_mm.is_none());
@@ -117,7 +117,7 @@ fn apertures(
             let problem = format!("the file states no semi-aperture for its surfaces {names}, and {reason}");
             let remedy =
                 format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\" with {count} numbers");
-            context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
+            context.error(ErrorCode::UnsuitableFile, place, problem, remedy);
             None
         }
     }
@@ -142,8 +142,8 @@ fn surface(s: &record::Surface, context: &mut Context<'_>) -> Option<Surface> {
 fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surface> {
     let Some(coating) = record.coating.as_ref().map(coating) else { return surfaces };
     let own = |i: usize| match &record.source {
-        Source::Surfaces(list) => list[i].coating.is_some(),
-        Source::Published(_) | Source::File(_) => false,
+        SurfaceListSource::Surfaces(list) => list[i].coating.is_some(),
+        SurfaceListSource::Published(_) | SurfaceListSource::File(_) => false,
     };
     let mut before = Dispersion::AIR;
     for (i, surface) in surfaces.iter_mut().enumerate() {
@@ -158,24 +158,24 @@ fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surf
 pub(in super::super) fn coating(record: &record::Coating) -> Coating {
     match record {
         record::Coating::Uncoated => Coating::Uncoated,
-        record::Coating::Share(share) => Coating::Constant(share.value),
+        record::Coating::Share(transmittance) => Coating::Constant(transmittance.value),
         record::Coating::QuarterWave(nm) => Coating::QuarterWave { design_nm: nm.value },
     }
 }
 
 fn dispersion(glass: &Glass, context: &mut Context<'_>) -> Option<Dispersion> {
-    let (place, made) = match glass {
-        Glass::Named(name) => (&name.place, glass::named(&name.value).map(|glass| glass.dispersion)),
-        Glass::Numbers(numbers) => (&numbers.place, of_numbers(numbers)),
+    let (place, dispersion) = match glass {
+        Glass::Named(name) => (&name.place, glass::by_name(&name.value).map(|glass| glass.dispersion)),
+        Glass::Numbers(numbers) => (&numbers.place, dispersion_from_numbers(numbers)),
     };
-    context.accept(place, made)
+    context.accept(place, dispersion)
 }
 
-fn of_numbers(numbers: &record::GlassNumbers) -> Result<Dispersion, GlassError> {
+fn dispersion_from_numbers(numbers: &record::GlassNumbers) -> Result<Dispersion, GlassError> {
     match (&numbers.known, &numbers.abbe, &numbers.sellmeier_c_um2) {
-        (GlassKnown::Index(n), Some(v), _) => Dispersion::of_abbe(n.value, v.value),
-        (GlassKnown::Index(n), None, _) => Ok(Dispersion::Constant { n: n.value }),
-        (GlassKnown::Sellmeier(b), _, c) => {
+        (GlassConstants::Index(n), Some(v), _) => Dispersion::from_abbe(n.value, v.value),
+        (GlassConstants::Index(n), None, _) => Ok(Dispersion::Constant { n: n.value }),
+        (GlassConstants::Sellmeier(b), _, c) => {
             let c_um2 = c.as_ref().map_or([0.0; 3], |c| c.value);
             Dispersion::Sellmeier { b: b.value, c_um2 }.checked()
         }
@@ -184,40 +184,40 @@ fn of_numbers(numbers: &record::GlassNumbers) -> Result<Dispersion, GlassError> 
 
 fn ir_cut(record: &record::IrCut, context: &mut Context<'_>) -> Option<InterferenceFilter> {
     let (place, normal) = match &record.normal {
-        IrCutCurve::Spectrum(file) => (&file.place, from_file(file, Outside::Hold, context)?),
+        IrCutCurve::Spectrum(file) => (&file.place, from_file(file, Extrapolation::Hold, context)?),
         IrCutCurve::Edge(edge) => {
             let half = 0.5 * record.edge_width_nm.as_ref().map_or(0.0, |w| w.value);
             let flank = [(edge.value - half, 1.0), (edge.value + half, 0.0)];
-            (&edge.place, context.accept(&edge.place, Spectrum::from_points(&flank, Outside::Hold))?)
+            (&edge.place, context.accept(&edge.place, Spectrum::from_points(&flank, Extrapolation::Hold))?)
         }
     };
     context.accept(place, InterferenceFilter::new(normal, record.effective_index.value))
 }
 
 /// Lens with aperture and focus, and notes on its file.
-fn made(
+fn build(
     record: &record::Prescription,
-    given: Given<'_>,
+    surfaces_of_lens: LensSurfaces<'_>,
     context: &mut Context<'_>,
 ) -> Result<Prescription, PrescriptionError> {
-    let Given { mut surfaces, file } = given;
+    let LensSurfaces { mut surfaces, file } = surfaces_of_lens;
     let Some(asset) = file else { return focused(record, surfaces, &Defaults::WITHOUT_FILE) };
-    let stated = Stated::of(asset, &surfaces)?;
+    let file_aperture = FileAperture::new(asset, &surfaces)?;
     let stop = surfaces.iter().position(|surface| surface.stop);
     let own_mm = stop.map_or(0.0, |i| surfaces[i].semi_aperture_mm);
-    if let (Some(i), Some(stop_mm)) = (stop, stated.stop_mm) {
+    if let (Some(i), Some(stop_mm)) = (stop, file_aperture.stop_mm) {
         // An f-number of the description may open the stop as far as either of the file's statements.
         let open_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
-        surfaces[i].semi_aperture_mm = if asset.surfaces[i].rim { open_mm.min(own_mm) } else { open_mm };
+        surfaces[i].semi_aperture_mm = if asset.surfaces[i].clips_light { open_mm.min(own_mm) } else { open_mm };
     }
     let defaults = Defaults {
-        distance_m: stated.distance_m,
-        defocus_mm: stated.defocus_mm.unwrap_or(asset.defocus_mm),
+        distance_m: file_aperture.distance_m,
+        defocus_mm: file_aperture.defocus_mm.unwrap_or(asset.defocus_mm),
         reference_nm: lens_file::reference_nm(asset),
-        other_rims: OtherRims::Clip,
+        other_apertures: AxialClipping::Clip,
     };
     let lens = focused(record, surfaces, &defaults)?;
-    lens_file::remarks(record, asset, own_mm, &stated, &lens, context);
+    lens_file::note_differences(record, asset, own_mm, &file_aperture, &lens, context);
     Ok(lens)
 }
 
@@ -226,12 +226,12 @@ struct Defaults {
     distance_m: f64,
     defocus_mm: f64,
     reference_nm: f64,
-    other_rims: OtherRims,
+    other_apertures: AxialClipping,
 }
 
 impl Defaults {
     const WITHOUT_FILE: Self =
-        Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused };
+        Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_apertures: AxialClipping::Refused };
 }
 
 /// Lens with the description's aperture and focus, otherwise with the defaults.
@@ -240,7 +240,7 @@ fn focused(
     surfaces: Vec<Surface>,
     defaults: &Defaults,
 ) -> Result<Prescription, PrescriptionError> {
-    let Defaults { reference_nm, other_rims, .. } = *defaults;
+    let Defaults { reference_nm, other_apertures, .. } = *defaults;
     let distance_m = record.focus_distance_m.as_ref().map_or(defaults.distance_m, focus_m);
     let focus = match &record.focus_by {
         None | Some(record::FocusBy::Sensor) => Focus::Sensor { distance_m },
@@ -251,34 +251,34 @@ fn focused(
     };
     let defocus_mm = record.defocus_mm.as_ref().map_or(defaults.defocus_mm, |d| d.value);
     let f_number = record.f_number.as_ref().map(|n| n.value);
-    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, reference_nm, other_rims })
+    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, reference_nm, axial_clipping: other_apertures })
 }
 
 /// Records, at the place of the cause, why the surfaces do not form a lens.
 fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mut Context<'_>) {
-    let whole =
-        |place: &Place, context: &mut Context<'_>| context.fault(ErrorCode::UnusableLens, place, error.to_string(), "");
+    let refuse_lens =
+        |place: &Place, context: &mut Context<'_>| context.error(ErrorCode::UnusableLens, place, error.to_string(), "");
     match (error, &record.source) {
         (PrescriptionError::TooFast { .. }, _) if record.f_number.is_some() => {
-            record.f_number.iter().for_each(|n| whole(&n.place, context));
+            record.f_number.iter().for_each(|n| refuse_lens(&n.place, context));
         }
         (PrescriptionError::Group { .. } | PrescriptionError::GroupRange { .. }, _) => match &record.focus_by {
-            Some(record::FocusBy::Group(group)) => whole(&group.place, context),
-            _ => whole(&record.place, context),
+            Some(record::FocusBy::Group(group)) => refuse_lens(&group.place, context),
+            _ => refuse_lens(&record.place, context),
         },
-        (_, Source::Surfaces(surfaces)) => {
+        (_, SurfaceListSource::Surfaces(surfaces)) => {
             let at = error.surface().and_then(|number| surfaces.get(number - 1));
-            whole(at.map_or(&record.place, |surface| &surface.place), context);
+            refuse_lens(at.map_or(&record.place, |surface| &surface.place), context);
         }
-        (_, Source::File(file)) => {
+        (_, SurfaceListSource::File(file)) => {
             let assets = context.assets;
             let asset = assets.prescriptions.get(&file.value);
             let at = error.surface().and_then(|number| asset?.surfaces.get(number - 1)).map(|surface| surface.line);
             let opening = asset.filter(|_| matches!(error, PrescriptionError::Cone { .. })).map(|a| a.opening_line);
             let at = at.or(opening);
             let line = at.map_or(String::new(), |line| format!(" (line {line} of {})", file.value.display()));
-            context.fault(ErrorCode::UnusableLens, &file.place, format!("{error}{line}"), "");
+            context.error(ErrorCode::UnusableLens, &file.place, format!("{error}{line}"), "");
         }
-        (_, Source::Published(name)) => whole(&name.place, context),
+        (_, SurfaceListSource::Published(name)) => refuse_lens(&name.place, context),
     }
 }

@@ -55,10 +55,10 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
     let fx = match &record.scale {
         Scale::Columns(fx) => fx.value,
         Scale::Millimetres(mm) => mm.value / raster.pitch_mm().x,
-        Scale::FieldOfView(angle) => of_field(angle, model, raster, context)?,
+        Scale::FieldOfView(angle) => focal_length_from_field(angle, model, raster, context)?,
     };
     if let (Some(fy), false) = (&record.fy_px, matches!(record.scale, Scale::Columns(_))) {
-        context.fault(ErrorCode::NoEffect, &fy.place, "\"fy_px\" has no effect without \"fx_px\"", "remove it");
+        context.error(ErrorCode::NoEffect, &fy.place, "\"fy_px\" has no effect without \"fx_px\"", "remove it");
         return None;
     }
     let fy = record.fy_px.as_ref().map_or(fx, |fy| fy.value);
@@ -67,19 +67,19 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
 }
 
 /// Maximum radius of the edge of the field, in units of the camera matrix: it excludes an angle whose image is at infinity.
-const FARTHEST: f64 = 1e4;
+const MAX_RADIUS: f64 = 1e4;
 
 /// fx of an image with a horizontal field angle.
-fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<f64> {
+fn focal_length_from_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<f64> {
     // A full turn ends behind the camera, where no direction has an image: 1e-12 of it is excluded.
     let half = 0.5 * angle.value.to_radians() * (1.0 - 1e-12);
     let (sin, cos) = etendue_core::maths::f64::sin_cos(half);
     let reach = model.project(DVec3::new(sin, 0.0, cos)).map(|point| point.x);
-    let reach = reach.filter(|x| *x > 0.0 && *x < FARTHEST);
+    let reach = reach.filter(|x| *x > 0.0 && *x < MAX_RADIUS);
     if reach.is_none() {
         let edge = 2.0 * model.edge().angle_rad.to_degrees();
         let problem = format!("the projection does not reach {}°", angle.value);
-        context.fault(
+        context.error(
             ErrorCode::OutOfRange,
             &angle.place,
             problem,
@@ -100,15 +100,15 @@ pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f6
     };
     let assets = context.assets;
     let asset = assets.lens_tables.get(&(file.value.clone(), LensQuantity::Distortion))?;
-    asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
-    let LensNumbers::Distortion { beside, focal_length_mm: own } = asset.numbers else { return None };
+    asset.notes.iter().for_each(|note| context.note_on(file.value.display(), note));
+    let LensNumbers::Distortion { reference, focal_length_mm: own } = asset.numbers else { return None };
     let stated = table.focal_length_mm.as_ref().map(|mm| mm.value);
     let Some(f) = stated.or(own) else {
         let problem = "the file does not state the focal length of its distortion";
-        context.fault(ErrorCode::MissingKey, &file.place, problem, "add \"focal_length_mm\"");
+        context.error(ErrorCode::MissingKey, &file.place, problem, "add \"focal_length_mm\"");
         return None;
     };
-    let ideal = |angle: f64| match beside {
+    let ideal = |angle: f64| match reference {
         Undistorted::Tangent => f * tan(angle),
         Undistorted::Angle => f * angle,
     };

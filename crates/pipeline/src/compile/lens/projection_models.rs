@@ -6,7 +6,7 @@ use etendue_projection::model::{
     Panorama, Perspective, Tabulated, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Sense};
+use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, DistortionDirection};
 use etendue_scene::Placed;
 use etendue_scene::record::lens::Direction;
 use etendue_scene::record::lens::projection::{self as record, Centre, Matrix, Projection};
@@ -53,7 +53,7 @@ pub(super) fn model(record: &Projection, points: &[(f64, f64)]) -> Result<Model,
         Projection::Radial(r) => Model::Radial(radial(r)?),
         Projection::Division(r) => Model::Division(Division::new(r.k.value)?),
         Projection::FieldOfView(r) => Model::FieldOfView(FieldOfView::new(r.omega_rad.value)?),
-        Projection::KannalaBrandt(r) => Model::KannalaBrandt(KannalaBrandt::new(four(&r.k))?),
+        Projection::KannalaBrandt(r) => Model::KannalaBrandt(KannalaBrandt::new(four_numbers(&r.k))?),
         Projection::ThinPrismFisheye(r) => Model::ThinPrismFisheye(thin_prism(r)?),
         Projection::Unified(r) => Model::Unified(Unified::new(r.xi.value, mei(r.distortion.as_ref()))?),
         Projection::ExtendedUnified(r) => Model::ExtendedUnified(ExtendedUnified::new(r.alpha.value, r.beta.value)?),
@@ -75,44 +75,44 @@ fn numbers<'a>(list: impl IntoIterator<Item = &'a Placed<f64>>) -> Vec<f64> {
     list.into_iter().map(|v| v.value).collect()
 }
 
-fn four(list: &Placed<[Placed<f64>; 4]>) -> [f64; 4] {
-    exact(Some(list))
+fn four_numbers(list: &Placed<[Placed<f64>; 4]>) -> [f64; 4] {
+    numbers_or_zero(Some(list))
 }
 
 /// A list of N numbers; zeros if none are stated.
-fn exact<const N: usize>(list: Option<&Placed<[Placed<f64>; N]>>) -> [f64; N] {
+fn numbers_or_zero<const N: usize>(list: Option<&Placed<[Placed<f64>; N]>>) -> [f64; N] {
     list.map_or([0.0; N], |list| core::array::from_fn(|i| list.value[i].value))
 }
 
 fn thin_prism(r: &record::ThinPrismFisheye) -> Result<ThinPrismFisheye, ModelError> {
     let terms = DistortionTerms {
-        numerator: exact(r.plane_k.as_ref()),
-        tangential: exact(r.p.as_ref()),
-        prism: exact(r.s.as_ref()),
+        numerator: numbers_or_zero(r.plane_k.as_ref()),
+        tangential: numbers_or_zero(r.p.as_ref()),
+        prism: numbers_or_zero(r.s.as_ref()),
         ..DistortionTerms::default()
     };
-    ThinPrismFisheye::new(KannalaBrandt::long(exact(r.k.as_ref()))?, terms)
+    ThinPrismFisheye::new(KannalaBrandt::long(numbers_or_zero(r.k.as_ref()))?, terms)
 }
 
 /// k1, k2, p1, p2.
 fn mei(list: Option<&Placed<[Placed<f64>; 4]>>) -> DistortionTerms {
-    let [k1, k2, p1, p2] = exact(list);
+    let [k1, k2, p1, p2] = numbers_or_zero(list);
     DistortionTerms { numerator: [k1, k2, 0.0, 0.0], tangential: [p1, p2], ..DistortionTerms::default() }
 }
 
-fn affine(stretch: &record::Stretch) -> Affine {
+fn affine(stretch: &record::AffineMap) -> Affine {
     let or = |v: &Option<Placed<f64>>, default: f64| v.as_ref().map_or(default, |v| v.value);
     Affine { c: or(&stretch.c, 1.0), d: or(&stretch.d, 0.0), e: or(&stretch.e, 0.0) }
 }
 
 fn radial(r: &record::Radial) -> Result<RadialDistortion, ModelError> {
     let sense = match r.direction.value {
-        Direction::IdealToObserved => Sense::IdealToObserved,
-        Direction::ObservedToIdeal => Sense::ObservedToIdeal,
+        Direction::IdealToObserved => DistortionDirection::IdealToObserved,
+        Direction::ObservedToIdeal => DistortionDirection::ObservedToIdeal,
     };
     let k2 = r.k2.as_ref().map_or(0.0, |k| k.value);
-    let refused = |_| ModelError { name: "k1".to_owned(), value: r.k1.value, expected: "finite coefficients" };
-    RadialDistortion::new(sense, r.k1.value, k2, 1.0).map_err(refused)
+    let error = |_| ModelError { name: "k1".to_owned(), value: r.k1.value, expected: "finite coefficients" };
+    RadialDistortion::new(sense, r.k1.value, k2, 1.0).map_err(error)
 }
 
 fn f_theta(r: &record::FTheta) -> Result<FTheta, ModelError> {
@@ -182,8 +182,8 @@ fn stated_opencv(m: &Perspective) -> [f64; 14] {
 fn stated_radial(m: &RadialDistortion, matrix: Matrix) -> record::Radial {
     let [k1, k2] = m.coefficients();
     let direction = match m.sense() {
-        Sense::IdealToObserved => Direction::IdealToObserved,
-        Sense::ObservedToIdeal => Direction::ObservedToIdeal,
+        DistortionDirection::IdealToObserved => Direction::IdealToObserved,
+        DistortionDirection::ObservedToIdeal => Direction::ObservedToIdeal,
     };
     record::Radial { k2: Some(k2.into()), ..record::Radial::new(matrix, k1, direction) }
 }
@@ -199,8 +199,8 @@ fn stated_thin_prism(m: &ThinPrismFisheye, matrix: Matrix) -> record::ThinPrismF
     }
 }
 
-fn stated_stretch(Affine { c, d, e }: Affine) -> record::Stretch {
-    record::Stretch { c: Some(c.into()), d: Some(d.into()), e: Some(e.into()), ..record::Stretch::default() }
+fn stated_stretch(Affine { c, d, e }: Affine) -> record::AffineMap {
+    record::AffineMap { c: Some(c.into()), d: Some(d.into()), e: Some(e.into()), ..record::AffineMap::default() }
 }
 
 fn stated_ocam(m: &Ocam, centre: Centre) -> record::Ocam {
@@ -213,7 +213,7 @@ fn stated_f_theta(m: &FTheta, centre: Centre) -> record::FTheta {
         FThetaSense::RadiusToAngle => record::FThetaSense::RadiusToAngle,
     };
     let polynomial = list(m.coefficients()[1..].iter().copied());
-    record::FTheta::new(centre, polynomial, maps, m.greatest_angle_rad().to_degrees(), stated_stretch(m.affine()))
+    record::FTheta::new(centre, polynomial, maps, m.max_angle_rad().to_degrees(), stated_stretch(m.affine()))
 }
 
 /// Radii are in mm, because all tables come from camera files.

@@ -5,7 +5,7 @@ use crate::compile::stated::{focus_m, transmittance};
 use etendue_optics::ray_transfer::{
     PassCircle, PassEllipse, PassRegion, Polynomial, RayPass, RayTransfer, RayTransferError, Term, Transfer,
 };
-use etendue_optics::{Lens, OpticsError, SensorPlace, Transferred};
+use etendue_optics::{Lens, OpticsError, SensorPlace, RayTransferLens};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_scene::asset::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
@@ -24,18 +24,18 @@ pub(super) fn lens(
     let transfer = context.accept(&record.file.place, functions(asset))?;
     let (sensor, place) = sensor(&record.sensor, &record.place);
     let transmittance = transmittance(record.transmittance.as_ref());
-    let made = Transferred::new(transfer, sensor, transmittance, film.max_radius_mm());
+    let made = RayTransferLens::new(transfer, sensor, transmittance, film.max_radius_mm());
     let at = match &made {
         Err(OpticsError::RayTransfer(RayTransferError::Focus { .. } | RayTransferError::SensorTooNear { .. })) => place,
         _ => &record.file.place,
     };
     let lens = context.accept(at, made)?;
-    asset.notes.iter().for_each(|note| context.remark_on(record.file.value.display(), note));
-    context.remark_on(record.file.value.display(), known(&lens));
-    let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
-    if lit < needed * (1.0 - 1e-9) {
+    asset.notes.iter().for_each(|note| context.note_on(record.file.value.display(), note));
+    context.note_on(record.file.value.display(), domain_text(&lens));
+    let (lit_mm, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
+    if lit_mm < needed * (1.0 - 1e-9) {
         let message = format!(
-            "the ray transfer functions cover the sensor to {lit:.3} mm from the axis, but the image extends to \
+            "the ray transfer functions cover the sensor to {lit_mm:.3} mm from the axis, but the image extends to \
              {needed:.3} mm"
         );
         context.warn_on(&record.place, message);
@@ -43,15 +43,15 @@ pub(super) fn lens(
     Some(Lens::ray_transfer(lens))
 }
 
-fn sensor<'a>(stated: &'a Stated, whole: &'a Place) -> (SensorPlace, &'a Place) {
-    match stated {
+fn sensor<'a>(record: &'a Stated, record_place: &'a Place) -> (SensorPlace, &'a Place) {
+    match record {
         Stated::Distance(distance) => (SensorPlace::Distance(distance.value), &distance.place),
-        Stated::Focus(focus) => (SensorPlace::Focus(focus_m(focus)), whole),
+        Stated::Focus(focus) => (SensorPlace::Focus(focus_m(focus)), record_place),
     }
 }
 
 /// Domain in which the functions are known.
-fn known(lens: &Transferred) -> String {
+fn domain_text(lens: &RayTransferLens) -> String {
     let transfers = lens.transfer().transfers();
     let wavelengths = match transfers {
         [only] => format!("{} nm, used for all wavelengths", only.wavelength_nm),
@@ -63,7 +63,7 @@ fn known(lens: &Transferred) -> String {
         ),
         [] => String::new(),
     };
-    let height_mm = transfers.iter().map(|t| t.pass.greatest_height_mm()).fold(0.0, f64::max);
+    let height_mm = transfers.iter().map(|t| t.pass.max_height_mm()).fold(0.0, f64::max);
     let reach = match height_mm.is_finite() {
         true => format!("rays that cross its input plane within {height_mm} mm of the axis"),
         false => "rays at any height, as circles set no limit".to_owned(),

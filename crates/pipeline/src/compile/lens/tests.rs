@@ -17,12 +17,12 @@ fn plan_with(lens: &str, further: &str, assets: &Assets) -> Result<Plan, String>
     );
     let read = |_: &Path| Ok(text.clone());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
-    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
-    compile(&job, assets, &Choices::default()).map_err(faults)
+    let errors = |list: Vec<etendue_scene::DescriptionError>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, assets, &Choices::default()).map_err(errors)
 }
 
 fn camera(lens: &str) -> CameraPlan {
-    plan_with(lens, "", &Assets::default()).unwrap_or_else(|faults| panic!("{faults}")).cameras.remove(0)
+    plan_with(lens, "", &Assets::default()).unwrap_or_else(|errors| panic!("{errors}")).cameras.remove(0)
 }
 
 fn refused(lens: &str, further: &str, words: &[&str]) {
@@ -54,7 +54,7 @@ fn a_published_lens_is_traced_and_carries_one_wavelength_a_path() {
 }
 
 #[test]
-fn glasses_are_named_or_told_by_numbers() {
+fn glasses_are_given_by_name_or_numbers() {
     let focal = |glass: &str| {
         let camera = camera(&singlet(&format!("thickness_mm = 3, semi_aperture_mm = 5, glass = {glass}")));
         (camera.body.lens.focal_length_mm(), camera.settings.wavelengths)
@@ -63,9 +63,9 @@ fn glasses_are_named_or_told_by_numbers() {
     let by_name = focal("\"N-BK7\"");
     let sellmeier = "{ sellmeier_b = [1.03961212, 0.231792344, 1.01046945], sellmeier_c_um2 = [0.00600069867, 0.0200179144, 103.560653] }";
     for (glass, wavelengths) in [(sellmeier, 1), ("{ index = 1.5168, abbe = 64.17 }", 1), ("{ index = 1.5168 }", 4)] {
-        let found = focal(glass);
+        let actual = focal(glass);
         // n_d is given to five digits: 1e-6 / (n − 1).
-        assert!((found.0 / by_name.0 - 1.0).abs() < 1e-5 && found.1 == wavelengths, "{glass}: {found:?}");
+        assert!((actual.0 / by_name.0 - 1.0).abs() < 1e-5 && actual.1 == wavelengths, "{glass}: {actual:?}");
     }
 }
 
@@ -89,7 +89,7 @@ fn faults_of_prescriptions_name_their_place() {
 
 fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset, stop: bool) -> SurfaceAsset {
     let (conic, asphere, thickness_mm, line) = (0.0, [0.0; ASPHERE_TERMS], 3.0, 12);
-    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, rim: false, thickness_mm, glass, stop, line }
+    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, clips_light: false, thickness_mm, glass, stop, line }
 }
 
 #[test]
@@ -151,8 +151,8 @@ fn plan_of_file(asset: PrescriptionAsset) -> Result<Plan, String> {
     plan_with("type = \"prescription\"\nfile = \"lens.seq\"\n", "", &assets)
 }
 
-fn opened(asset: PrescriptionAsset) -> (Vec<f64>, f64) {
-    let plan = plan_of_file(asset).unwrap_or_else(|faults| panic!("{faults}"));
+fn found_apertures(asset: PrescriptionAsset) -> (Vec<f64>, f64) {
+    let plan = plan_of_file(asset).unwrap_or_else(|errors| panic!("{errors}"));
     let Lens::Prescription(lens) = &plan.cameras[0].body.lens else { panic!("a prescription") };
     let lens = lens.prescription();
     (lens.surfaces().iter().map(|s| s.semi_aperture_mm).collect(), lens.paraxial().entrance_radius_mm)
@@ -163,18 +163,18 @@ fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
     let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 0.02 });
     let fields = |list: &[f64]| Some(LensFields::AnglesDeg(list.to_vec()));
     // Narrow enough that the heights are those of the chief rays, and small enough for first order.
-    let [[near, _, _], [far, _, _]] =
-        [1.0, 2.0].map(|deg| <[f64; 3]>::try_from(opened(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
-    assert!(near > 0.05 && (far / near - 2.0).abs() < 0.1, "{near} {far}");
-    let (axis, entrance_mm) = opened(open_asset(pupil, fields(&[0.0])));
+    let [[near, _, _], [distant, _, _]] =
+        [1.0, 2.0].map(|deg| <[f64; 3]>::try_from(found_apertures(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
+    assert!(near > 0.05 && (distant / near - 2.0).abs() < 0.1, "{near} {distant}");
+    let (axis, entrance_mm) = found_apertures(open_asset(pupil, fields(&[0.0])));
     assert!((entrance_mm - 0.01).abs() < 1e-9 && (axis[0] - 0.01).abs() < 1e-6, "{axis:?}");
     // Vignetting factors remove the outer rays.
     let wide = Some(LensOpening::EntrancePupil { diameter_mm: 2.0 });
     let mut vignetted = open_asset(wide, fields(&[0.0, 8.0]));
-    let whole = opened(vignetted.clone()).0;
+    let unvignetted = found_apertures(vignetted.clone()).0;
     vignetted.vignetting = [vec![0.0, 0.5], vec![0.0, 0.5]];
-    let cut = opened(vignetted).0;
-    assert!(whole[0] - cut[0] > 0.3 && whole[2] == cut[2], "{whole:?} {cut:?}");
+    let clipped = found_apertures(vignetted).0;
+    assert!(unvignetted[0] - clipped[0] > 0.3 && unvignetted[2] == clipped[2], "{unvignetted:?} {clipped:?}");
 }
 
 /// A baffle of 0.8 of the pupil's radius before the lens transmits 0.64 of the light on the axis.
@@ -186,11 +186,11 @@ fn a_baffle_of_a_file_takes_light_on_the_axis() {
         asset.surfaces.rotate_right(1);
         asset.surfaces[0].semi_aperture_mm = Some(0.05);
         let mut plane = file_surface(f64::INFINITY, Some(0.04), GlassAsset::Air, false);
-        plane.rim = true;
+        plane.clips_light = true;
         if baffle {
             asset.surfaces.insert(0, plane);
         }
-        let lens = plan_of_file(asset).unwrap_or_else(|faults| panic!("{faults}")).cameras.remove(0).body.lens;
+        let lens = plan_of_file(asset).unwrap_or_else(|errors| panic!("{errors}")).cameras.remove(0).body.lens;
         (lens.projected_solid_angle_sr(glam::DVec2::ZERO), lens.f_number())
     };
     let ([open_sr, n], [clipped_sr, clipped_n]) = (<[f64; 2]>::from(light(false)), <[f64; 2]>::from(light(true)));
@@ -215,16 +215,16 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
         let fields = Some(LensFields::AnglesDeg(vec![0.0]));
         PrescriptionAsset { object_distance_mm, ..open_asset(Some(LensOpening::ImageCone { sine }), fields) }
     };
-    let far = plan_of_file(cone(0.05, f64::INFINITY)).expect("a lens");
-    let Lens::Prescription(lens) = &far.cameras[0].body.lens else { panic!("a prescription") };
+    let distant = plan_of_file(cone(0.05, f64::INFINITY)).expect("a lens");
+    let Lens::Prescription(lens) = &distant.cameras[0].body.lens else { panic!("a prescription") };
     let [f_mm, n] = [lens.prescription().paraxial().focal_length_mm, lens.prescription().paraxial().f_number()];
     assert!((n - 10.0).abs() < 1e-9, "{n}");
     // At unit magnification the object's cone is the image's.
-    let near = opened(cone(0.05, 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm));
+    let near = found_apertures(cone(0.05, 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm));
     let distance_mm = 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm
         + lens.prescription().paraxial().entrance_pupil_position_mm;
-    let wanted_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
-    assert!((near.1 / wanted_mm - 1.0).abs() < 1e-6, "{near:?} {wanted_mm}");
+    let expected_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
+    assert!((near.1 / expected_mm - 1.0).abs() < 1e-6, "{near:?} {expected_mm}");
     let message = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");
     assert!(message.contains("(line 3)") && message.contains("cone of half-angle sine"), "{message}");
 }
@@ -236,7 +236,7 @@ fn principal_points_far_from_the_middle_are_warned_of() {
         let lens = format!(
             "type = \"calibrated\"\nf_number = 2\nprojection = {{ type = \"opencv\", fx_px = 60, cx_px = {cx}, cy_px = {cy} }}\n"
         );
-        plan_with(&lens, "", &Assets::default()).unwrap_or_else(|faults| panic!("{faults}")).warnings().join("\n")
+        plan_with(&lens, "", &Assets::default()).unwrap_or_else(|errors| panic!("{errors}")).warnings().join("\n")
     };
     assert!(warnings(70.0, 24.0).contains("outside the image"));
     assert!(warnings(11.0, 8.0).contains("far from the centre of the image of 64 × 48 px"));
@@ -258,10 +258,10 @@ fn calibrated_cameras_take_their_numbers_as_they_are_written() {
     let Lens::Calibrated(made) = &prism.body.lens else { panic!("calibrated") };
     // r = θ (1 + k1 θ²) = 1.01 along x at θ = 1: x′ = r + 3 p2 r² + s1 r², y′ = p1 r² + s3 r².
     let (sin, cos) = etendue_core::maths::f64::sin_cos(1.0);
-    let seen = made.parameters().calibration.project(glam::DVec3::new(sin, 0.0, cos)).expect("seen");
+    let image_mm = made.parameters().calibration.project(glam::DVec3::new(sin, 0.0, cos)).expect("seen");
     let square = 1.01 * 1.01;
     let expected = glam::DVec2::new(1.01 + 0.009 * square, 0.005 * square) * 20.0 + glam::DVec2::new(32.0, 24.0);
-    assert!((seen - expected).length() < 1e-12, "{seen} for {expected}");
+    assert!((image_mm - expected).length() < 1e-12, "{image_mm} for {expected}");
     let full = camera(
         "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"equirectangular\", field_of_view_deg = 360 }\n",
     );
@@ -298,8 +298,8 @@ fn the_ray_table_is_the_calibration() {
         dark += usize::from(direction[0].is_nan());
     }
     // 60° is a circle of 25 π/3 = 26.2 px around the centre of 64 × 48: it excludes some of the corners.
-    let seen = 64 * 48 - dark;
-    assert!((1700..2154).contains(&seen), "{seen}");
+    let lit = 64 * 48 - dark;
+    assert!((1700..2154).contains(&lit), "{lit}");
 }
 
 #[test]

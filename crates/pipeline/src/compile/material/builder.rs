@@ -6,7 +6,7 @@ use super::compiler::MaterialCompiler;
 use super::picture::Pictures;
 use super::slot;
 use etendue_scene::Place;
-use etendue_scene::Unused;
+use etendue_scene::UnusedNames;
 use etendue_scene::asset::{SlotMaterial, SlotSurface};
 use etendue_scene::record::{self, Scene};
 use etendue_spectra::upsample;
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// Materials and textures found so far, and the place where each was named.
 #[derive(Default)]
 pub(in super::super) struct MaterialTableBuilder {
-    materials: Vec<Made>,
+    materials: Vec<CompiledMaterial>,
     by_name: BTreeMap<String, MaterialId>,
     /// Materials from mesh files, by mesh file and slot name.
     by_slot: BTreeMap<(PathBuf, String), MaterialId>,
@@ -27,12 +27,12 @@ pub(in super::super) struct MaterialTableBuilder {
     /// Materials with a delayed modulation, by the bits of the delay.
     by_delay: BTreeMap<(u32, u64), MaterialId>,
     /// Material of lamps' openings, once there are any.
-    of_openings: Option<MaterialId>,
+    opening_material: Option<MaterialId>,
     pub(super) pictures: Pictures,
 }
 
 /// A material with its properties.
-struct Made {
+struct CompiledMaterial {
     material: Material,
     place: Place,
     name: String,
@@ -45,8 +45,8 @@ struct Made {
     has_random_phases: bool,
 }
 
-impl Made {
-    fn like(&self) -> Self {
+impl CompiledMaterial {
+    fn clone_properties(&self) -> Self {
         Self { material: self.material.clone(), place: self.place.clone(), name: self.name.clone(), ..*self }
     }
 
@@ -65,17 +65,17 @@ impl Made {
 
 impl MaterialTableBuilder {
     /// All materials of a scene; unused ones whose files are not read have only a position in the list.
-    pub(in super::super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
+    pub(in super::super) fn from_scene(scene: &Scene, unused: &UnusedNames, context: &mut Context<'_>) -> Self {
         let mut builder = Self::default();
         for record in &scene.materials {
             if unused.unread.contains(&record.name.value) {
-                builder.add(Made::unused(record));
+                builder.add(CompiledMaterial::unused(record));
                 continue;
             }
-            let pictures = &mut builder.pictures;
+            let images = &mut builder.pictures;
             let mut material_compiler = MaterialCompiler {
                 scene,
-                pictures,
+                pictures: images,
                 context,
                 needs_coordinates: false,
                 flux_sides: None,
@@ -84,7 +84,7 @@ impl MaterialTableBuilder {
             if let Some(material) = material_compiler.material(record) {
                 let MaterialCompiler { needs_coordinates, flux_sides, has_random_phases, .. } = material_compiler;
                 let (place, name) = (record.place.clone(), record.name.value.clone());
-                let id = builder.add(Made {
+                let id = builder.add(CompiledMaterial {
                     material,
                     place,
                     name: name.clone(),
@@ -109,11 +109,11 @@ impl MaterialTableBuilder {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             // An invalid part has no material.
-            let Some(made) = self.materials.get(id.0 as usize) else { continue };
-            if made.needs_coordinates {
-                return Some(&made.name);
+            let Some(material) = self.materials.get(id.0 as usize) else { continue };
+            if material.needs_coordinates {
+                return Some(&material.name);
             }
-            if let (Surface::Mix(mix), false) = (&made.material.surface, visited[id.0 as usize]) {
+            if let (Surface::Mix(mix), false) = (&material.material.surface, visited[id.0 as usize]) {
                 open.extend([mix.a, mix.b]);
             }
             visited[id.0 as usize] = true;
@@ -122,7 +122,7 @@ impl MaterialTableBuilder {
     }
 
     /// Material that a mesh's own file states for a slot. Records an error at `place` if the file states none.
-    pub(in super::super) fn of_slot(
+    pub(in super::super) fn add_slot(
         &mut self,
         file: &Path,
         slot: &SlotMaterial,
@@ -135,10 +135,10 @@ impl MaterialTableBuilder {
         }
         let needs_coordinates = slot::has_picture(slot);
         let material = match &slot.surface {
-            Some(SlotSurface::Layers(layers)) => self.of_layers(layers, slot, place, context)?,
+            Some(SlotSurface::Layers(layers)) => self.add_layers(layers, slot, place, context)?,
             _ => Material::new(slot::surface(file, slot, place, &mut self.pictures, context)?),
         };
-        let id = self.add(Made {
+        let id = self.add(CompiledMaterial {
             material,
             place: place.clone(),
             name: slot.name.clone(),
@@ -151,30 +151,30 @@ impl MaterialTableBuilder {
     }
 
     /// Returns true if a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] must make a variant.
-    pub(in super::super) fn gives_flux(&self, id: MaterialId) -> bool {
-        self.materials.get(id.0 as usize).is_some_and(|made| made.flux_sides.is_some())
+    pub(in super::super) fn has_stated_flux(&self, id: MaterialId) -> bool {
+        self.materials.get(id.0 as usize).is_some_and(|material| material.flux_sides.is_some())
     }
 
     /// Variant of a material with a stated flux for an object on which it has `area_m2` on one side.
-    pub(in super::super) fn of_area(&mut self, id: MaterialId, area_m2: f64) -> MaterialId {
+    pub(in super::super) fn with_area(&mut self, id: MaterialId, area_m2: f64) -> MaterialId {
         let key = (id.0, area_m2.to_bits());
         if let Some(known) = self.by_area.get(&key) {
             return *known;
         }
-        let made = &self.materials[id.0 as usize];
-        let sides = made.flux_sides.unwrap_or(1.0);
-        let mut like = made.like();
+        let material = &self.materials[id.0 as usize];
+        let sides = material.flux_sides.unwrap_or(1.0);
+        let mut like = material.clone_properties();
         if let Some(emission) = &mut like.material.emission {
             emission.radiance = emission.radiance.scaled(1.0 / (sides * area_m2));
         }
-        let made = self.add(like);
-        self.by_area.insert(key, made);
-        made
+        let added = self.add(like);
+        self.by_area.insert(key, added);
+        added
     }
 
     /// Returns true if a material emits light.
-    pub(in super::super) fn glows(&self, id: MaterialId) -> bool {
-        self.materials.get(id.0 as usize).is_some_and(|made| made.material.emission.is_some())
+    pub(in super::super) fn is_emissive(&self, id: MaterialId) -> bool {
+        self.materials.get(id.0 as usize).is_some_and(|material| material.material.emission.is_some())
     }
 
     /// Returns true if the strength of a material's light varies over time.
@@ -187,10 +187,10 @@ impl MaterialTableBuilder {
     }
 
     /// Variant of a modulated material for an object `name`, delayed by `own_s` and by the phase that the material requires.
-    pub(in super::super) fn of_delay(&mut self, id: MaterialId, own_s: f64, name: &str) -> MaterialId {
-        let made = &self.materials[id.0 as usize];
-        let waveform = self.modulation(id).filter(|_| made.has_random_phases).map(Modulation::waveform);
-        let random_s = waveform.map_or(0.0, |w| modulation::random_delay_s(w, &format!("{name}, {}", made.name)));
+    pub(in super::super) fn with_delay(&mut self, id: MaterialId, own_s: f64, name: &str) -> MaterialId {
+        let material = &self.materials[id.0 as usize];
+        let waveform = self.modulation(id).filter(|_| material.has_random_phases).map(Modulation::waveform);
+        let random_s = waveform.map_or(0.0, |w| modulation::random_delay_s(w, &format!("{name}, {}", material.name)));
         let delay_s = own_s + random_s;
         if delay_s == 0.0 {
             return id;
@@ -199,21 +199,21 @@ impl MaterialTableBuilder {
         if let Some(known) = self.by_delay.get(&key) {
             return *known;
         }
-        let mut like = made.like();
+        let mut like = material.clone_properties();
         if let Some(emission) = &mut like.material.emission {
             emission.modulation = emission.modulation.take().map(|modulation| modulation.later(delay_s));
         }
-        let made = self.add(like);
-        self.by_delay.insert(key, made);
-        made
+        let added = self.add(like);
+        self.by_delay.insert(key, added);
+        added
     }
 
     /// Black material of lamps' openings, which do not emit by their material.
-    pub(in super::super) fn of_openings(&mut self, place: &Place) -> MaterialId {
-        if let Some(known) = self.of_openings {
+    pub(in super::super) fn lamp_opening(&mut self, place: &Place) -> MaterialId {
+        if let Some(known) = self.opening_material {
             return known;
         }
-        let made = self.add(Made {
+        let id = self.add(CompiledMaterial {
             material: Material::new(Surface::Absorber),
             place: place.clone(),
             name: "lamp opening".to_owned(),
@@ -221,20 +221,20 @@ impl MaterialTableBuilder {
             flux_sides: None,
             has_random_phases: false,
         });
-        self.of_openings = Some(made);
-        made
+        self.opening_material = Some(id);
+        id
     }
 
     /// The material table, and the names of the materials in the order of their ids.
     pub(in super::super) fn finish(self, context: &mut Context<'_>) -> Option<(MaterialTable, Vec<String>)> {
-        let names = self.materials.iter().map(|made| made.name.clone()).collect();
-        let places: Vec<_> = self.materials.iter().map(|made| made.place.clone()).collect();
-        let materials = self.materials.into_iter().map(|made| made.material).collect();
+        let names = self.materials.iter().map(|material| material.name.clone()).collect();
+        let places: Vec<_> = self.materials.iter().map(|material| material.place.clone()).collect();
+        let materials = self.materials.into_iter().map(|material| material.material).collect();
         match MaterialTable::new(materials, self.pictures.into_textures()) {
             Ok(material_table) => Some((material_table, names)),
             Err(error) => {
                 if let Some(place) = error.material().and_then(|i| places.get(i)) {
-                    context.fault(ErrorCode::OutOfRange, place, error.to_string(), "");
+                    context.error(ErrorCode::OutOfRange, place, error.to_string(), "");
                 }
                 None
             }
@@ -249,7 +249,7 @@ impl MaterialTableBuilder {
         place: &Place,
         needs_coordinates: bool,
     ) -> MaterialId {
-        self.add(Made {
+        self.add(CompiledMaterial {
             material,
             place: place.clone(),
             name: name.to_owned(),
@@ -259,8 +259,8 @@ impl MaterialTableBuilder {
         })
     }
 
-    fn add(&mut self, made: Made) -> MaterialId {
-        self.materials.push(made);
+    fn add(&mut self, material: CompiledMaterial) -> MaterialId {
+        self.materials.push(material);
         MaterialId((self.materials.len() - 1) as u32)
     }
 }
@@ -273,18 +273,18 @@ impl MaterialCompiler<'_, '_> {
         let normal_map = record.normal_map.as_ref().map(|map| self.normal_map(map));
         Some(Material {
             surface: surface?,
-            emission: whole(emission)?,
-            opacity: whole(opacity)?,
-            normal_map: whole(normal_map)?,
+            emission: transpose_valid(emission)?,
+            opacity: transpose_valid(opacity)?,
+            normal_map: transpose_valid(normal_map)?,
         })
     }
 }
 
 /// Distinguishes a valid or absent value from an invalid one (`None`).
 #[allow(clippy::option_option, reason = "the outer level tells faults, the inner what is not given")]
-fn whole<T>(given: Option<Option<T>>) -> Option<Option<T>> {
-    match given {
+fn transpose_valid<T>(value: Option<Option<T>>) -> Option<Option<T>> {
+    match value {
         None => Some(None),
-        Some(made) => made.map(Some),
+        Some(surface) => surface.map(Some),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::context::{Context, ErrorCode};
 use super::picture::Pictures;
-use super::texels::Reading;
+use super::texels::TexelInterpretation;
 use etendue_scene::Placed;
 use etendue_scene::record::material::{self, Factor};
 use etendue_scene::record::texture::{self, Encoding, Mapping};
@@ -42,7 +42,7 @@ const SHARPNESS: f32 = 4.0;
 
 /// Use of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Use {
+pub(super) enum ImageUse {
     /// Colours: reflectance, light.
     Colour,
     /// A number per texel.
@@ -55,26 +55,26 @@ pub(super) enum Use {
 
 impl MaterialCompiler<'_, '_> {
     /// Texture of a name for a use.
-    pub(super) fn texture(&mut self, name: &Placed<String>, usage: Use, scale: f64) -> Option<TextureId> {
+    pub(super) fn texture(&mut self, name: &Placed<String>, usage: ImageUse, scale: f64) -> Option<TextureId> {
         let record = self.named_texture(&name.value)?.clone();
         self.check_encoding(&record, name, usage)?;
-        self.needs_coordinates |= record.mapping() == Mapping::Uv || usage == Use::Normal;
+        self.needs_coordinates |= record.mapping() == Mapping::Uv || usage == ImageUse::Normal;
         let encoded = record.encoding.value == Encoding::Srgb;
         let colour = record.encoding.value != Encoding::Data;
-        let reading = Reading { encoded, alpha: usage == Use::Alpha, colour, scale: scale as f32 };
+        let reading = TexelInterpretation { encoded, alpha: usage == ImageUse::Alpha, colour, scale: scale as f32 };
         self.pictures.picture(&record.file.value, &record.place, reading, sampling(&record), self.context)
     }
 
     /// Refuses colours as plain numbers, and encoded plain numbers.
-    fn check_encoding(&mut self, record: &Texture, name: &Placed<String>, usage: Use) -> Option<()> {
+    fn check_encoding(&mut self, record: &Texture, name: &Placed<String>, usage: ImageUse) -> Option<()> {
         let (problem, remedy) = match (usage, record.encoding.value) {
-            (Use::Colour, Encoding::Data) => ("plain numbers, but colours are required here", "\"srgb\" or \"linear\""),
-            (Use::Number, Encoding::Srgb) => ("sRGB-encoded colours, but plain numbers are required here", "\"data\""),
-            (Use::Normal, Encoding::Srgb | Encoding::Linear) => ("colours, but normals are required here", "\"data\""),
+            (ImageUse::Colour, Encoding::Data) => ("plain numbers, but colours are required here", "\"srgb\" or \"linear\""),
+            (ImageUse::Number, Encoding::Srgb) => ("sRGB-encoded colours, but plain numbers are required here", "\"data\""),
+            (ImageUse::Normal, Encoding::Srgb | Encoding::Linear) => ("colours, but normals are required here", "\"data\""),
             _ => return Some(()),
         };
         let problem = format!("the texture \"{}\" contains {problem} (it is defined at {})", name.value, record.place);
-        self.context.fault(
+        self.context.error(
             ErrorCode::UnsuitableFile,
             &name.place,
             problem,
@@ -90,8 +90,8 @@ fn sampling(record: &Texture) -> Sampling {
         texture::Wrap::Clamp => Wrap::Clamp,
         texture::Wrap::Mirror => Wrap::Mirror,
     };
-    let pair = |given: &Option<Placed<[f64; 2]>>, default: Vec2| {
-        given.as_ref().map_or(default, |p| Vec2::new(p.value[0] as f32, p.value[1] as f32))
+    let pair = |value: &Option<Placed<[f64; 2]>>, default: Vec2| {
+        value.as_ref().map_or(default, |p| Vec2::new(p.value[0] as f32, p.value[1] as f32))
     };
     let (scale, offset) = (pair(&record.uv_scale, Vec2::ONE), pair(&record.uv_offset, Vec2::ZERO));
     let projection = match &record.size_m {
@@ -111,22 +111,22 @@ impl MaterialCompiler<'_, '_> {
             Factor::Texture(texture) => texture,
         };
         let (usage, channel) = match texture.channel.as_ref().map(|c| c.value) {
-            Some(material::Channel::Red) => (Use::Number, Channel::Red),
-            Some(material::Channel::Green) => (Use::Number, Channel::Green),
-            Some(material::Channel::Blue) => (Use::Number, Channel::Blue),
+            Some(material::Channel::Red) => (ImageUse::Number, Channel::Red),
+            Some(material::Channel::Green) => (ImageUse::Number, Channel::Green),
+            Some(material::Channel::Blue) => (ImageUse::Number, Channel::Blue),
             // The opacity plane is a separate single-channel image.
-            Some(material::Channel::Alpha) => (Use::Alpha, Channel::Red),
-            Some(material::Channel::Luminance) | None => (Use::Number, Channel::Luminance),
+            Some(material::Channel::Alpha) => (ImageUse::Alpha, Channel::Red),
+            Some(material::Channel::Luminance) | None => (ImageUse::Number, Channel::Luminance),
         };
         let scale = texture.scale.as_ref().map_or(1.0, |s| s.value);
         Some(materials::Factor::Texture(self.texture(&texture.texture, usage, scale)?, channel))
     }
 
     pub(super) fn normal_map(&mut self, map: &material::NormalMap) -> Option<materials::NormalMap> {
-        let texture = self.texture(&map.texture, Use::Normal, 1.0)?;
+        let texture = self.texture(&map.texture, ImageUse::Normal, 1.0)?;
         let green = match map.y.as_ref().map(|y| y.value) {
-            Some(material::Green::Down) => materials::Green::Down,
-            Some(material::Green::Up) | None => materials::Green::Up,
+            Some(material::Green::Down) => materials::GreenDirection::Down,
+            Some(material::Green::Up) | None => materials::GreenDirection::Up,
         };
         let strength = map.strength.as_ref().map_or(1.0, |s| s.value);
         self.context.accept(&map.place, materials::NormalMap::new(texture, green, strength))

@@ -1,17 +1,17 @@
 //! Materials of glTF files: metal, coat and base, sheen, transparent substances, mixed.
 
 use super::super::context::Context;
-use super::super::spectrum::bright;
+use super::super::spectrum::scaled_to_luminance;
 use super::builder::MaterialTableBuilder;
-use super::texels::Reading;
+use super::texels::TexelInterpretation;
 use etendue_scene::Place;
 use etendue_scene::asset::{
-    SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotOver, SlotPicture, SlotTransmission, SlotWrap,
+    SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotTopLayer, SlotPicture, SlotTransmission, SlotWrap,
 };
 use etendue_spectra::colour::BT709;
 use etendue_spectra::{metal, upsample};
 use etendue_tracer::materials::{
-    Cloth, Coated, Conductor, Dielectric, Emission, EmissionSides, Factor, Green, Material, Mix, NormalMap,
+    Cloth, Coated, Conductor, Dielectric, Emission, EmissionSides, Factor, GreenDirection, Material, Mix, NormalMap,
     Reflectance, Surface, ThinSheet, absorption_of,
 };
 use etendue_tracer::textures::{Channel, Sampling, TextureId, Wrap};
@@ -34,20 +34,20 @@ struct Layering<'l, 'c, 'a> {
     context: &'c mut Context<'a>,
     slot: &'l SlotMaterial,
     place: &'l Place,
-    has_picture: bool,
+    uses_image: bool,
 }
 
 impl MaterialTableBuilder {
     /// A material of a glTF file.
-    pub(super) fn of_layers(
+    pub(super) fn add_layers(
         &mut self,
         layers: &SlotLayers,
         slot: &SlotMaterial,
         place: &Place,
         context: &mut Context<'_>,
     ) -> Option<Material> {
-        let has_picture = layers.has_picture();
-        Layering { builder: self, context, slot, place, has_picture }.material(layers)
+        let uses_image = layers.has_picture();
+        Layering { builder: self, context, slot, place, uses_image: has_picture: uses_image }.material(layers)
     }
 }
 
@@ -68,19 +68,19 @@ impl Layering<'_, '_, '_> {
     fn with_normals(&mut self, surface: Surface, layers: &SlotLayers) -> Option<Material> {
         let is_mix = matches!(surface, Surface::Mix(_));
         let mut material = Material::new(surface);
-        if let (Some((picture, strength)), false) = (&layers.normals, is_mix) {
-            let texture = self.texture(picture)?;
-            material.normal_map = Some(self.context.accept(self.place, NormalMap::new(texture, Green::Up, *strength))?);
+        if let (Some((image, strength)), false) = (&layers.normals, is_mix) {
+            let texture = self.texture(image)?;
+            material.normal_map = Some(self.context.accept(self.place, NormalMap::new(texture, GreenDirection::Up, *strength))?);
         }
         Some(material)
     }
 
     fn surface(&mut self, layers: &SlotLayers) -> Option<Surface> {
         match layers.metal {
-            SlotNumber::Number(share) if share <= 0.0 => self.no_metal(layers),
-            SlotNumber::Number(share) if share >= 1.0 => self.metal(layers),
+            SlotNumber::Number(metalness) if metalness <= 0.0 => self.non_metal(layers),
+            SlotNumber::Number(metalness) if metalness >= 1.0 => self.metal(layers),
             _ => {
-                let (a, b) = (self.no_metal(layers)?, self.metal(layers)?);
+                let (a, b) = (self.non_metal(layers)?, self.metal(layers)?);
                 self.mix(NamedSurface::new(a, "no metal"), NamedSurface::new(b, "metal"), &layers.metal, layers)
             }
         }
@@ -88,24 +88,24 @@ impl Layering<'_, '_, '_> {
 
     fn metal(&mut self, layers: &SlotLayers) -> Option<Surface> {
         let alpha = self.number(&layers.alpha)?;
-        let made = match &layers.base {
+        let metal = match &layers.base {
             SlotColour::LinearSrgb(rgb) => {
                 let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
-                Conductor::new(metal::of_reflectance(&reflectance), alpha)
+                Conductor::new(metal::from_reflectance(&reflectance), alpha)
             }
-            SlotColour::Picture(picture) => Conductor::of_texture(self.texture(picture)?, alpha),
+            SlotColour::Picture(image) => Conductor::from_texture(self.texture(image)?, alpha),
         };
-        self.context.accept(self.place, made).map(|made| made.with_interreflection().into())
+        self.context.accept(self.place, metal).map(|metal| metal.with_interreflection().into())
     }
 
-    fn no_metal(&mut self, layers: &SlotLayers) -> Option<Surface> {
+    fn non_metal(&mut self, layers: &SlotLayers) -> Option<Surface> {
         let Some(clear) = &layers.transmission else { return self.opaque(layers) };
-        let through = self.clear(clear, layers)?;
-        match clear.share {
-            SlotNumber::Number(share) if share >= 1.0 => Some(through),
+        let transmission = self.transmissive(clear, layers)?;
+        match clear.fraction {
+            SlotNumber::Number(fraction) if fraction >= 1.0 => Some(transmission),
             _ => {
                 let opaque = self.opaque(layers)?;
-                self.mix(NamedSurface::new(opaque, "opaque"), NamedSurface::new(through, "clear"), &clear.share, layers)
+                self.mix(NamedSurface::new(opaque, "opaque"), NamedSurface::new(transmission, "clear"), &clear.fraction, layers)
             }
         }
     }
@@ -113,32 +113,32 @@ impl Layering<'_, '_, '_> {
     fn opaque(&mut self, layers: &SlotLayers) -> Option<Surface> {
         let base = self.reflectance(&layers.base)?;
         let alpha = self.number(&layers.alpha)?;
-        match &layers.over {
-            SlotOver::Nothing => Some(base.into()),
-            SlotOver::Coat { index } => {
+        match &layers.top_layer {
+            SlotTopLayer::Nothing => Some(base.into()),
+            SlotTopLayer::Coat { index } => {
                 self.context.accept(self.place, Coated::new(base, *index, alpha)).map(Surface::from)
             }
-            SlotOver::Sheen { colour, alpha } => {
+            SlotTopLayer::Sheen { colour, alpha } => {
                 let sheen = upsample::reflectance_spectrum(colour.map(|v| v as f32));
                 self.context.accept(self.place, Cloth::new(base, sheen, *alpha)).map(Surface::from)
             }
-            SlotOver::TwoCoats { index, share, alpha: second } => {
+            SlotTopLayer::TwoCoats { index, fraction, alpha: second } => {
                 let own = self.context.accept(self.place, Coated::new(base.clone(), *index, alpha))?;
                 let clear = self.context.accept(self.place, Coated::new(base, *index, *second))?;
-                if *share >= 1.0 {
+                if *fraction >= 1.0 {
                     return Some(clear.into());
                 }
                 self.mix(
                     NamedSurface::new(own.into(), "own coat"),
                     NamedSurface::new(clear.into(), "clear coat"),
-                    &SlotNumber::Number(*share),
+                    &SlotNumber::Number(*fraction),
                     layers,
                 )
             }
         }
     }
 
-    fn clear(&mut self, clear: &SlotTransmission, layers: &SlotLayers) -> Option<Surface> {
+    fn transmissive(&mut self, clear: &SlotTransmission, layers: &SlotLayers) -> Option<Surface> {
         let Some(solid) = &clear.solid else {
             let tint = self.reflectance(&layers.base)?;
             return self.context.accept(self.place, ThinSheet::new(clear.index, tint)).map(Surface::from);
@@ -160,7 +160,7 @@ impl Layering<'_, '_, '_> {
         let mut part = |NamedSurface { surface, name }: NamedSurface| -> Option<_> {
             let material = self.with_normals(surface, layers)?;
             let name = format!("{}, {name}", self.slot.name);
-            Some(self.builder.add_part(material, &name, self.place, self.has_picture))
+            Some(self.builder.add_part(material, &name, self.place, self.uses_image))
         };
         Some(Surface::Mix(Mix { a: part(a)?, b: part(b)?, weight }))
     }
@@ -170,9 +170,9 @@ impl Layering<'_, '_, '_> {
         let luminance: f64 = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
         let largest = rgb.iter().copied().fold(0.0, f64::max);
         let relative = upsample::emission_spectrum(rgb.map(|v| (v / largest) as f32));
-        let radiance = bright(&relative, luminance, self.place, self.context)?;
+        let radiance = scaled_to_luminance(&relative, luminance, self.place, self.context)?;
         let factor = match &emission.picture {
-            Some(picture) => Some(self.texture(picture)?),
+            Some(image) => Some(self.texture(image)?),
             None => None,
         };
         let sides = if emission.both_sides { EmissionSides::Both } else { EmissionSides::Front };
@@ -184,25 +184,25 @@ impl Layering<'_, '_, '_> {
             SlotColour::LinearSrgb(rgb) => {
                 Some(Reflectance::Spectrum(upsample::reflectance_spectrum(rgb.map(|v| v as f32))))
             }
-            SlotColour::Picture(picture) => self.texture(picture).map(Reflectance::Texture),
+            SlotColour::Picture(image) => self.texture(image).map(Reflectance::Texture),
         }
     }
 
     fn number(&mut self, number: &SlotNumber) -> Option<Factor> {
         match number {
             SlotNumber::Number(value) => Some(Factor::Number(*value as f32)),
-            SlotNumber::Picture(picture) => Some(Factor::Texture(self.texture(picture)?, Channel::Red)),
+            SlotNumber::Picture(image) => Some(Factor::Texture(self.texture(image)?, Channel::Red)),
         }
     }
 
-    fn texture(&mut self, picture: &SlotPicture) -> Option<TextureId> {
-        let wrap = picture.wrap.map(|wrap| match wrap {
+    fn texture(&mut self, image: &SlotPicture) -> Option<TextureId> {
+        let wrap = image.wrap.map(|wrap| match wrap {
             SlotWrap::Repeat => Wrap::Repeat,
             SlotWrap::Clamp => Wrap::Clamp,
             SlotWrap::Mirror => Wrap::Mirror,
         });
         let sampling = Sampling { wrap, ..Sampling::default() };
-        let reading = Reading { encoded: picture.is_encoded, alpha: false, colour: picture.is_encoded, scale: 1.0 };
-        self.builder.pictures.picture(&picture.file, self.place, reading, sampling, self.context)
+        let reading = TexelInterpretation { encoded: image.is_encoded, alpha: false, colour: image.is_encoded, scale: 1.0 };
+        self.builder.pictures.picture(&image.file, self.place, reading, sampling, self.context)
     }
 }

@@ -14,5 +14,5 @@ mod texels;
 
 pub(super) use builder::MaterialTableBuilder;
 pub(super) use metal::complex_index;
-pub(super) use share::share;
+pub(super) use share::reflectance_spectrum;
 pub(super) use slot::has_picture;

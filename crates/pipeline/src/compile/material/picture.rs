@@ -1,8 +1,8 @@
 //! Images as textures, each made once per layout.
 
 use super::super::context::{Context, ErrorCode};
-use super::large_picture::{Refusal, TexelUse, held, tiled};
-use super::texels::Reading;
+use super::large_picture::{TilingError, TexelUse, texture_in_memory, tiled_texture};
+use super::texels::TexelInterpretation;
 use etendue_scene::asset::{Assets, LargeImage, TexelStore};
 use etendue_scene::{Place, Problem};
 use etendue_tracer::textures::{ImageTexture, Sampling, TextureId, TileMemory};
@@ -14,15 +14,15 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(super) struct Pictures {
     textures: Vec<ImageTexture>,
-    made: BTreeMap<(PathBuf, String), TextureId>,
+    textures: BTreeMap<(PathBuf, String), TextureId>,
     /// Memory of the tiles of all large images, once there are any.
     tile_memory: Option<Arc<TileMemory>>,
 }
 
 impl Pictures {
     /// An image named by a mesh's own file: sRGB-encoded colours that repeat.
-    pub(super) fn of_slot(&mut self, file: &Path, place: &Place, context: &mut Context<'_>) -> Option<TextureId> {
-        let reading = Reading { encoded: true, alpha: false, colour: true, scale: 1.0 };
+    pub(super) fn slot_texture(&mut self, file: &Path, place: &Place, context: &mut Context<'_>) -> Option<TextureId> {
+        let reading = TexelInterpretation { encoded: true, alpha: false, colour: true, scale: 1.0 };
         self.picture(file, place, reading, Sampling::default(), context)
     }
 
@@ -36,18 +36,18 @@ impl Pictures {
         &mut self,
         file: &Path,
         place: &Place,
-        reading: Reading,
+        reading: TexelInterpretation,
         sampling: Sampling,
         context: &mut Context<'_>,
     ) -> Option<TextureId> {
         let key = (file.to_owned(), format!("{reading:?} {sampling:?}"));
-        if let Some(id) = self.made.get(&key) {
+        if let Some(id) = self.textures.get(&key) {
             return Some(*id);
         }
         let texture = self.texture(file, place, TexelUse { reading, sampling }, context)?;
         self.textures.push(texture);
         let id = TextureId((self.textures.len() - 1) as u32);
-        self.made.insert(key, id);
+        self.textures.insert(key, id);
         Some(id)
     }
 
@@ -67,7 +67,7 @@ impl Pictures {
             return self.large(file, image, place, usage, store, context);
         }
         let Some(image) = images.get(file) else {
-            context.fault(
+            context.error(
                 ErrorCode::UnreadableFile,
                 place,
                 format!("the image {} was not loaded", file.display()),
@@ -92,11 +92,11 @@ impl Pictures {
         context: &mut Context<'_>,
     ) -> Option<ImageTexture> {
         let memory = self.tile_memory.get_or_insert_with(|| Arc::new(TileMemory::new(store.memory_bytes)));
-        let texture = match tiled(image, usage, store, memory) {
+        let texture = match tiled_texture(image, usage, store, memory) {
             Ok(texture) => Ok(texture),
-            Err(Refusal::Picture(error)) => Err(error),
-            Err(Refusal::Store(error)) => {
-                let texture = held(image, usage);
+            Err(TilingError::Picture(error)) => Err(error),
+            Err(TilingError::Store(error)) => {
+                let texture = texture_in_memory(image, usage);
                 let megabytes = texture.as_ref().map_or(0, |texture| texture.texel_bytes().div_ceil(1_000_000));
                 let problem = format!(
                     "{megabytes} MB are stored in memory, above its limit, because {error}; give a `cache` folder"
@@ -111,7 +111,7 @@ impl Pictures {
 
 fn no_opacity<T>(file: &Path, place: &Place, context: &mut Context<'_>) -> Option<T> {
     let problem = format!("the image {} has no opacity", file.display());
-    context.fault(
+    context.error(
         ErrorCode::UnsuitableFile,
         place,
         problem,

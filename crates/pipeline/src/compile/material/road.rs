@@ -1,7 +1,7 @@
 //! Retro-reflective sheeting and road markings.
 
 use super::compiler::MaterialCompiler;
-use super::share::share;
+use super::share::reflectance_spectrum;
 use etendue_scene::asset::RetroTableAsset;
 use etendue_scene::record::Colour;
 use etendue_scene::record::material::{
@@ -9,7 +9,7 @@ use etendue_scene::record::material::{
 };
 use etendue_scene::{ErrorCode, Placed};
 use etendue_spectra::Spectrum;
-use etendue_tracer::materials::{DayTime, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class};
+use etendue_tracer::materials::{DaytimeBrightness, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class};
 use std::path::PathBuf;
 
 impl MaterialCompiler<'_, '_> {
@@ -18,7 +18,7 @@ impl MaterialCompiler<'_, '_> {
             Some(print) => Some(self.reflectance(print)?),
             None => None,
         };
-        let made = match &r.table {
+        let result = match &r.table {
             SheetingTable::Class(class) => {
                 let colour = r.colour.as_ref().map_or(SheetingColour::White, |c| c.value);
                 // Every class has every colour; a test of the model checks it.
@@ -34,21 +34,21 @@ impl MaterialCompiler<'_, '_> {
                 match (print, base) {
                     (Some(print), Colour::Grey(white)) => Sheeting::printed(white.value, print, table),
                     _ => {
-                        let base = share(base, self.context)?;
+                        let base = reflectance_spectrum(base, self.context)?;
                         let colour = self.colour_or_white(r.retro_colour.as_ref())?;
                         Sheeting::new(base, &colour, table)
                     }
                 }
             }
         };
-        let sheeting = self.context.accept(&r.place, made)?;
-        self.context.remark_on(r.place.key(), sheeting.limits().to_string());
+        let sheeting = self.context.accept(&r.place, result)?;
+        self.context.note_on(r.place.key(), sheeting.limits().to_string());
         Some(sheeting.into())
     }
 
     fn retro_table(&mut self, file: &Placed<PathBuf>) -> Option<RetroTable> {
         let Some(asset) = self.context.assets.retro_tables.get(&file.value) else {
-            self.context.fault(
+            self.context.error(
                 ErrorCode::UnreadableFile,
                 &file.place,
                 "the table was not loaded",
@@ -57,12 +57,12 @@ impl MaterialCompiler<'_, '_> {
             return None;
         };
         let RetroTableAsset { observation_deg, entrance_deg, coefficients, .. } = asset;
-        let made = RetroTable::new(observation_deg, entrance_deg, coefficients);
-        self.context.accept(&file.place, made)
+        let table = RetroTable::new(observation_deg, entrance_deg, coefficients);
+        self.context.accept(&file.place, table)
     }
 
     fn colour_or_white(&mut self, colour: Option<&Colour>) -> Option<Spectrum> {
-        colour.map_or(Some(Spectrum::constant(1.0)), |colour| share(colour, self.context))
+        colour.map_or(Some(Spectrum::constant(1.0)), |colour| reflectance_spectrum(colour, self.context))
     }
 
     pub(super) fn road_marking(&mut self, r: &record::RoadMarking) -> Option<Surface> {
@@ -72,15 +72,15 @@ impl MaterialCompiler<'_, '_> {
             MarkingNight::Class(class) => marking_class(marking_name(class.value))?,
         };
         let day = match &r.day {
-            MarkingDay::Qd(q_d) => DayTime::Qd(q_d.value),
-            MarkingDay::LuminanceFactor(factor) => DayTime::LuminanceFactor(factor.value),
+            MarkingDay::Qd(q_d) => DaytimeBrightness::Qd(q_d.value),
+            MarkingDay::LuminanceFactor(factor) => DaytimeBrightness::LuminanceFactor(factor.value),
         };
         let colour = self.colour_or_white(r.colour.as_ref())?;
-        let made = match &r.spread_deg {
+        let marking = match &r.spread_deg {
             Some(spread) => RoadMarking::with_spread(r_l, day, &colour, spread.value),
             None => RoadMarking::new(r_l, day, &colour),
         };
-        self.context.accept(&r.place, made).map(Surface::from)
+        self.context.accept(&r.place, marking).map(Surface::from)
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) fn surface(
     file: &Path,
     slot: &SlotMaterial,
     place: &Place,
-    pictures: &mut Pictures,
+    images: &mut Pictures,
     context: &mut Context<'_>,
 ) -> Option<Surface> {
     let Some(surface) = &slot.surface else {
@@ -22,7 +22,7 @@ pub(super) fn surface(
             true => "name a material of the scene: material = …".to_owned(),
             false => format!("name a material of the scene: material = …, or materials = {{ \"{}\" = … }}", slot.name),
         };
-        context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
+        context.error(ErrorCode::UnsuitableFile, place, problem, remedy);
         return None;
     };
     let (SlotSurface::Diffuse { reflectance } | SlotSurface::Coated { reflectance, .. }) = surface else { return None };
@@ -30,7 +30,7 @@ pub(super) fn surface(
         SlotReflectance::LinearSrgb(rgb) => {
             Reflectance::Spectrum(upsample::reflectance_spectrum(rgb.map(|v| v as f32)))
         }
-        SlotReflectance::Image(picture) => Reflectance::Texture(pictures.of_slot(picture, place, context)?),
+        SlotReflectance::Image(image) => Reflectance::Texture(images.slot_texture(image, place, context)?),
     };
     match surface {
         SlotSurface::Diffuse { .. } | SlotSurface::Layers(_) => Some(base.into()),

@@ -3,20 +3,20 @@
 use super::super::spectrum::curve;
 use super::compiler::MaterialCompiler;
 use super::metal::{self, complex_index};
-use super::share::share;
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use super::share::reflectance_spectrum;
+use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::Placed;
 use etendue_scene::record::material::{
     self as record, Absorption, Interface, LobeDirection, LobeKind, LobeStrength, Surface as Record,
 };
-use etendue_spectra::{Outside, Spectrum};
+use etendue_spectra::{Extrapolation, Spectrum};
 use etendue_tracer::materials::{
     BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, GroundRelief, Lafortune,
     Leaf, Lobe, Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
 };
 
 /// Default refractive index of a coat or a pane.
-const USUAL_INDEX: f64 = 1.5;
+const DEFAULT_INDEX: f64 = 1.5;
 /// Defaults: unevenness of flakes, roughness of a coat, amount and width of the sheen of cloth.
 const FLAKE_ALPHA: f64 = 0.25;
 const COAT_ALPHA: f64 = 0.01;
@@ -52,25 +52,25 @@ impl MaterialCompiler<'_, '_> {
     fn conductor(&mut self, r: &record::Conductor) -> Option<Surface> {
         let index = complex_index(&r.metal, self.context)?;
         let alpha = self.factor(&r.alpha)?;
-        let made = self.context.accept(&r.place, Conductor::new(index, alpha))?;
-        Some(with_facets(made, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
+        let conductor = self.context.accept(&r.place, Conductor::new(index, alpha))?;
+        Some(with_facets(conductor, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
     }
 
     fn cook_torrance(&mut self, r: &record::CookTorrance) -> Option<Surface> {
         let alpha = self.factor(&r.alpha)?;
-        let made = match &r.interface {
+        let conductor = match &r.interface {
             Interface::Named(name) => Conductor::new(metal::named(name, self.context)?, alpha),
             Interface::File(file) => Conductor::new(metal::from_table(file, self.context)?, alpha),
-            Interface::Index(index) => Conductor::dielectric(curve(index, Outside::Hold, self.context)?, alpha),
+            Interface::Index(index) => Conductor::dielectric(curve(index, Extrapolation::Hold, self.context)?, alpha),
         };
-        let made = self.context.accept(&r.place, made)?;
-        Some(with_facets(made, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
+        let conductor = self.context.accept(&r.place, conductor)?;
+        Some(with_facets(conductor, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
     }
 
     fn coated(&mut self, r: &record::Coated) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let alpha = self.factor(&r.alpha)?;
-        let index = number(r.index.as_ref(), USUAL_INDEX);
+        let index = number(r.index.as_ref(), DEFAULT_INDEX);
         self.context.accept(&r.place, Coated::new(base, index, alpha)).map(Surface::from)
     }
 
@@ -93,10 +93,10 @@ impl MaterialCompiler<'_, '_> {
 
     fn car_paint(&mut self, r: &record::CarPaint) -> Option<Surface> {
         let pigment = self.reflectance(&r.reflectance)?;
-        let coat_index = number(r.index.as_ref(), USUAL_INDEX);
+        let coat_index = number(r.index.as_ref(), DEFAULT_INDEX);
         let bare = flake_reflectance(&complex_index(&r.metal, self.context)?, coat_index);
         let flakes = match &r.flake_tint {
-            Some(tint) => bare.product(&share(tint, self.context)?),
+            Some(tint) => bare.product(&reflectance_spectrum(tint, self.context)?),
             None => bare,
         };
         let parts = CarPaintParts {
@@ -113,11 +113,11 @@ impl MaterialCompiler<'_, '_> {
     fn cloth(&mut self, r: &record::Cloth) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let sheen = match &r.sheen {
-            Some(sheen) => share(sheen, self.context)?,
+            Some(sheen) => reflectance_spectrum(sheen, self.context)?,
             None => Spectrum::constant(SHEEN),
         };
-        let made = Cloth::new(base, sheen, number(r.alpha.as_ref(), SHEEN_ALPHA));
-        self.context.accept(&r.place, made).map(Surface::from)
+        let cloth = Cloth::new(base, sheen, number(r.alpha.as_ref(), SHEEN_ALPHA));
+        self.context.accept(&r.place, cloth).map(Surface::from)
     }
 
     fn lafortune(&mut self, r: &record::Lafortune) -> Option<Surface> {
@@ -137,10 +137,10 @@ impl MaterialCompiler<'_, '_> {
         let exponent = r.exponent.value;
         match &r.strength {
             LobeStrength::Albedo(colour) => {
-                Some(Lobe::of_albedo(tangential, normal, exponent, &share(colour, self.context)?))
+                Some(Lobe::from_albedo(tangential, normal, exponent, &reflectance_spectrum(colour, self.context)?))
             }
             LobeStrength::Weight(per_sr) => {
-                let weight = curve(per_sr, Outside::Hold, self.context)?;
+                let weight = curve(per_sr, Extrapolation::Hold, self.context)?;
                 Some(Lobe { tangential, normal, exponent, weight })
             }
         }
@@ -148,7 +148,7 @@ impl MaterialCompiler<'_, '_> {
 
     fn blinn_phong(&mut self, r: &record::BlinnPhong) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
-        let specular = share(&r.specular, self.context)?;
+        let specular = reflectance_spectrum(&r.specular, self.context)?;
         self.context.accept(&r.place, BlinnPhong::new(base, specular, r.exponent.value)).map(Surface::from)
     }
 
@@ -159,28 +159,28 @@ impl MaterialCompiler<'_, '_> {
         };
         let absorption = match &r.absorption {
             None => None,
-            Some(Absorption::Coefficient(per_m)) => Some(curve(per_m, Outside::Hold, self.context)?),
+            Some(Absorption::Coefficient(per_m)) => Some(curve(per_m, Extrapolation::Hold, self.context)?),
             Some(Absorption::Transmittance(colour)) => {
-                let transmittance = share(colour, self.context)?;
+                let transmittance = reflectance_spectrum(colour, self.context)?;
                 let thickness_m = number(r.thickness_mm.as_ref(), 0.0) / MM_PER_M;
                 Some(self.context.accept(colour.place(), absorption_of(&transmittance, thickness_m))?)
             }
         };
-        let made = Dielectric::new(r.index.value, alpha, absorption);
-        self.context.accept(&r.place, made).map(Surface::from)
+        let dielectric = Dielectric::new(r.index.value, alpha, absorption);
+        self.context.accept(&r.place, dielectric).map(Surface::from)
     }
 
     fn thin_sheet(&mut self, r: &record::ThinSheet) -> Option<Surface> {
         let transmittance = match &r.absorption {
             None => Spectrum::constant(1.0),
-            Some(Absorption::Transmittance(colour)) => share(colour, self.context)?,
+            Some(Absorption::Transmittance(colour)) => reflectance_spectrum(colour, self.context)?,
             Some(Absorption::Coefficient(per_m)) => {
-                let coefficient = curve(per_m, Outside::Hold, self.context)?;
+                let coefficient = curve(per_m, Extrapolation::Hold, self.context)?;
                 beer_lambert(&coefficient, number(r.thickness_mm.as_ref(), 0.0) / MM_PER_M)
             }
         };
-        let made = ThinSheet::new(number(r.index.as_ref(), USUAL_INDEX), Reflectance::Spectrum(transmittance));
-        self.context.accept(&r.place, made).map(Surface::from)
+        let sheet = ThinSheet::new(number(r.index.as_ref(), DEFAULT_INDEX), Reflectance::Spectrum(transmittance));
+        self.context.accept(&r.place, sheet).map(Surface::from)
     }
 
     fn leaf(&mut self, r: &record::Leaf) -> Option<Surface> {
@@ -207,12 +207,12 @@ fn with_facets(
     if more { conductor.with_interreflection().into() } else { conductor.into() }
 }
 
-fn number(given: Option<&Placed<f64>>, default: f64) -> f64 {
-    given.map_or(default, |v| v.value)
+fn number(value: Option<&Placed<f64>>, default: f64) -> f64 {
+    value.map_or(default, |v| v.value)
 }
 
 /// exp(−a d): internal transmittance of a thickness `m` of a substance, without reflections.
 fn beer_lambert(coefficient_per_m: &Spectrum, m: f64) -> Spectrum {
     let at = |nm: f64| etendue_core::maths::f64::exp(-f64::from(coefficient_per_m.at(nm as f32)) * m);
-    Spectrum::from_fn(|nm| at(nm.clamp(SHORTEST_NM, MAX_NM)))
+    Spectrum::from_fn(|nm| at(nm.clamp(MIN_NM, MAX_NM)))
 }

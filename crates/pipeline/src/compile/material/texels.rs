@@ -6,7 +6,7 @@ use etendue_tracer::textures::{TexelEncoding, Texels};
 
 /// Interpretation of an image as texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reading {
+pub(super) struct TexelInterpretation {
     /// The numbers are encoded with the curve of sRGB.
     pub(super) encoded: bool,
     /// The opacity is read instead of the colours.
@@ -17,7 +17,7 @@ pub(super) struct Reading {
     pub(super) scale: f32,
 }
 
-impl Reading {
+impl TexelInterpretation {
     /// Encoding of [`Reading::texels`] for pixels of a format.
     pub(super) fn encoding(self, format: PixelFormat) -> TexelEncoding {
         match (format.is_bytes() && self.scale == 1.0, self.encoded && !self.alpha) {
@@ -35,7 +35,7 @@ impl Reading {
 }
 
 /// The colours; a factor other than 1 requires linear numbers.
-fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading, to_rec_709: Option<ColourMatrix>) -> Texels {
+fn colours(pixels: &ImagePixels, TexelInterpretation { encoded, scale, .. }: TexelInterpretation, to_rec_709: Option<ColourMatrix>) -> Texels {
     let bytes = |pixels: Vec<[u8; 3]>| match (encoded, scale == 1.0) {
         (true, true) => Texels::Srgb8(pixels),
         (false, true) => Texels::Linear8(pixels),
@@ -85,7 +85,7 @@ mod tests {
     fn colours_become_those_of_rec_709_and_data_stay() {
         let swap = ColourMatrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 2.0]]);
         let texels = |colour: bool| {
-            let reading = Reading { encoded: false, alpha: false, colour, scale: 1.0 };
+            let reading = TexelInterpretation { encoded: false, alpha: false, colour, scale: 1.0 };
             match reading.texels(&ImagePixels::Rgb32F(vec![[0.25, 0.5, 1.0]]), Some(swap)) {
                 Some(Texels::Float(texels)) => texels,
                 other => panic!("{other:?}"),
@@ -96,8 +96,8 @@ mod tests {
     }
 
     #[test]
-    fn the_encoding_that_is_foretold_is_that_of_the_texels() {
-        let pictures = [
+    fn the_planned_encoding_is_that_of_the_texels() {
+        let images = [
             (PixelFormat::Gray8, ImagePixels::Gray8(vec![7])),
             (PixelFormat::Gray16, ImagePixels::Gray16(vec![7])),
             (PixelFormat::Rgb8, ImagePixels::Rgb8(vec![[7; 3]])),
@@ -105,18 +105,18 @@ mod tests {
             (PixelFormat::Rgb32F, ImagePixels::Rgb32F(vec![[7.0; 3]])),
             (PixelFormat::Rgba32F, ImagePixels::Rgba32F(vec![[7.0; 4]])),
         ];
-        for (format, pixels) in pictures {
+        for (format, pixels) in images {
             for (encoded, alpha, scale) in
                 [(true, false, 1.0), (false, false, 1.0), (true, true, 1.0), (true, false, 2.0)]
             {
-                let reading = Reading { encoded, alpha, colour: true, scale };
-                let found = reading.texels(&pixels, None).map(|texels| match texels {
+                let reading = TexelInterpretation { encoded, alpha, colour: true, scale };
+                let actual = reading.texels(&pixels, None).map(|texels| match texels {
                     Texels::Srgb8(_) => TexelEncoding::Srgb8,
                     Texels::Linear8(_) => TexelEncoding::Linear8,
                     Texels::Float(_) => TexelEncoding::Float,
                 });
-                let foretold = (!alpha || format.has_opacity()).then(|| reading.encoding(format));
-                assert_eq!(found, foretold, "{format:?} {reading:?}");
+                let expected = (!alpha || format.has_opacity()).then(|| reading.encoding(format));
+                assert_eq!(actual, expected, "{format:?} {reading:?}");
             }
         }
     }

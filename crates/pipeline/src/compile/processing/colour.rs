@@ -37,9 +37,9 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
         _ => None,
     };
     let channels = &sensor.parameters().channels;
-    if let Some(strange) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
-        let problem = format!("the sensor's channel \"{}\" cannot be used in an image", strange.name);
-        context.fault(
+    if let Some(unusual) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
+        let problem = format!("the sensor's channel \"{}\" cannot be used in an image", unusual.name);
+        context.error(
             ErrorCode::NotModelled,
             &record.place,
             problem,
@@ -52,7 +52,7 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
 
 /// Responsivities of the image's channels, in their order.
 fn responsivities(sensor: &Sensor, mosaic: &Mosaic) -> Vec<Spectrum> {
-    let (cfa, measured) = (&sensor.parameters().cfa, sensor.picture_responsivities());
+    let (cfa, measured) = (&sensor.parameters().cfa, sensor.image_responsivities());
     let places = (0..cfa.channels().len()).map(|i| (i % cfa.width(), i / cfa.width()));
     let owner = |channel: usize| places.clone().find(|(x, y)| mosaic.channel_at(*x, *y) == channel);
     let of = |channel: usize| owner(channel).map(|(x, y)| measured[cfa.channel_at(x, y)].clone());
@@ -81,7 +81,7 @@ pub(super) fn colour(
 fn refuse_colour(record: &record::Processing, context: &mut Context<'_>) {
     if record.white_balance.is_some() || record.colour_matrix.is_some() {
         let problem = "\"white_balance\" and \"colour_matrix\" have no effect on a monochrome sensor";
-        context.fault(ErrorCode::NoEffect, &record.place, problem, "remove them");
+        context.error(ErrorCode::NoEffect, &record.place, problem, "remove them");
     }
 }
 
@@ -94,7 +94,7 @@ pub(super) fn demosaic(
     let bayer = matches!(mosaic, Mosaic::Tile(tile) if tile.is_bayer());
     match (named.value, mosaic) {
         (_, Mosaic::Mono) => {
-            context.fault(
+            context.error(
                 ErrorCode::NoEffect,
                 &named.place,
                 "\"demosaic\" has no effect on a monochrome sensor",
@@ -104,7 +104,7 @@ pub(super) fn demosaic(
         }
         (description::Demosaic::Bilinear, _) => Some(Demosaic::Bilinear),
         _ if !bayer => {
-            context.fault(
+            context.error(
                 ErrorCode::NotModelled,
                 &named.place,
                 "this demosaic requires a Bayer filter array",
@@ -142,20 +142,20 @@ fn factors(factors: &[Placed<f64>], channels: usize, context: &mut Context<'_>) 
     let values: Vec<f64> = factors.iter().map(|f| f.value).collect();
     if values.iter().any(|f| *f < 1.0) {
         let problem = format!("a factor of {values:?} is below 1 and would tint saturated pixels");
-        context.fault(ErrorCode::OutOfRange, place, problem, "divide all of them by the smallest");
+        context.error(ErrorCode::OutOfRange, place, problem, "divide all of them by the smallest");
         return None;
     }
     Some(WhiteBalance::Gains(values))
 }
 
 /// Checks for one number per channel.
-fn check_count(name: &str, found: usize, channels: usize, place: &Place, context: &mut Context<'_>) -> Option<()> {
-    if found == channels {
+fn check_count(name: &str, count: usize, channels: usize, place: &Place, context: &mut Context<'_>) -> Option<()> {
+    if count == channels {
         return Some(());
     }
-    let problem = format!("{name} has {found} numbers, but the sensor has {channels} channels");
+    let problem = format!("{name} has {count} numbers, but the sensor has {channels} channels");
     let order = "one per channel, in the order red, green, blue, clear, infrared, cyan, magenta, yellow";
-    context.fault(ErrorCode::WrongCount, place, problem, format!("give {order}"));
+    context.error(ErrorCode::WrongCount, place, problem, format!("give {order}"));
     None
 }
 
@@ -169,7 +169,7 @@ fn colour_matrix(
         None if is_rgb(mosaic) => Some(ColourMatrix::identity()),
         None => {
             let problem = "the sensor's channels are not red, green and blue, and no \"colour_matrix\" is given";
-            context.fault(
+            context.error(
                 ErrorCode::MissingKey,
                 &record.place,
                 problem,

@@ -17,20 +17,20 @@ pub(super) fn black_level(
 ) -> Option<BlackLevel> {
     match record {
         None => Some(BlackLevel::Stated),
-        Some(description::BlackLevel::Dn(dn)) if dn.value < sensor.least_white_level_dn() => {
+        Some(description::BlackLevel::Dn(dn)) if dn.value < sensor.min_white_level_dn() => {
             Some(BlackLevel::Fixed(dn.value))
         }
         Some(description::BlackLevel::Dn(dn)) => {
-            let white = sensor.least_white_level_dn();
+            let white = sensor.min_white_level_dn();
             let problem = format!("found {}, but the sensor saturates at {white} DN", dn.value);
-            context.fault(ErrorCode::OutOfRange, &dn.place, problem, "give a number below that");
+            context.error(ErrorCode::OutOfRange, &dn.place, problem, "give a number below that");
             None
         }
         Some(description::BlackLevel::Rule(rule)) => match rule.value {
             BlackLevelRule::Sensor => Some(BlackLevel::Stated),
             BlackLevelRule::OpticalBlack if has_shielded_pixels(sensor) => Some(BlackLevel::OpticalBlack),
             BlackLevelRule::OpticalBlack => {
-                context.fault(
+                context.error(
                     ErrorCode::Contradiction,
                     &rule.place,
                     "the sensor has no optical-black rows or columns",
@@ -47,28 +47,28 @@ fn has_shielded_pixels(sensor: &Sensor) -> bool {
     dark.rows + dark.columns > 0
 }
 
-pub(super) fn defects(record: &record::Processing, picture: &Delivered, context: &mut Context<'_>) -> Option<Defects> {
+pub(super) fn defects(record: &record::Processing, image: &DeliveredImage, context: &mut Context<'_>) -> Option<Defects> {
     let map = match &record.defect_map {
         None => Vec::new(),
-        Some(file) => defect_map(file, picture, context)?,
+        Some(file) => defect_map(file, image, context)?,
     };
     Some(Defects { map, outlier_threshold: record.defect_outlier_threshold.as_ref().map(|t| t.value) })
 }
 
-fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
+fn defect_map(file: &Placed<PathBuf>, image: &DeliveredImage, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
     let table = table(file, 2, "columns and rows of defective pixels", context)?;
-    let k = picture.scale as usize;
-    let (width, height) = (picture.width * k, picture.height * k);
+    let k = image.scale as usize;
+    let (width, height) = (image.width * k, image.height * k);
     // A larger pixel with a defective part is defective.
     let inside = |row: &[f64]| {
-        let whole = row.iter().all(|v| *v >= 0.0 && v.fract() == 0.0);
-        let is_inside = whole && row[0] < width as f64 && row[1] < height as f64;
+        let are_counts = row.iter().all(|v| *v >= 0.0 && v.fract() == 0.0);
+        let is_inside = are_counts && row[0] < width as f64 && row[1] < height as f64;
         is_inside.then(|| [row[0], row[1]].map(|at| (at as usize / k) as u32))
     };
     let pixels: Option<Vec<_>> = table.rows().map(inside).collect();
     if pixels.is_none() {
         let problem = format!("the defect map has a pixel outside the image of {width} × {height}");
-        context.fault(
+        context.error(
             ErrorCode::UnsuitableFile,
             &file.place,
             problem,
@@ -85,13 +85,13 @@ fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context
 
 pub(super) fn shading(
     record: Option<&description::Shading>,
-    picture: &Delivered,
+    image: &DeliveredImage,
     context: &mut Context<'_>,
 ) -> Option<Option<Shading>> {
     let Some(record) = record else { return Some(None) };
     let (shading, place) = match &record.table {
         ShadingTable::Radial(gains) => {
-            let centre_px = record.centre_px.as_ref().map_or(picture.principal_px, |c| c.value);
+            let centre_px = record.centre_px.as_ref().map_or(image.principal_px, |c| c.value);
             (Shading::Radial { centre_px, gains: gains.iter().map(|g| g.value).collect() }, &record.place)
         }
         ShadingTable::Grid(file) => {
@@ -114,12 +114,12 @@ pub(super) fn table<'a>(
         return Some(table);
     }
     let problem = format!("the table has {} columns; expected {columns}: {of}", table.columns);
-    context.fault(ErrorCode::UnsuitableFile, &file.place, problem, "correct the file");
+    context.error(ErrorCode::UnsuitableFile, &file.place, problem, "correct the file");
     None
 }
 
 /// Image that a sensor delivers: its region, binned.
-pub(super) struct Delivered {
+pub(super) struct DeliveredImage {
     pub(super) width: usize,
     pub(super) height: usize,
     /// Position of the optical axis in it, px.
@@ -128,9 +128,9 @@ pub(super) struct Delivered {
     pub(super) scale: u64,
 }
 
-impl Delivered {
-    pub(super) fn of(sensor: &Sensor, raster: &Raster, scale: u64) -> Self {
-        let (width, height) = sensor.picture_size(raster.width(), raster.height());
-        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()), scale }
+impl DeliveredImage {
+    pub(super) fn new(sensor: &Sensor, raster: &Raster, scale: u64) -> Self {
+        let (width, height) = sensor.image_size(raster.width(), raster.height());
+        Self { width, height, principal_px: sensor.to_image(raster.principal_px().to_array()), scale }
     }
 }

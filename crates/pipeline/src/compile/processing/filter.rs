@@ -6,36 +6,36 @@ use etendue_isp::paper::{
     self, Affine, ColourChange, ColourSpace, Drops, Filter, GaussianNoise, Glow, Operation, PulseNoise, Sensitivity,
     Stage, ToneMap, UniformNoise,
 };
-use etendue_scene::record::processing::PaperFilter;
+use etendue_scene::record::processing::GruyerFilter;
 use etendue_scene::record::processing::filter as description;
 
-pub(super) fn filters(records: &[PaperFilter], context: &mut Context<'_>) -> Option<Vec<Filter>> {
+pub(super) fn filters(records: &[GruyerFilter], context: &mut Context<'_>) -> Option<Vec<Filter>> {
     let filters: Vec<Filter> = records.iter().map(|record| filter(record, context)).collect::<Option<_>>()?;
     for (record, filter) in records.iter().zip(&filters) {
         context.accept(record.place(), filter.check())?;
     }
-    let last = records.last().map(PaperFilter::place);
+    let last = records.last().map(GruyerFilter::place);
     last.map_or(Some(()), |place| context.accept(place, paper::check(&filters)))?;
     Some(filters)
 }
 
-fn filter(record: &PaperFilter, context: &mut Context<'_>) -> Option<Filter> {
+fn filter(record: &GruyerFilter, context: &mut Context<'_>) -> Option<Filter> {
     Some(match record {
-        PaperFilter::Glow(r) => Filter::Glow(Glow {
+        GruyerFilter::Glow(r) => Filter::Glow(Glow {
             percentile: r.percentile.value,
             target: r.target.value,
             threshold: r.threshold.value,
             radius_px: r.radius_px.value,
             strength: r.strength.value,
         }),
-        PaperFilter::ToneMap(r) => Filter::ToneMap(tone_map(r, context)?),
-        PaperFilter::Drops(r) => Filter::Drops(drops(r)),
-        PaperFilter::Colour(r) => Filter::Colour(colour(r)),
-        PaperFilter::PulseNoise(r) => {
+        GruyerFilter::ToneMap(r) => Filter::ToneMap(tone_map(r, context)?),
+        GruyerFilter::Drops(r) => Filter::Drops(drops(r)),
+        GruyerFilter::Colour(r) => Filter::Colour(colour(r)),
+        GruyerFilter::PulseNoise(r) => {
             Filter::PulseNoise(PulseNoise { amplitude_dn: r.amplitude_dn.value, probability: r.probability.value })
         }
-        PaperFilter::GaussianNoise(r) => Filter::GaussianNoise(GaussianNoise { sigma_dn: r.sigma_dn.value }),
-        PaperFilter::UniformNoise(r) => Filter::UniformNoise(UniformNoise { range: r.range.value }),
+        GruyerFilter::GaussianNoise(r) => Filter::GaussianNoise(GaussianNoise { sigma_dn: r.sigma_dn.value }),
+        GruyerFilter::UniformNoise(r) => Filter::UniformNoise(UniformNoise { range: r.range.value }),
     })
 }
 
@@ -48,7 +48,7 @@ fn tone_map(record: &description::ToneMap, context: &mut Context<'_>) -> Option<
     Some(ToneMap { original_factor: record.original_factor.value, gain, sensitivity })
 }
 
-fn drops(record: &description::PaperDrops) -> Drops {
+fn drops(record: &description::PaintedDrops) -> Drops {
     Drops {
         count: record.count.value as u32,
         radius_px: [record.min_radius_px.value, record.max_radius_px.value],

@@ -5,11 +5,11 @@ mod correction;
 mod filter;
 mod tone;
 
-use correction::Delivered;
+use correction::DeliveredImage;
 
 use super::context::{Context, ErrorCode};
 use crate::plan::{Development, PictureFormat};
-use etendue_isp::{Bilateral, NoiseReduction, Processing, ToneCurve, Unsharp};
+use etendue_isp::{Bilateral, NoiseReduction, Processing, ToneCurve, UnsharpMask};
 use etendue_projection::Raster;
 use etendue_scene::record;
 use etendue_scene::record::processing::detail::NoiseReductionKind;
@@ -24,18 +24,18 @@ pub(super) fn development(
     scale: u64,
     context: &mut Context<'_>,
 ) -> Option<Development> {
-    let before = context.faults.len();
-    let picture = Delivered::of(sensor, raster, scale);
+    let before = context.errors.len();
+    let image = DeliveredImage::new(sensor, raster, scale);
     let black_level = correction::black_level(record.black_level.as_ref(), sensor, context);
-    let defects = correction::defects(record, &picture, context);
-    let shading = correction::shading(record.shading.as_ref(), &picture, context);
+    let defects = correction::defects(record, &image, context);
+    let shading = correction::shading(record.shading.as_ref(), &image, context);
     let mosaic = colour::mosaic(record, sensor, context);
     let colour = mosaic.as_ref().and_then(|mosaic| colour::colour(record, sensor, mosaic, context));
     let tone = record.tone_curve.as_ref().map_or(Some(ToneCurve::Srgb), |curve| tone::tone_curve(curve, context));
     let image_filters = filter::filters(&record.image_filters, context);
     let mosaic = mosaic?;
     let demosaic = colour::demosaic(record.demosaic.as_ref(), &mosaic, context);
-    if context.faults.len() > before {
+    if context.errors.len() > before {
         return None;
     }
     let processing = Processing {
@@ -51,8 +51,8 @@ pub(super) fn development(
         image_filters: image_filters?,
     };
     // Settings accepted here do not fail in any frame.
-    context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;
-    Some(Development { mosaic, processing, format: format(record, &picture, context)? })
+    context.accept(&record.place, processing.check(&mosaic, image.width, image.height))?;
+    Some(Development { mosaic, processing, format: format(record, &image, context)? })
 }
 
 fn noise_reduction(record: &description::NoiseReduction) -> NoiseReduction {
@@ -65,8 +65,8 @@ fn noise_reduction(record: &description::NoiseReduction) -> NoiseReduction {
     }
 }
 
-fn sharpening(record: &description::Sharpening) -> Unsharp {
-    Unsharp {
+fn sharpening(record: &description::Sharpening) -> UnsharpMask {
+    UnsharpMask {
         amount: record.amount.value,
         radius_px: record.radius_px.value,
         threshold: record.threshold.as_ref().map_or(0.0, |t| t.value),
@@ -76,12 +76,12 @@ fn sharpening(record: &description::Sharpening) -> Unsharp {
 /// Maximum columns or rows of a JPEG (ISO/IEC 10918-1, B.2.2).
 const JPEG_PX: usize = 65_535;
 
-fn format(record: &record::Processing, picture: &Delivered, context: &mut Context<'_>) -> Option<PictureFormat> {
+fn format(record: &record::Processing, image: &DeliveredImage, context: &mut Context<'_>) -> Option<PictureFormat> {
     match &record.picture_format {
         Some(key) if key.value == output::PictureFormat::Jpeg => {
-            if picture.width.max(picture.height) > JPEG_PX {
+            if image.width.max(image.height) > JPEG_PX {
                 let problem = format!("a JPEG has at most {JPEG_PX} columns and rows");
-                context.fault(ErrorCode::UnsupportedOutput, &key.place, problem, "give picture_format = \"png\"");
+                context.error(ErrorCode::UnsupportedOutput, &key.place, problem, "give picture_format = \"png\"");
                 return None;
             }
             Some(PictureFormat::Jpeg { quality: record.jpeg_quality.as_ref().map_or(90, |q| q.value as u8) })

@@ -9,7 +9,7 @@ mod sensor;
 use super::context::{Context, ErrorCode};
 use etendue_projection::{Raster, RasterError};
 use etendue_scene::Placed;
-use etendue_scene::record::processing::PaperFilter;
+use etendue_scene::record::processing::GruyerFilter;
 use etendue_scene::record::sensor::Scale;
 use etendue_scene::record::{Camera, Lens, Processing, lens};
 use std::borrow::Cow;
@@ -46,20 +46,20 @@ fn shrink_processing(isp: &mut Processing, k: f64) {
     isp.image_filters.iter_mut().for_each(|filter| shrink_filter(filter, k));
 }
 
-fn shrink_filter(filter: &mut PaperFilter, k: f64) {
+fn shrink_filter(filter: &mut GruyerFilter, k: f64) {
     match filter {
-        PaperFilter::Glow(glow) => glow.radius_px.value /= k,
-        PaperFilter::Drops(drops) => {
+        GruyerFilter::Glow(glow) => glow.radius_px.value /= k,
+        GruyerFilter::Drops(drops) => {
             for length in [&mut drops.min_radius_px, &mut drops.max_radius_px, &mut drops.blur_px] {
                 length.value /= k;
             }
             drops.flow_px_per_frame.iter_mut().for_each(|flow| flow.value /= k);
         }
-        PaperFilter::ToneMap(_)
-        | PaperFilter::Colour(_)
-        | PaperFilter::PulseNoise(_)
-        | PaperFilter::GaussianNoise(_)
-        | PaperFilter::UniformNoise(_) => {}
+        GruyerFilter::ToneMap(_)
+        | GruyerFilter::Colour(_)
+        | GruyerFilter::PulseNoise(_)
+        | GruyerFilter::GaussianNoise(_)
+        | GruyerFilter::UniformNoise(_) => {}
     }
 }
 
@@ -87,7 +87,7 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
     let mut divides = true;
     if !(width.is_multiple_of(k) && height.is_multiple_of(k)) {
         let problem = format!("{width} × {height} px are not a multiple of {k} × {k} pixels");
-        context.fault(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter()));
+        context.error(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter()));
         divides = false;
     }
     let region = sensor.electronics.as_ref().and_then(|electronics| electronics.roi_px.as_ref());
@@ -97,7 +97,7 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
         let problem =
             format!("the region roi_px = [{x}, {y}, {columns}, {rows}] is not a multiple of {k} × {k} pixels");
         let sides = region.value.map(|side| side as u64);
-        context.fault(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter().chain(&sides)));
+        context.error(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter().chain(&sides)));
         divides = false;
     }
     divides.then_some(())

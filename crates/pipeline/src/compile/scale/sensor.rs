@@ -72,7 +72,7 @@ fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
 /// that lead to diagonal pixels: h′ = (k h + 2 (k − 1) c)/k² and c′ = c/k².
 fn enlarge_exchange(exchange: &mut Exchange, k: f64) {
     let corner = exchange.corner.as_ref().map_or(0.0, |corner| corner.value);
-    let across = |share: f64| (k * share + 2.0 * (k - 1.0) * corner) / (k * k);
+    let across = |fraction: f64| (k * fraction + 2.0 * (k - 1.0) * corner) / (k * k);
     exchange.horizontal.value = across(exchange.horizontal.value);
     exchange.vertical.value = across(exchange.vertical.value);
     exchange.corner.iter_mut().for_each(|corner| corner.value /= k * k);
@@ -83,10 +83,10 @@ fn enlarge_exchange(exchange: &mut Exchange, k: f64) {
 fn enlarge_dark(dark: &mut Dark, area: f64) {
     let hot = dark.hot.iter_mut().map(|hot| (&mut hot.fraction.value, &mut hot.mean_e_s.value));
     let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.fraction.value, &mut rts.mean_e_s.value));
-    for (share, mean_e_s) in hot.chain(blinking) {
-        let sources = area * *share;
-        *share = -exp_m1(area * ln_1p(-*share));
-        *mean_e_s *= sources / *share;
+    for (fraction, mean_e_s) in hot.chain(blinking) {
+        let sources = area * *fraction;
+        *fraction = -exp_m1(area * ln_1p(-*fraction));
+        *mean_e_s *= sources / *fraction;
     }
 }
 

@@ -7,7 +7,7 @@ use etendue_scene::record::sensor::QuantumEfficiency;
 use etendue_scene::record::sensor::cfa::CfaSource;
 use etendue_scene::{Place, Placed};
 use etendue_sensor::{Cfa, Channel};
-use etendue_spectra::{Outside, Spectrum, camera};
+use etendue_spectra::{Extrapolation, Spectrum, camera};
 
 /// The colour filter tile, with indices into the channels.
 pub(super) fn cfa(source: &CfaSource, context: &mut Context<'_>) -> Option<Cfa> {
@@ -29,14 +29,14 @@ fn cfa_place(source: &CfaSource) -> &Place {
 pub(super) fn channels(electronics: &record::Electronics, context: &mut Context<'_>) -> Option<Vec<Channel>> {
     let names = electronics.cfa.channels();
     let spectra: Vec<Spectrum> = match &electronics.quantum_efficiency {
-        QuantumEfficiency::Same(one) => vec![curve(one, Outside::Zero, context)?; names.len()],
+        QuantumEfficiency::Same(one) => vec![curve(one, Extrapolation::Zero, context)?; names.len()],
         QuantumEfficiency::PerChannel(curves) => {
-            curves.value.iter().map(|c| curve(c, Outside::Zero, context)).collect::<Option<_>>()?
+            curves.value.iter().map(|c| curve(c, Extrapolation::Zero, context)).collect::<Option<_>>()?
         }
         QuantumEfficiency::Measured { camera, peak } => measured(camera, peak.value, context)?.into(),
         QuantumEfficiency::Named(list) => {
             let of = |name: &&str| list.iter().find(|(n, _)| n.value == **name).map(|(_, curve)| curve);
-            names.iter().map(|name| curve(of(name)?, Outside::Zero, context)).collect::<Option<_>>()?
+            names.iter().map(|name| curve(of(name)?, Extrapolation::Zero, context)).collect::<Option<_>>()?
         }
     };
     let channel = |(name, quantum_efficiency): (&&str, _)| Channel { name: (*name).to_owned(), quantum_efficiency };
@@ -45,9 +45,9 @@ pub(super) fn channels(electronics: &record::Electronics, context: &mut Context<
 
 /// Measured relative sensitivities (per radiant power, hence divided by the wavelength), scaled together so that the largest quantum efficiency is `peak`.
 fn measured(name: &Placed<String>, peak: f64, context: &mut Context<'_>) -> Option<[Spectrum; 3]> {
-    let Some(found) = camera::named(&name.value) else {
+    let Some(curves) = camera::by_name(&name.value) else {
         let known = camera::names().join(", ");
-        context.fault(
+        context.error(
             ErrorCode::UnknownName,
             &name.place,
             format!("there is no camera \"{}\"", name.value),
@@ -56,7 +56,7 @@ fn measured(name: &Placed<String>, peak: f64, context: &mut Context<'_>) -> Opti
         return None;
     };
     let per_photon = Spectrum::from_fn(|nm| 1.0 / nm);
-    let channels = [&found.r, &found.g, &found.b].map(|s| s.product(&per_photon));
+    let channels = [&curves.r, &curves.g, &curves.b].map(|s| s.product(&per_photon));
     let largest = channels.iter().map(|s| f64::from(s.max_value())).fold(0.0, f64::max);
     Some(channels.map(|s| s.scaled(peak / largest)))
 }

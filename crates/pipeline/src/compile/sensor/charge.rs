@@ -1,6 +1,6 @@
 //! Charge in its pixel.
 
-use crate::compile::stated::or;
+use crate::compile::stated::value_or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_sensor::ChargeEffects;
@@ -21,15 +21,15 @@ pub(super) fn charge(e: &record::Electronics) -> ChargeEffects {
     ChargeEffects {
         dark: dark(e),
         lag: Lag { traps: e.lag.iter().map(trap).collect() },
-        brighter_fatter: BrighterFatter { shift_per_e: or(e.brighter_fatter_per_e.as_ref(), 0.0) },
+        brighter_fatter: BrighterFatter { shift_per_e: value_or(e.brighter_fatter_per_e.as_ref(), 0.0) },
         full_well: FullWell { capacity_e: e.full_well_e.value, blooming: e.blooming.as_ref().map(blooming) },
-        dead_pixels: DeadPixels { fraction: or(dead, 0.0) },
+        dead_pixels: DeadPixels { fraction: value_or(dead, 0.0) },
     }
 }
 
 fn dark(e: &record::Electronics) -> DarkCurrent {
-    let even = DarkCurrent::even(or(e.dark_current_e_s.as_ref(), 0.0));
-    let Some(d) = &e.dark else { return even };
+    let uniform = DarkCurrent::uniform(value_or(e.dark_current_e_s.as_ref(), 0.0));
+    let Some(d) = &e.dark else { return uniform };
     let distribution = match d.distribution.as_ref().map(|t| t.value) {
         Some(description::SpreadDistribution::LogNormal) => SpreadDistribution::LogNormal,
         Some(description::SpreadDistribution::Normal) | None => SpreadDistribution::Normal,
@@ -37,9 +37,9 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
     DarkCurrent {
         temperature: temperature(d),
         spread: DarkSpread {
-            white: or(d.spread.as_ref(), 0.0),
-            row: or(d.spread_row.as_ref(), 0.0),
-            column: or(d.spread_column.as_ref(), 0.0),
+            white: value_or(d.spread.as_ref(), 0.0),
+            row: value_or(d.spread_row.as_ref(), 0.0),
+            column: value_or(d.spread_column.as_ref(), 0.0),
             distribution,
         },
         hot: d.hot.as_ref().map(|hot| Hot { fraction: hot.fraction.value, mean_e_s: hot.mean_e_s.value }),
@@ -48,14 +48,14 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
             mean: b.mean_e_s.value,
             dwell_frames: b.dwell_frames.value,
         }),
-        ..even
+        ..uniform
     }
 }
 
 fn temperature(d: &description::Dark) -> Option<Temperature> {
     let law = match &d.doubling_k {
         Some(step) => TemperatureLaw::Doubling { step_k: step.value },
-        None => TemperatureLaw::BandGap { diffusion_fraction: or(d.diffusion_fraction.as_ref(), 0.0) },
+        None => TemperatureLaw::BandGap { diffusion_fraction: value_or(d.diffusion_fraction.as_ref(), 0.0) },
     };
     let (sensor, reference) = (d.temperature_c.as_ref()?, d.reference_c.as_ref()?);
     Some(Temperature { sensor_k: sensor.value + FREEZING_K, reference_k: reference.value + FREEZING_K, law })

@@ -1,6 +1,6 @@
 //! Effects on light before detection, and its timing.
 
-use crate::compile::stated::or;
+use crate::compile::stated::value_or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
@@ -24,7 +24,7 @@ fn control(record: &AutoExposure) -> ExposureControl {
     ExposureControl {
         percentile: record.percentile.value,
         target: record.target.value,
-        damping: or(record.damping.as_ref(), 1.0),
+        damping: value_or(record.damping.as_ref(), 1.0),
         exposure_s: record.exposure_limits_s.value,
         analogue_gain: record.gain_limits.value,
     }
@@ -36,14 +36,14 @@ pub(super) fn light(sensor: &record::Sensor, e: &record::Electronics, exit_pupil
     let principal_px = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
     let response = |record: &exposure::AngleResponse| AngleResponse {
         table: record.table.iter().map(|row| row.value).collect(),
-        exit_pupil_mm: or(record.exit_pupil_mm.as_ref(), exit_pupil_mm),
+        exit_pupil_mm: value_or(record.exit_pupil_mm.as_ref(), exit_pupil_mm),
         principal_px,
     };
     // From infinity all light is incident at 0°, where the response is 1.
     let angle_response = e.angle_response.as_ref().map(response).filter(|r| r.exit_pupil_mm.is_finite());
     LightEffects {
         angle_response,
-        crosstalk: e.crosstalk.as_ref().map(|given| Crosstalk(neighbours(given))),
+        crosstalk: e.crosstalk.as_ref().map(|value| Crosstalk(neighbours(value))),
         photo_response: e.non_uniformity.as_ref().map(photo_response).unwrap_or_default(),
         smear: e.smear.as_ref().map(smear),
     }
@@ -51,9 +51,9 @@ pub(super) fn light(sensor: &record::Sensor, e: &record::Electronics, exit_pupil
 
 fn photo_response(n: &description::NonUniformity) -> PhotoResponse {
     PhotoResponse {
-        white: or(n.prnu.as_ref(), 0.0),
-        row: or(n.prnu_row.as_ref(), 0.0),
-        column: or(n.prnu_column.as_ref(), 0.0),
+        white: value_or(n.prnu.as_ref(), 0.0),
+        row: value_or(n.prnu_row.as_ref(), 0.0),
+        column: value_or(n.prnu_column.as_ref(), 0.0),
     }
 }
 
@@ -61,7 +61,7 @@ fn smear(record: &description::Smear) -> Smear {
     match record {
         description::Smear::Interline(smear) => Smear::Interline {
             smear_db: smear.smear_db.value,
-            measured_exposure_ratio: or(smear.measured_exposure_ratio.as_ref(), 1.0),
+            measured_exposure_ratio: value_or(smear.measured_exposure_ratio.as_ref(), 1.0),
         },
         description::Smear::FrameTransfer(smear) => Smear::FrameTransfer { line_shift_s: smear.line_shift_s.value },
     }
@@ -71,6 +71,6 @@ pub(super) fn neighbours(record: &Exchange) -> Neighbours {
     Neighbours {
         horizontal: record.horizontal.value,
         vertical: record.vertical.value,
-        corner: or(record.corner.as_ref(), 0.0),
+        corner: value_or(record.corner.as_ref(), 0.0),
     }
 }

@@ -20,13 +20,13 @@ pub(in super::super) fn sensor(
     let electronics = record.electronics.as_ref()?;
     refuse_no_shield(electronics.optical_black.as_ref(), context);
     let channels = channels(electronics, context)?;
-    let specimen = electronics.non_uniformity.as_ref().and_then(|n| n.seed.as_ref());
+    let unit_seed = electronics.non_uniformity.as_ref().and_then(|n| n.seed.as_ref());
     let parameters = SensorParameters {
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
         cfa: cfa(&electronics.cfa, context)?,
         channels,
         exposure: light::exposure(electronics),
-        specimen: specimen.map(|seed| seed.value),
+        unit: unit_seed.map(|seed| seed.value),
         light: light::light(record, electronics, exit_pupil_mm),
         charge: charge::charge(electronics),
         voltage: read_out::voltage(electronics),
@@ -35,7 +35,7 @@ pub(in super::super) fn sensor(
         noise: electronics.noise.as_ref().is_none_or(|n| n.value),
     };
     let sensor = Sensor::new(parameters).map_err(|errors| refuse(record, &errors, context)).ok()?;
-    let misfits = sensor.misfits(record.width_px.value as usize, record.height_px.value as usize);
+    let misfits = sensor.image_size_errors(record.width_px.value as usize, record.height_px.value as usize);
     refuse(record, &misfits, context);
     misfits.is_empty().then_some(sensor)
 }
@@ -45,7 +45,7 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
     let none = |key: Option<&Placed<u64>>| key.is_none_or(|k| k.value == 0);
     if let Some(dark) = record.filter(|d| none(d.rows_px.as_ref()) && none(d.columns_px.as_ref())) {
         let problem = "\"optical_black\" has neither rows nor columns";
-        context.fault(ErrorCode::Empty, &dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
+        context.error(ErrorCode::Empty, &dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
     }
 }
 
@@ -53,7 +53,7 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
 fn refuse(record: &record::Sensor, errors: &[SensorError], context: &mut Context<'_>) {
     let table = record.to_table();
     for error in errors {
-        context.fault(
+        context.error(
             ErrorCode::OutOfRange,
             table.place_of(error.key()).unwrap_or(&record.place),
             error.to_string(),

@@ -1,7 +1,7 @@
 //! From charge to digital numbers: voltage, ADC, layout, captures.
 
 use super::light::neighbours;
-use crate::compile::stated::or;
+use crate::compile::stated::value_or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};
@@ -13,17 +13,17 @@ use etendue_sensor::effects::two_level::RtsNoise;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::companding::Companding;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
-use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region, Skipping};
+use etendue_sensor::layout::{Binning, BinningMode, Layout, OpticalBlack, Region, Skipping};
 use etendue_sensor::{ReadOut, VoltageEffects};
 
 pub(super) fn voltage(e: &record::Electronics) -> VoltageEffects {
     VoltageEffects {
-        capacitance: e.inter_pixel_capacitance.as_ref().map(|given| InterPixelCapacitance(neighbours(given))),
+        capacitance: e.inter_pixel_capacitance.as_ref().map(|value| InterPixelCapacitance(neighbours(value))),
         offset: e.non_uniformity.as_ref().map(offset).unwrap_or_default(),
         noise: ReadNoise {
             white_e: e.read_noise_e.value,
-            row_e: or(e.row_noise_e.as_ref(), 0.0),
-            column_e: or(e.column_noise_e.as_ref(), 0.0),
+            row_e: value_or(e.row_noise_e.as_ref(), 0.0),
+            column_e: value_or(e.column_noise_e.as_ref(), 0.0),
         },
         rts_noise: e.rts_noise.as_ref().map(|t| {
             RtsNoise(TwoLevel { fraction: t.fraction.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
@@ -33,9 +33,9 @@ pub(super) fn voltage(e: &record::Electronics) -> VoltageEffects {
 
 fn offset(n: &NonUniformity) -> OffsetPattern {
     OffsetPattern {
-        white_e: or(n.dsnu_e.as_ref(), 0.0),
-        row_e: or(n.dsnu_row_e.as_ref(), 0.0),
-        column_e: or(n.dsnu_column_e.as_ref(), 0.0),
+        white_e: value_or(n.dsnu_e.as_ref(), 0.0),
+        row_e: value_or(n.dsnu_row_e.as_ref(), 0.0),
+        column_e: value_or(n.dsnu_column_e.as_ref(), 0.0),
     }
 }
 
@@ -43,10 +43,10 @@ pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     ReadOut {
         response: e.response.as_ref().map_or(Response::Linear, response),
         gain_dn_e: e.gain_dn_per_e.value,
-        analogue_gain: or(e.analogue_gain.as_ref(), 1.0),
+        analogue_gain: value_or(e.analogue_gain.as_ref(), 1.0),
         black_level_dn: e.black_level_dn.value,
         bits: e.bits.value as u32,
-        digital_gain: or(e.digital_gain.as_ref(), 1.0),
+        digital_gain: value_or(e.digital_gain.as_ref(), 1.0),
         layout: layout(e),
     }
 }
@@ -76,8 +76,8 @@ fn layout(e: &record::Electronics) -> Layout {
             columns: b.columns.value as usize,
             rows: b.rows.value as usize,
             of: match b.of.value {
-                description::BinningOf::Charge => BinningOf::Charge,
-                description::BinningOf::Numbers => BinningOf::Numbers,
+                description::BinningOf::Charge => BinningMode::Charge,
+                description::BinningOf::Numbers => BinningMode::Numbers,
             },
         }),
         skipping: e.skipping.as_ref().map(|s| {
@@ -103,9 +103,9 @@ pub(super) fn hdr(e: &record::Electronics) -> HighDynamicRange {
 
 fn capture(record: &of_hdr::Capture) -> Capture {
     Capture {
-        exposure_ratio: or(record.exposure_ratio.as_ref(), 1.0),
-        sensitivity_ratio: or(record.sensitivity_ratio.as_ref(), 1.0),
-        gain_ratio: or(record.gain_ratio.as_ref(), 1.0),
+        exposure_ratio: value_or(record.exposure_ratio.as_ref(), 1.0),
+        sensitivity_ratio: value_or(record.sensitivity_ratio.as_ref(), 1.0),
+        gain_ratio: value_or(record.gain_ratio.as_ref(), 1.0),
         full_well_e: record.full_well_e.as_ref().map(|k| k.value),
         read_noise_e: record.read_noise_e.as_ref().map(|k| k.value),
         dual_conversion_gain: record.dual_conversion_gain.as_ref().is_some_and(|k| k.value),

@@ -17,7 +17,7 @@ fn lamps(keys: &str) -> Vec<Waveform> {
 #[test]
 fn the_strength_of_pulses_is_their_mean_and_that_of_a_programme_its_level_1() {
     let pulses = &lamps(&format!("position_m = [0, 0, 5]\n{PWM} }}"))[0];
-    assert!((pulses.mean_level().expect("recurs") - 1.0).abs() < 1e-15 && pulses.greatest_level() == 4.0);
+    assert!((pulses.mean_level().expect("recurs") - 1.0).abs() < 1e-15 && pulses.max_level() == 4.0);
     assert_eq!([0.0, 0.0011, 0.0034, 0.0036].map(|t| pulses.at(t)), [0.0, 4.0, 4.0, 0.0]);
     let steps = "steps = [{ level = 1, duration_s = 2 }, { level = 0, duration_s = 1 }]";
     let programme = &lamps(&format!("position_m = [0, 0, 5]\nmodulation = {{ type = \"programme\", {steps} }}"))[0];
@@ -33,11 +33,11 @@ fn places_of_a_lamp_are_later_by_their_own_delay_or_by_chance() {
     assert_eq!([0.002, 0.006].map(|t| [first.at(t), second.at(t)]), [[4.0, 0.0], [0.0, 4.0]]);
     let many: String = (0..40).map(|i| format!("{{ position_m = [{i}, 0, 5] }}, ")).collect();
     let street = format!("instances = [{many}]\n{PWM}, phases = \"random\" }}");
-    let lamps_of_street = lamps(&street);
-    let shine = lamps_of_street.iter().filter(|lamp| lamp.at(1.0) > 0.0).count();
+    let street_lamps = lamps(&street);
+    let lit_lamps = street_lamps.iter().filter(|lamp| lamp.at(1.0) > 0.0).count();
     // A quarter of 40, standard deviation 2.7.
-    assert!((2..=22).contains(&shine), "{shine}");
-    assert_eq!(lamps_of_street, lamps(&street), "no seed tells the phases");
+    assert!((2..=22).contains(&lit_lamps), "{lit_lamps}");
+    assert_eq!(street_lamps, lamps(&street), "no seed tells the phases");
 }
 
 fn panel(emission: &str, place: &str) -> Result<Plan, String> {
@@ -57,15 +57,15 @@ fn waveforms(plan: &Plan) -> Vec<&Waveform> {
 }
 
 #[test]
-fn objects_of_a_glowing_material_may_have_phases_of_their_own() {
+fn objects_of_an_emissive_material_may_have_their_own_phases() {
     let places = "instances = [{ position_m = [0, 0, 5] }, { position_m = [9, 0, 5], modulation_delay_s = 0.004 }, { position_m = [8, 0, 5] }]";
-    let made = panel(&format!("{PWM} }}"), places).expect("no fault");
-    assert!(made.material_table.is_modulated() && !made.sources.is_modulated());
-    let [first, second, third] = waveforms(&made)[..] else { panic!("three places") };
+    let plan = panel(&format!("{PWM} }}"), places).expect("no fault");
+    assert!(plan.material_table.is_modulated() && !plan.sources.is_modulated());
+    let [first, second, third] = waveforms(&plan)[..] else { panic!("three places") };
     assert_eq!([0.002, 0.006].map(|t| [first.at(t), second.at(t), third.at(t)]), [[4.0, 0.0, 4.0], [0.0, 4.0, 0.0]]);
-    let made = panel(&format!("{PWM}, phases = \"random\", multiplexed_rows = 8 }}"), places).expect("no fault");
-    let over = TimeInterval::new(0.2, 0.203).expect("in order");
-    let means: BTreeSet<u64> = waveforms(&made).iter().map(|waveform| waveform.mean(over).to_bits()).collect();
+    let plan = panel(&format!("{PWM}, phases = \"random\", multiplexed_rows = 8 }}"), places).expect("no fault");
+    let interval = TimeInterval::new(0.2, 0.203).expect("in order");
+    let means: BTreeSet<u64> = waveforms(&plan).iter().map(|waveform| waveform.mean(interval).to_bits()).collect();
     assert_eq!(means.len(), 3);
     let still = panel("sides = \"both\"", "position_m = [0, 0, 5]").expect("no fault");
     assert!(!still.material_table.is_modulated() && waveforms(&still).is_empty());
@@ -73,9 +73,9 @@ fn objects_of_a_glowing_material_may_have_phases_of_their_own() {
 
 #[test]
 fn a_delay_of_light_that_does_not_change_is_refused() {
-    let told = panel("sides = \"both\"", "instances = [{ position_m = [0, 0, 5], modulation_delay_s = 1 }]").err();
+    let message = panel("sides = \"both\"", "instances = [{ position_m = [0, 0, 5], modulation_delay_s = 1 }]").err();
     assert!(
-        told.is_some_and(|told| told.contains("modulation_delay_s: \"modulation_delay_s\" has no effect on an object"))
+        message.is_some_and(|text| text.contains("modulation_delay_s: \"modulation_delay_s\" has no effect on an object"))
     );
 }
 
@@ -83,18 +83,18 @@ fn a_delay_of_light_that_does_not_change_is_refused() {
 fn a_table_of_the_wrong_width_is_refused() {
     let text = "[[scene.lights]]\nname = \"l\"\ntype = \"point\"\nintensity_cd = 100\nilluminant = \"A\"\n\
                 position_m = [0, 0, 5]\nmodulation = { type = \"table\", file = \"flash.csv\" }\n";
-    for (columns, values, told) in [
+    for (columns, values, expected_problem) in [
         (3, vec![0.0, 1.0, 2.0], Some("give two columns: time in s, level")),
         (2, vec![0.0, 1.0, -1.0, 2.0], Some("the time -1 s follows 0 s")),
         (2, vec![0.0, 1.0, 0.5, 3.0], None),
     ] {
-        let found = super::plan_with(text, |assets| {
+        let result = super::plan_with(text, |assets| {
             let table = etendue_scene::asset::NumbersAsset { columns, values, hash: [1; 32] };
             assets.numbers.insert("flash.csv".into(), table);
         });
-        match told {
-            Some(told) => assert!(found.err().is_some_and(|found| found.contains(told)), "{told}"),
-            None => assert_eq!(found.expect("no fault").sources.lamps[0].modulation().map(|w| w.at(0.25)), Some(2.0)),
+        match expected_problem {
+            Some(problem) => assert!(result.err().is_some_and(|error| error.contains(problem)), "{problem}"),
+            None => assert_eq!(result.expect("no fault").sources.lamps[0].modulation().map(|w| w.at(0.25)), Some(2.0)),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::pixel_box::PixelBox;
 use glam::DVec2;
 
 /// Maximum distance of the image of a segment's middle from the segment, px.
-const STRAIGHT_PX: f64 = 0.01;
+const MAX_DEVIATION_PX: f64 = 0.01;
 /// Maximum number of times a segment is halved.
 const HALVINGS: u32 = 12;
 /// Number of bisections for the end of the image: to 6e-8 of a segment.
@@ -16,41 +16,41 @@ const END_HALVINGS: u32 = 24;
 
 /// A point of the line and its image.
 #[derive(Clone, Copy)]
-struct Imaged {
-    share: f64,
+struct LinePoint {
+    fraction: f64,
     at_px: DVec2,
 }
 
 /// Box around the images, within `picture`, of a line divided into `parts`; `image` returns the image of the point at a fraction of its length. `None` if no
 /// part of it lies in the image. A line with images only between two neighbouring points of the division has none.
-pub(super) fn within(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, picture: &PixelBox) -> Option<PixelBox> {
-    let share = |i: usize| i as f64 / parts as f64;
-    let point = |share: f64| image(share).map(|at_px| Imaged { share, at_px });
+pub(super) fn clipped_box(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, image_bounds: &PixelBox) -> Option<PixelBox> {
+    let fraction = |i: usize| i as f64 / parts as f64;
+    let point = |fraction: f64| image(fraction).map(|at_px| LinePoint { fraction: share: fraction, at_px });
     let mut from = point(0.0);
-    let mut found = None;
+    let mut bounds = None;
     for i in 1..=parts {
-        let to = point(share(i));
+        let to = point(fraction(i));
         let segment = match (from, to) {
             (Some(from), Some(to)) => Some((from, to)),
-            (Some(from), None) => Some((from, last(image, from, share(i)))),
-            (None, Some(to)) => Some((last(image, to, share(i - 1)), to)),
+            (Some(from), None) => Some((from, last_point(image, from, fraction(i)))),
+            (None, Some(to)) => Some((last_point(image, to, fraction(i - 1)), to)),
             (None, None) => None,
         };
-        let segment = segment.and_then(|(from, to)| segment_within(image, from, to, picture, HALVINGS));
-        found = PixelBox::union(found, segment);
+        let segment = segment.and_then(|(from, to)| segment_within(image, from, to, image_bounds, HALVINGS));
+        bounds = PixelBox::union(bounds, segment);
         from = to;
     }
-    found
+    bounds
 }
 
 /// Last point with an image between a point that has one and a point that has none.
-fn last(image: &impl Fn(f64) -> Option<DVec2>, from: Imaged, mut without: f64) -> Imaged {
+fn last_point(image: &impl Fn(f64) -> Option<DVec2>, from: LinePoint, mut without: f64) -> LinePoint {
     let mut with = from;
     for _ in 0..END_HALVINGS {
-        let share = 0.5 * (with.share + without);
-        match image(share) {
-            Some(at_px) => with = Imaged { share, at_px },
-            None => without = share,
+        let fraction = 0.5 * (with.fraction + without);
+        match image(fraction) {
+            Some(at_px) => with = LinePoint { fraction: share: fraction, at_px },
+            None => without = fraction,
         }
     }
     with
@@ -58,52 +58,52 @@ fn last(image: &impl Fn(f64) -> Option<DVec2>, from: Imaged, mut without: f64) -
 
 fn segment_within(
     image: &impl Fn(f64) -> Option<DVec2>,
-    from: Imaged,
-    to: Imaged,
-    picture: &PixelBox,
+    from: LinePoint,
+    to: LinePoint,
+    image_bounds: &PixelBox,
     halvings: u32,
 ) -> Option<PixelBox> {
-    let share = 0.5 * (from.share + to.share);
-    let middle = (halvings > 0).then(|| image(share)).flatten();
+    let fraction = 0.5 * (from.fraction + to.fraction);
+    let middle = (halvings > 0).then(|| image(fraction)).flatten();
     match middle {
         Some(at_px) if !is_between(at_px, from.at_px, to.at_px) => {
-            let middle = Imaged { share, at_px };
+            let middle = LinePoint { fraction: share: fraction, at_px };
             PixelBox::union(
-                segment_within(image, from, middle, picture, halvings - 1),
-                segment_within(image, middle, to, picture, halvings - 1),
+                segment_within(image, from, middle, image_bounds, halvings - 1),
+                segment_within(image, middle, to, image_bounds, halvings - 1),
             )
         }
-        _ => cut(from.at_px, to.at_px, picture),
+        _ => segment_box(from.at_px, to.at_px, image_bounds),
     }
 }
 
 /// Returns true if a point lies on the segment between two others.
 fn is_between(at: DVec2, from: DVec2, to: DVec2) -> bool {
-    let along = to - from;
-    let length = along.length();
+    let direction = to - from;
+    let length = direction.length();
     if length == 0.0 {
-        return at.distance(from) <= STRAIGHT_PX;
+        return at.distance(from) <= MAX_DEVIATION_PX;
     }
-    let towards = along / length;
+    let towards = direction / length;
     let reach = (at - from).dot(towards);
     // Far outside the image, rounding errors are proportional to the distance of the points.
-    let tolerance = STRAIGHT_PX.max(1e-9 * length);
+    let tolerance = MAX_DEVIATION_PX.max(1e-9 * length);
     (at - from).perp_dot(towards).abs() <= tolerance && (-tolerance..=length + tolerance).contains(&reach)
 }
 
 /// Box around the part of a segment within the image.
-fn cut(from: DVec2, to: DVec2, picture: &PixelBox) -> Option<PixelBox> {
-    let along = to - from;
+fn segment_box(from: DVec2, to: DVec2, image_bounds: &PixelBox) -> Option<PixelBox> {
+    let direction = to - from;
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
-        let (low, high) = (picture.low[axis] - from[axis], picture.high[axis] - from[axis]);
-        if along[axis] == 0.0 {
+        let (low, high) = (image_bounds.low[axis] - from[axis], image_bounds.high[axis] - from[axis]);
+        if direction[axis] == 0.0 {
             if low > 0.0 || high < 0.0 {
                 return None;
             }
             continue;
         }
-        let (a, b) = (low / along[axis], high / along[axis]);
+        let (a, b) = (low / direction[axis], high / direction[axis]);
         enters = enters.max(a.min(b));
         leaves = leaves.min(a.max(b));
     }
@@ -111,15 +111,15 @@ fn cut(from: DVec2, to: DVec2, picture: &PixelBox) -> Option<PixelBox> {
         return None;
     }
     // Rounding may place a point on the border slightly beyond it.
-    let at = |share: f64| {
-        let at = if share <= 0.0 {
+    let at = |fraction: f64| {
+        let at = if fraction <= 0.0 {
             from
-        } else if share >= 1.0 {
+        } else if fraction >= 1.0 {
             to
         } else {
-            from + along * share
+            from + direction * fraction
         };
-        at.clamp(picture.low, picture.high)
+        at.clamp(image_bounds.low, image_bounds.high)
     };
     let (a, b) = (at(enters), at(leaves));
     Some(PixelBox { low: a.min(b), high: a.max(b) })
@@ -131,30 +131,30 @@ mod tests {
 
     const PICTURE: PixelBox = PixelBox { low: DVec2::ZERO, high: DVec2::new(200.0, 120.0) };
 
-    fn edges(found: Option<PixelBox>) -> [f64; 4] {
-        found.expect("within the picture").edges_px()
+    fn edges(pixel_box: Option<PixelBox>) -> [f64; 4] {
+        pixel_box.expect("within the picture").edges_px()
     }
 
     #[test]
     fn a_straight_line_is_cut_at_the_border() {
-        let line = |share: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(100.0, 60.0), share));
-        assert_eq!(edges(within(&line, 1, &PICTURE)), [0.0, 40.0, 100.0, 60.0]);
-        let beside = |share: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(-1.0, 60.0), share));
-        assert_eq!(within(&beside, 4, &PICTURE), None);
+        let line = |fraction: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(100.0, 60.0), fraction));
+        assert_eq!(edges(clipped_box(&line, 1, &PICTURE)), [0.0, 40.0, 100.0, 60.0]);
+        let partly_outside = |fraction: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(-1.0, 60.0), fraction));
+        assert_eq!(clipped_box(&partly_outside, 4, &PICTURE), None);
         // It misses a corner, although its box contains it.
-        let past = |share: f64| Some(DVec2::new(-10.0, 5.0).lerp(DVec2::new(5.0, -10.0), share));
-        assert_eq!(within(&past, 1, &PICTURE), None);
+        let past = |fraction: f64| Some(DVec2::new(-10.0, 5.0).lerp(DVec2::new(5.0, -10.0), fraction));
+        assert_eq!(clipped_box(&past, 1, &PICTURE), None);
     }
 
     /// A line along the ground from 10 m before a pinhole camera to 10 m behind it: it leaves the image at the lower border.
     #[test]
     fn a_line_that_passes_the_camera_ends_at_the_border() {
-        let image = |share: f64| {
-            let (ahead, below, right) = (10.0 - 20.0 * share, 1.5, -0.5);
+        let image = |fraction: f64| {
+            let (ahead, below, right) = (10.0 - 20.0 * fraction, 1.5, -0.5);
             (ahead > 0.0).then(|| DVec2::new(100.0, 60.0) + DVec2::new(right, below) * (200.0 / ahead))
         };
         for parts in [1, 7] {
-            let [left, top, right, bottom] = edges(within(&image, parts, &PICTURE));
+            let [left, top, right, bottom] = edges(clipped_box(&image, parts, &PICTURE));
             assert!(
                 (top - 90.0).abs() < 1e-9 && bottom == 120.0 && (right - 90.0).abs() < 1e-9,
                 "{top} {bottom} {right}"
@@ -166,11 +166,11 @@ mod tests {
     /// A semicircle that enters the image only between its ends.
     #[test]
     fn bent_lines_are_followed() {
-        let image = |share: f64| {
-            let (sin, cos) = etendue_core::maths::f64::sin_cos(core::f64::consts::PI * (share - 0.5));
+        let image = |fraction: f64| {
+            let (sin, cos) = etendue_core::maths::f64::sin_cos(core::f64::consts::PI * (fraction - 0.5));
             Some(DVec2::new(-50.0 + 100.0 * cos, 60.0 + 30.0 * sin))
         };
-        let [left, _, right, _] = edges(within(&image, 3, &PICTURE));
-        assert!(left == 0.0 && (right - 50.0).abs() < STRAIGHT_PX, "{left} {right}");
+        let [left, _, right, _] = edges(clipped_box(&image, 3, &PICTURE));
+        assert!(left == 0.0 && (right - 50.0).abs() < MAX_DEVIATION_PX, "{left} {right}");
     }
 }

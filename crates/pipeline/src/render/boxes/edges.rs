@@ -12,28 +12,28 @@ const OUTLINE: u32 = 256;
 const ON_EDGES: usize = 512;
 
 /// A straight edge in the instance's own frame.
-pub(super) enum Edge<'w> {
+pub(super) enum ObjectEdge<'w> {
     /// From one vertex of a mesh to another.
     OfMesh { mesh: &'w Mesh, ends: [u32; 2] },
     /// From one point to another.
     Between([DVec3; 2]),
 }
 
-impl<'w> Edge<'w> {
+impl<'w> ObjectEdge<'w> {
     /// Point at a fraction of its length from its first end, 0 to 1.
-    pub(super) fn at(&self, share: f64) -> OwnPoint<'w> {
+    pub(super) fn at(&self, fraction: f64) -> OwnPoint<'w> {
         let between = |[from, to]: [DVec3; 2]| {
-            OwnPoint::Fixed(if share <= 0.0 {
+            OwnPoint::Fixed(if fraction <= 0.0 {
                 from
-            } else if share >= 1.0 {
+            } else if fraction >= 1.0 {
                 to
             } else {
-                from.lerp(to, share)
+                from.lerp(to, fraction)
             })
         };
         match *self {
             Self::OfMesh { mesh, ends: [a, b] } if mesh.animation().is_some() => {
-                OwnPoint::Between { mesh, vertices: [a, b, b], weights: [1.0 - share, share, 0.0] }
+                OwnPoint::Between { mesh, vertices: [a, b, b], weights: [1.0 - fraction, fraction, 0.0] }
             }
             Self::OfMesh { mesh, ends } => between(ends.map(|vertex| mesh.positions()[vertex as usize].as_dvec3())),
             Self::Between(ends) => between(ends),
@@ -42,30 +42,30 @@ impl<'w> Edge<'w> {
 }
 
 /// The edges of an object.
-pub(super) struct Edges<'w> {
-    pub(super) edges: Vec<Edge<'w>>,
+pub(super) struct ObjectEdges<'w> {
+    pub(super) edges: Vec<ObjectEdge<'w>>,
     /// Number of parts of each edge, because distortion bends its image.
     pub(super) parts: usize,
     /// Vertices of the mesh that edges use, each once; empty if the edges are a closed line.
-    vertices: Vec<Edge<'w>>,
+    vertices: Vec<ObjectEdge<'w>>,
 }
 
-impl<'w> Edges<'w> {
+impl<'w> ObjectEdges<'w> {
     /// Edges of a mesh, or chords of a sphere's outline as the frame's camera sees it at `time_s`; none for a sphere that contains the camera. (Images of
     /// edges bound an image, because a lens maps directions one to one.)
-    pub(super) fn of(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
+    pub(super) fn new(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
         match instance.shape {
-            Shape::Mesh(id) => Self::of_mesh(plan.world.mesh(id)),
+            Shape::Mesh(id) => Self::from_mesh(plan.world.mesh(id)),
             Shape::Sphere { radius_m } => {
                 let to_local = instance.to_world.at(time_s).inverse();
                 let points = outline(radius_m, to_local.transform_point3(frame.pose_at(time_s).position_m));
-                let chord = |i: usize| Edge::Between([points[i], points[(i + 1) % points.len()]]);
+                let chord = |i: usize| ObjectEdge::Between([points[i], points[(i + 1) % points.len()]]);
                 Self { edges: (0..points.len()).map(chord).collect(), parts: 1, vertices: Vec::new() }
             }
         }
     }
 
-    fn of_mesh(mesh: &'w Mesh) -> Self {
+    fn from_mesh(mesh: &'w Mesh) -> Self {
         let mut ends: Vec<[u32; 2]> = mesh
             .triangles()
             .iter()
@@ -78,8 +78,8 @@ impl<'w> Edges<'w> {
         vertices.dedup();
         Self {
             parts: ON_EDGES.checked_div(ends.len()).unwrap_or(0).max(1),
-            vertices: vertices.into_iter().map(|vertex| Edge::OfMesh { mesh, ends: [vertex; 2] }).collect(),
-            edges: ends.into_iter().map(|ends| Edge::OfMesh { mesh, ends }).collect(),
+            vertices: vertices.into_iter().map(|vertex| ObjectEdge::OfMesh { mesh, ends: [vertex; 2] }).collect(),
+            edges: ends.into_iter().map(|ends| ObjectEdge::OfMesh { mesh, ends }).collect(),
         }
     }
 

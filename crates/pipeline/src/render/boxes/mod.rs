@@ -26,12 +26,12 @@ mod tests;
 mod world;
 
 pub use pixel_box::PixelBox;
-pub use solid::{SolidBox, Stance};
+pub use solid::{SolidBox, BoxPose};
 pub use world::{WorldObject, world_objects};
 
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
-use crate::render::look_at::LookAt;
+use crate::render::look_at::GroundTruthView;
 use amodal::Amodal;
 use etendue_core::Plane;
 use etendue_core::quantity::Identity;
@@ -73,40 +73,40 @@ impl ObjectBoxes {
     /// Fraction of its amodal box's area outside an image, 0 to 1; `None` if parts have no image.
     #[must_use]
     pub fn truncated_fraction(&self, width_px: usize, height_px: usize) -> Option<f64> {
-        let whole = self.amodal.filter(|_| !self.is_cut)?;
-        let within = whole.within(width_px, height_px).map_or(0.0, |within| within.area_px2());
-        Some(if whole.area_px2() > 0.0 { (1.0 - within / whole.area_px2()).max(0.0) } else { 0.0 })
+        let amodal = self.amodal.filter(|_| !self.is_cut)?;
+        let within = amodal.within(width_px, height_px).map_or(0.0, |within| within.area_px2());
+        Some(if amodal.area_px2() > 0.0 { (1.0 - within / amodal.area_px2()).max(0.0) } else { 0.0 })
     }
 }
 
 /// Boxes of the objects in a frame, in the order of their identities; `ids` are the identities of the frame's ground truth. Runs on the caller's pool.
 #[must_use]
 pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, simd: Simd) -> Vec<ObjectBoxes> {
-    let seen = visible(ids);
-    let looks = LookAt::new(plan, frame, simd);
+    let visible_boxes = visible(ids);
+    let views = GroundTruthView::new(plan, frame, simd);
     let time_s = frame.interval().middle_s();
     let pose = frame.pose_at(time_s);
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     let boxes = numbered.collect::<Vec<_>>().into_par_iter().filter_map(|(index, instance)| {
-        let amodal = Amodal::of(plan, frame, instance, time_s);
-        if amodal.image.is_none() && !seen.contains_key(&instance.instance_id) {
+        let amodal = Amodal::new(plan, frame, instance, time_s);
+        if amodal.image.is_none() && !visible_boxes.contains_key(&instance.instance_id) {
             return None; // Behind the camera, as far as its edges show, and not visible: no pixel is tested.
         }
-        let alone = alone(&looks, index as u32, &amodal, ids);
-        let (visible_pixels, visible) = seen.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
-        let (alone_pixels, shown) = alone.map_or((0, None), |(n, b)| (n, Some(b)));
+        let alone = box_if_alone(&views, index as u32, &amodal, ids);
+        let (visible_pixels, visible) = visible_boxes.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
+        let (alone_pixels, visible_box) = alone.map_or((0, None), |(n, b)| (n, Some(b)));
         (visible_pixels + alone_pixels > 0).then(|| ObjectBoxes {
             id: instance.instance_id,
             visible,
-            amodal: [shown, visible]
+            amodal: [visible_box, visible]
                 .into_iter()
                 .flatten()
-                .fold(amodal.image, |whole, pixels| PixelBox::union(whole, Some(pixels.of_centres()))),
-            amodal_in_picture: amodal.in_picture(frame, instance, PixelBox::union(shown, visible).as_ref()),
+                .fold(amodal.image, |all_pixels, pixels| PixelBox::union(all_pixels, Some(pixels.pixel_centres()))),
+            amodal_in_picture: amodal.within_image(frame, instance, PixelBox::union(visible_box, visible).as_ref()),
             is_cut: amodal.is_cut,
             visible_pixels,
             alone_pixels,
-            solid: SolidBox::of(plan, instance, time_s, &pose),
+            solid: SolidBox::new(plan, instance, time_s, &pose),
         })
     });
     let mut boxes: Vec<ObjectBoxes> = boxes.collect();
@@ -116,60 +116,60 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
 
 /// Number and box of the visible pixels of each identity.
 fn visible(ids: &Plane<Identity>) -> BTreeMap<u32, (usize, PixelBox)> {
-    let mut found = BTreeMap::new();
+    let mut boxes = BTreeMap::new();
     for (i, id) in ids.samples().iter().enumerate().filter(|(_, id)| **id > 0) {
-        let pixel = PixelBox::of_pixel(i % ids.width(), i / ids.width());
-        let entry = found.entry(*id).or_insert((0, pixel));
-        *entry = (entry.0 + 1, entry.1.about(&pixel));
+        let pixel = PixelBox::from_pixel(i % ids.width(), i / ids.width());
+        let entry = boxes.entry(*id).or_insert((0, pixel));
+        *entry = (entry.0 + 1, entry.1.union_with(&pixel));
     }
-    found
+    boxes
 }
 
 /// Pixels (row by row from the top left) that would show each object of these identities if it were alone, or that show it in the ground truth `ids`. Runs on
 /// the caller's pool.
 #[must_use]
 pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, simd: Simd) -> BTreeMap<u32, Vec<usize>> {
-    let looks = LookAt::new(plan, frame, simd);
+    let views = GroundTruthView::new(plan, frame, simd);
     let time_s = frame.interval().middle_s();
-    let mut found: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    let mut pixels_by_instance: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     ids.samples()
         .iter()
         .enumerate()
         .filter(|(_, id)| **id > 0)
-        .for_each(|(at, id)| found.entry(*id).or_default().push(at));
+        .for_each(|(at, id)| pixels_by_instance.entry(*id).or_default().push(at));
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     for (index, instance) in numbered {
-        let amodal = Amodal::of(plan, frame, instance, time_s);
-        if amodal.image.is_none() && !found.contains_key(&instance.instance_id) {
+        let amodal = Amodal::new(plan, frame, instance, time_s);
+        if amodal.image.is_none() && !pixels_by_instance.contains_key(&instance.instance_id) {
             continue;
         }
-        let Some(pixels) = alone_pixels(&looks, index as u32, &amodal, ids) else { continue };
-        let seen = found.remove(&instance.instance_id).unwrap_or_default();
-        let mut all: Vec<usize> = pixels.map(|(x, y)| y * ids.width() + x).chain(seen).collect();
+        let Some(pixels) = alone_pixels(&views, index as u32, &amodal, ids) else { continue };
+        let own_pixels = pixels_by_instance.remove(&instance.instance_id).unwrap_or_default();
+        let mut all: Vec<usize> = pixels.map(|(x, y)| y * ids.width() + x).chain(own_pixels).collect();
         all.sort_unstable();
         all.dedup();
         if !all.is_empty() {
-            found.insert(instance.instance_id, all);
+            pixels_by_instance.insert(instance.instance_id, all);
         }
     }
-    found
+    pixels_by_instance
 }
 
 /// Number and box of the pixels that would show an instance if it were alone; `None` if there are none.
-fn alone(looks: &LookAt<'_>, index: u32, amodal: &Amodal, ids: &Plane<Identity>) -> Option<(usize, PixelBox)> {
-    let counted = alone_pixels(looks, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::of_pixel(x, y)));
+fn box_if_alone(views: &GroundTruthView<'_>, index: u32, amodal: &Amodal, ids: &Plane<Identity>) -> Option<(usize, PixelBox)> {
+    let counted = alone_pixels(views, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::from_pixel(x, y)));
     // Minimum and maximum of integers: independent of the order.
-    counted.reduce_with(|a, b| (a.0 + b.0, a.1.about(&b.1)))
+    counted.reduce_with(|a, b| (a.0 + b.0, a.1.union_with(&b.1)))
 }
 
 /// Columns and rows of these pixels; `None` if the object lies outside the image.
 fn alone_pixels<'a>(
-    looks: &'a LookAt<'_>,
+    views: &'a GroundTruthView<'_>,
     index: u32,
     amodal: &Amodal,
     ids: &Plane<Identity>,
 ) -> Option<impl ParallelIterator<Item = (usize, usize)> + use<'a>> {
     let [columns, rows] = amodal.pixels(ids.width(), ids.height())?;
     let pixels = rows.into_par_iter().flat_map_iter(move |y| columns.clone().map(move |x| (x, y)));
-    Some(pixels.filter(move |(x, y)| looks.meets_alone(DVec2::new(*x as f64, *y as f64) + 0.5, index)))
+    Some(pixels.filter(move |(x, y)| views.would_show(DVec2::new(*x as f64, *y as f64) + 0.5, index)))
 }

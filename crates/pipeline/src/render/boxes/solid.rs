@@ -11,14 +11,14 @@ pub struct SolidBox {
     /// Lengths along its own axes x, y, z, m.
     pub size_m: DVec3,
     /// Pose in the world.
-    pub world: Stance,
+    pub world: BoxPose,
     /// Pose in the camera's frame (x right, y down, z forward) at the same time.
-    pub camera: Stance,
+    pub camera: BoxPose,
 }
 
 /// Pose of a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stance {
+pub struct BoxPose {
     /// Its centre, m.
     pub centre_m: DVec3,
     /// Rotation from its own axes to those of the frame; of the two equivalent quaternions the one with w ≥ 0.
@@ -28,11 +28,11 @@ pub struct Stance {
 impl SolidBox {
     /// Box of an instance's shape at a time, along the axes of its object (x forward, y left, z up; whatever the axes of a mesh's file). A frame with
     /// non-uniform scale after a rotation has sheared axes: the box is then aligned to the first of them and contains the whole shape.
-    pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
+    pub(super) fn new(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
         let (size_m, world) = Self::in_world(plan, instance, time_s);
         let axes = object_axes(plan, instance, time_s);
         let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
-        let camera = Stance {
+        let camera = BoxPose {
             centre_m: to_camera.transform_point3(world.centre_m),
             rotation: quaternion(to_camera.matrix3 * axes),
         };
@@ -40,7 +40,7 @@ impl SolidBox {
     }
 
     /// Size, m, and pose in the world.
-    pub(crate) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
+    pub(crate) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, BoxPose) {
         let to_world = instance.to_world.at(time_s);
         let axes = object_axes(plan, instance, time_s);
         let corners =
@@ -48,7 +48,7 @@ impl SolidBox {
         let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = corners.iter().copied().reduce(DVec3::max).unwrap_or_default();
         let centre_m = to_world.translation + axes * ((low + high) * 0.5);
-        (high - low, Stance { centre_m, rotation: quaternion(axes) })
+        (high - low, BoxPose { centre_m, rotation: quaternion(axes) })
     }
 }
 

@@ -19,11 +19,11 @@ fn boxes_by(plan: &Plan, path: &CameraPath, shutter: &Shutter) -> Vec<ObjectBoxe
 }
 
 fn boxes(plan: &Plan) -> Vec<ObjectBoxes> {
-    boxes_by(plan, &CameraPath::still(pose_of(plan)), &Shutter::Global)
+    boxes_by(plan, &CameraPath::constant(pose_of(plan)), &Shutter::Global)
 }
 
-fn close(found: [f64; 4], expected: [f64; 4]) -> bool {
-    found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6)
+fn close(actual: [f64; 4], expected: [f64; 4]) -> bool {
+    actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6)
 }
 
 fn object(name: &str, shape: &str, keys: &str) -> String {
@@ -33,8 +33,8 @@ fn object(name: &str, shape: &str, keys: &str) -> String {
 #[test]
 fn a_board_has_the_boxes_of_its_pixels_and_of_its_corners() {
     // 2 m at 5 m: 24 px around (16, 12), not clipped. The wall behind it fills the image and extends 1 200 px beyond each side.
-    let found = boxes(&plan(PINHOLE, &format!("{WALL}{BOARD}")));
-    let [wall, board] = &found[..] else { panic!("{found:?}") };
+    let object_boxes = boxes(&plan(PINHOLE, &format!("{WALL}{BOARD}")));
+    let [wall, board] = &object_boxes[..] else { panic!("{object_boxes:?}") };
     assert_eq!((board.id, board.visible_pixels, board.alone_pixels), (2, 576, 576));
     let (visible, amodal) = (board.visible.expect("seen"), board.amodal.expect("seen"));
     assert_eq!(visible.edges_px(), [4.0, 0.0, 28.0, 24.0]);
@@ -52,8 +52,8 @@ fn what_another_object_hides_is_no_part_of_the_visible_box() {
     // A board of 1 m at 2.5 m before the left half of that at 5 m: 24 px wide, 12 px to the left.
     let before =
         object("a", "type = \"quad\", size_m = [1, 1]", "position_m = [2.5, 0.5, 0]\nrotation_deg = [0, 90, 0]");
-    let found = boxes(&plan(PINHOLE, &format!("{BOARD}{before}")));
-    let [board, before] = &found[..] else { panic!("{found:?}") };
+    let object_boxes = boxes(&plan(PINHOLE, &format!("{BOARD}{before}")));
+    let [board, before] = &object_boxes[..] else { panic!("{object_boxes:?}") };
     assert_eq!(board.visible.expect("seen").edges_px(), [16.0, 0.0, 28.0, 24.0]);
     assert!(close(board.amodal.expect("seen").edges_px(), [4.0, 0.0, 28.0, 24.0]));
     assert_eq!((board.visible_fraction(), before.visible_fraction()), (0.5, 1.0));
@@ -65,18 +65,18 @@ fn what_another_object_hides_is_no_part_of_the_visible_box() {
 #[test]
 fn a_hidden_object_has_an_entry_and_one_beside_the_picture_has_none() {
     let hidden = object("b", "type = \"sphere\", radius_m = 0.5", "position_m = [8, 0, 0]");
-    let beside = object("c", "type = \"sphere\", radius_m = 0.5", "position_m = [8, 30, 0]");
-    let found = boxes(&plan(PINHOLE, &format!("{BOARD}{hidden}{beside}")));
-    let [_, hidden] = &found[..] else { panic!("{found:?}") };
+    let outside = object("c", "type = \"sphere\", radius_m = 0.5", "position_m = [8, 30, 0]");
+    let object_boxes = boxes(&plan(PINHOLE, &format!("{BOARD}{hidden}{outside}")));
+    let [_, hidden] = &object_boxes[..] else { panic!("{object_boxes:?}") };
     assert_eq!((hidden.visible, hidden.visible_pixels, hidden.visible_fraction()), (None, 0, 0.0));
     // The outline of a ball of radius r at distance d is a circle of f r / √(d² − r²).
     let radius_px = FOCAL_PX * 0.5 / (64.0_f64 - 0.25).sqrt();
     let [left, top, right, bottom] = hidden.amodal.expect("a ball").edges_px();
     // 256 points of the outline.
-    for (found, expected) in
+    for (actual, expected) in
         [(16.0 - left, radius_px), (12.0 - top, radius_px), (right - 16.0, radius_px), (bottom - 12.0, radius_px)]
     {
-        assert!((found / expected - 1.0).abs() < 1e-4, "{found} for {expected}");
+        assert!((actual / expected - 1.0).abs() < 1e-4, "{actual} for {expected}");
     }
     assert!(hidden.alone_pixels.abs_diff((core::f64::consts::PI * radius_px * radius_px) as usize) <= 6);
 }
@@ -84,8 +84,8 @@ fn a_hidden_object_has_an_entry_and_one_beside_the_picture_has_none() {
 #[test]
 fn what_reaches_behind_the_camera_is_cut() {
     let floor = object("d", "type = \"quad\", size_m = [100, 100]", "position_m = [0, 0, -1.5]");
-    let found = boxes(&plan(PINHOLE, &floor));
-    let [floor] = &found[..] else { panic!("{found:?}") };
+    let object_boxes = boxes(&plan(PINHOLE, &floor));
+    let [floor] = &object_boxes[..] else { panic!("{object_boxes:?}") };
     assert!(floor.is_cut && floor.truncated_fraction(32, 24).is_none());
     // The far edge at 50 m is 1.5 / 50 · 60 px below the axis.
     let visible = floor.visible.expect("seen");
@@ -104,26 +104,26 @@ fn what_leaves_the_picture_sideways_ends_at_its_border() {
             &format!("type = \"box\", size_m = [{length_m}, 1.8, 1.5]"),
             &format!("position_m = [{middle_m}, -1.4, -0.45]"),
         );
-        let found = boxes(&plan(PINHOLE, &bar));
-        let in_picture = found[0].amodal_in_picture.expect("seen").edges_px();
+        let object_boxes = boxes(&plan(PINHOLE, &bar));
+        let within_image = object_boxes[0].amodal_in_picture.expect("seen").edges_px();
         // The upper inner edge meets the right border, 16 px from the axis, at a depth of 0.5 m · 60 / 16.
         let expected = [16.0 + 60.0 * 0.5 / 5.05, 12.0 - 60.0 * 0.3 / 1.875, 32.0, 24.0];
-        assert!(close(in_picture, expected), "{from_m}: {in_picture:?}");
-        assert_eq!(found[0].is_cut, from_m < 0.0);
+        assert!(close(within_image, expected), "{from_m}: {within_image:?}");
+        assert_eq!(object_boxes[0].is_cut, from_m < 0.0);
         // The whole image, of the bar before the camera, extends 20.7 px above the frame.
         let top = 12.0 - 60.0 * 0.3 / 0.55;
-        assert!(found[0].is_cut || (found[0].amodal.expect("seen").low.y - top).abs() < 1e-6);
+        assert!(object_boxes[0].is_cut || (object_boxes[0].amodal.expect("seen").low.y - top).abs() < 1e-6);
     }
 }
 
 #[test]
 fn what_covers_the_picture_has_its_borders() {
-    let found = boxes(&plan(PINHOLE, WALL));
-    assert_eq!(found[0].amodal_in_picture.expect("seen").edges_px(), [0.0, 0.0, 32.0, 24.0]);
+    let object_boxes = boxes(&plan(PINHOLE, WALL));
+    assert_eq!(object_boxes[0].amodal_in_picture.expect("seen").edges_px(), [0.0, 0.0, 32.0, 24.0]);
     // A ball around the camera has no outline.
-    let about = object("h", "type = \"sphere\", radius_m = 3", "");
-    let found = boxes(&plan(PINHOLE, &about));
-    assert_eq!((found[0].amodal_in_picture.expect("seen").edges_px(), found[0].is_cut), ([0.0, 0.0, 32.0, 24.0], true));
+    let surrounding = object("h", "type = \"sphere\", radius_m = 3", "");
+    let object_boxes = boxes(&plan(PINHOLE, &surrounding));
+    assert_eq!((object_boxes[0].amodal_in_picture.expect("seen").edges_px(), object_boxes[0].is_cut), ([0.0, 0.0, 32.0, 24.0], true));
 }
 
 #[test]
@@ -131,17 +131,17 @@ fn edges_that_a_fisheye_bends_are_inside_the_box() {
     let lens = "type = \"calibrated\", f_number = 2, projection = { type = \"equidistant\", fx_px = 8 }";
     // Corners at (±2, ±2, 1): 70.5° from the axis, on the diagonals; the middles of the edges at 63.4° extend farther to the sides.
     let board = object("e", "type = \"quad\", size_m = [4, 4]", "position_m = [1, 0, 0]\nrotation_deg = [0, 90, 0]");
-    let found = boxes(&plan(lens, &board));
+    let object_boxes = boxes(&plan(lens, &board));
     let reach = 8.0 * etendue_core::maths::f64::atan(2.0);
-    assert!(close(found[0].amodal.expect("seen").edges_px(), [16.0 - reach, 12.0 - reach, 16.0 + reach, 12.0 + reach]));
+    assert!(close(object_boxes[0].amodal.expect("seen").edges_px(), [16.0 - reach, 12.0 - reach, 16.0 + reach, 12.0 + reach]));
 }
 
 #[test]
-fn boxes_in_space_stand_as_their_objects_do() {
+fn boxes_in_space_have_the_poses_of_their_objects() {
     let cuboid =
         object("f", "type = \"box\", size_m = [4, 2, 1]", "position_m = [9, 1, 0.5]\nrotation_deg = [30, 0, 0]");
-    let found = boxes(&plan(PINHOLE, &cuboid));
-    let solid = found[0].solid;
+    let object_boxes = boxes(&plan(PINHOLE, &cuboid));
+    let solid = object_boxes[0].solid;
     assert!((solid.size_m - DVec3::new(4.0, 2.0, 1.0)).length() < 1e-6);
     assert!((solid.world.centre_m - DVec3::new(9.0, 1.0, 0.5)).length() < 1e-6);
     let ahead = solid.world.rotation * DVec3::X;
@@ -157,15 +157,15 @@ fn boxes_in_space_stand_as_their_objects_do() {
 fn boxes_are_those_of_the_rows_times() {
     // 3 m/s to the right at 5 m: 36 px/s. Rows of 2 ms: the last starts 46 ms after the first, 1.7 px later.
     let moving = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::Y * -3.0));
-    let still = CameraPath::still(pose_of(&moving));
+    let still = CameraPath::constant(pose_of(&moving));
     let shutter = Shutter::Rolling(RowTiming { row_time_s: 2e-3, upwards: false, fields: 1 });
-    let found = boxes_by(&moving, &still, &shutter);
-    let amodal = found[0].amodal.expect("seen").edges_px();
+    let object_boxes = boxes_by(&moving, &still, &shutter);
+    let amodal = object_boxes[0].amodal.expect("seen").edges_px();
     // At 5 ms + 2 ms (y − 0.5), y = 0 for the upper and 24 for the lower corners.
     let shift = |y: f64| 36.0 * (5e-3 + 2e-3 * (y - 0.5));
     assert!(close(amodal, [4.0 + shift(0.0), 0.0, 28.0 + shift(24.0), 24.0]), "{amodal:?}");
     let middle_s = 0.5 * (0.01 + 23.0 * 2e-3);
-    assert!((found[0].solid.world.centre_m.y + 3.0 * middle_s).abs() < 1e-9);
+    assert!((object_boxes[0].solid.world.centre_m.y + 3.0 * middle_s).abs() < 1e-9);
     let driving = boxes_by(&plan(PINHOLE, BOARD), &path(pose_of(&moving), &shifting(DVec3::Y * 3.0)), &shutter);
     assert!(
         close(driving[0].amodal.expect("seen").edges_px(), amodal),
@@ -177,11 +177,11 @@ fn boxes_are_those_of_the_rows_times() {
 fn a_windscreen_shifts_boxes_and_a_mirror_has_those_of_pixels() {
     let windscreen = "distance_mm = 100, tilt_deg = 60, radius_across_mm = 3000, radius_upright_mm = 8000";
     let camera = format!("lens = {{ {PINHOLE} }}\nexternal_optics = {{ windscreen = {{ {windscreen} }} }}\n");
-    let found = boxes(&plan_of(&camera, 100.0, BOARD));
-    let (amodal, visible) = (found[0].amodal.expect("seen"), found[0].visible.expect("seen"));
+    let object_boxes = boxes(&plan_of(&camera, 100.0, BOARD));
+    let (amodal, visible) = (object_boxes[0].amodal.expect("seen"), object_boxes[0].visible.expect("seen"));
     // Pixels are whole: their box differs from that of the corners by less than a pixel on every side.
     let differences = amodal.edges_px().into_iter().zip(visible.edges_px()).map(|(a, b)| (a - b).abs());
-    assert!(differences.fold(0.0, f64::max) < 1.0 && !found[0].is_cut, "{amodal:?} {visible:?}");
+    assert!(differences.fold(0.0, f64::max) < 1.0 && !object_boxes[0].is_cut, "{amodal:?} {visible:?}");
 }
 
 #[test]
@@ -197,5 +197,5 @@ fn the_world_has_objects_that_no_camera_sees_with_their_velocities() {
     assert!((behind.size_m - DVec3::new(4.0, 2.0, 1.0)).length() < 1e-6);
     assert!((behind.velocity_m_s - DVec3::new(3.0, -4.0, 0.0)).length() < 1e-9, "{behind:?}");
     let place = DVec3::new(-9.0, 1.0, 0.5) + time_s * DVec3::new(3.0, -4.0, 0.0);
-    assert!((behind.stance.centre_m - place).length() < 1e-6, "{behind:?}");
+    assert!((behind.pose.centre_m - place).length() < 1e-6, "{behind:?}");
 }

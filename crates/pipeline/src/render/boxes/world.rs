@@ -1,6 +1,6 @@
 //! All objects of the world at a time, visible to a camera or not.
 
-use super::{SolidBox, Stance};
+use super::{SolidBox, BoxPose};
 use crate::plan::Plan;
 use etendue_tracer::geometry::Instance;
 use glam::DVec3;
@@ -17,7 +17,7 @@ pub struct WorldObject {
     /// Lengths of its box along its own axes x, y, z, m.
     pub size_m: DVec3,
     /// Pose of its box in the world.
-    pub stance: Stance,
+    pub pose: BoxPose,
     /// Velocity of the box's centre in the world, m/s, by the object's motion, without deformation of a mesh.
     pub velocity_m_s: DVec3,
     /// True if it moves at any time.
@@ -35,15 +35,15 @@ pub fn world_objects(plan: &Plan, time_s: f64) -> Vec<WorldObject> {
 
 fn object(plan: &Plan, instance: &Instance, time_s: f64) -> Option<WorldObject> {
     let identity = plan.identity(instance.instance_id)?;
-    let (size_m, stance) = SolidBox::in_world(plan, instance, time_s);
-    let centre = instance.to_world.at(time_s).inverse().transform_point3(stance.centre_m);
+    let (size_m, pose) = SolidBox::in_world(plan, instance, time_s);
+    let centre = instance.to_world.at(time_s).inverse().transform_point3(pose.centre_m);
     Some(WorldObject {
         id: instance.instance_id,
         name: identity.name.clone(),
         class: identity.class.clone(),
         size_m,
-        stance,
+        pose: stance: pose,
         velocity_m_s: instance.to_world.velocity_at(time_s, centre),
-        moves: instance.to_world.as_still().is_none(),
+        moves: instance.to_world.as_constant().is_none(),
     })
 }

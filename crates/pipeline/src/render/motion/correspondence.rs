@@ -4,7 +4,7 @@
 //! ([`FrameView::middle_at_s`]). The iteration y ← image of p(t(y)) reduces errors by |image velocity| × row time, far below 1 for everything that does not
 //! outrun the shutter; what does has no single image.
 
-use super::image_point::{Target, image_point, unbent};
+use super::image_point::{ImageTarget, image_point, without_external_optics};
 use super::surface_path::{HALF_STEP_S, OwnPoint, SurfacePath};
 use crate::render::frame_view::FrameView;
 use etendue_core::{CameraPose, Motion};
@@ -12,7 +12,7 @@ use glam::DVec2;
 
 /// View of a pixel: its image position, and whether its ray is off the pupil's centre.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sight {
+pub(crate) struct PixelView {
     /// Image position, px.
     pub at_px: DVec2,
     /// Second value of `CameraBody::truth_ray`.
@@ -29,26 +29,26 @@ pub(crate) struct Correspondence {
     /// Pose of the camera at that time.
     pub pose: CameraPose,
     /// The point in the camera's frame at that time.
-    pub target: Target,
+    pub target: ImageTarget,
 }
 
 const MAX_STEPS: usize = 64;
 /// Step (px) below which the iteration has converged.
-const CLOSE_PX: f64 = 1e-9;
+const CONVERGED_PX: f64 = 1e-9;
 
 /// Image, in a frame, of the point that is seen from `sight` in another; `None` if it has no image there.
-pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, sight: Sight) -> Option<Correspondence> {
-    let row = sight.at_px.y.max(0.0) as usize;
-    let mut at_px = sight.at_px;
+pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, pixel_view: PixelView) -> Option<Correspondence> {
+    let row = pixel_view.at_px.y.max(0.0) as usize;
+    let mut at_px = pixel_view.at_px;
     for _ in 0..MAX_STEPS {
         let time_s = frame.middle_at_s(at_px.y, row);
         let pose = frame.pose_at(time_s);
-        let target = surface.seen_from(&pose, time_s);
-        let image_px = image_point(frame.body(), target, at_px, sight.off_centre)?;
+        let target = surface.target_from(&pose, time_s);
+        let image_px = image_point(frame.body(), target, at_px, pixel_view.off_centre)?;
         let step_px = (image_px.y - at_px.y).abs();
         at_px = image_px;
         let same_time = frame.middle_at_s(at_px.y, row) == time_s;
-        if step_px < CLOSE_PX || same_time {
+        if step_px < CONVERGED_PX || same_time {
             return Some(Correspondence { at_px, time_s, pose, target });
         }
     }
@@ -59,12 +59,12 @@ pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, s
 pub(crate) fn image_velocity(
     frame: &FrameView<'_>,
     surface: &SurfacePath<'_>,
-    sight: Sight,
+    pixel_view: PixelView,
     time_s: f64,
 ) -> Option<DVec2> {
     let image = |time_s: f64| {
-        let target = surface.seen_from(&frame.pose_at(time_s), time_s);
-        image_point(frame.body(), target, sight.at_px, sight.off_centre)
+        let target = surface.target_from(&frame.pose_at(time_s), time_s);
+        image_point(frame.body(), target, pixel_view.at_px, pixel_view.off_centre)
     };
     Some((image(time_s + HALF_STEP_S)? - image(time_s - HALF_STEP_S)?) / (2.0 * HALF_STEP_S))
 }
@@ -74,6 +74,6 @@ pub(crate) fn image_velocity(
 pub(crate) fn image_of(frame: &FrameView<'_>, own: OwnPoint<'_>, to_world: &Motion) -> Option<DVec2> {
     let surface = SurfacePath::Point { own, to_world };
     let middle_s = frame.interval().middle_s();
-    let at_px = unbent(frame.body(), surface.seen_from(&frame.pose_at(middle_s), middle_s))?;
-    Some(correspondence(frame, &surface, Sight { at_px, off_centre: false })?.at_px)
+    let at_px = without_external_optics(frame.body(), surface.target_from(&frame.pose_at(middle_s), middle_s))?;
+    Some(correspondence(frame, &surface, PixelView { at_px, off_centre: false })?.at_px)
 }

@@ -14,14 +14,14 @@ use glam::{DMat2, DVec2, DVec3};
 
 /// Target of the search, in the camera's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Target {
+pub(crate) enum ImageTarget {
     /// A point, m.
     Point(DVec3),
     /// A direction: an infinitely distant point.
     Direction(DVec3),
 }
 
-impl Target {
+impl ImageTarget {
     /// Unit direction of the target from a point (m).
     pub(crate) fn direction_from(self, origin_m: DVec3) -> Option<DVec3> {
         match self {
@@ -33,31 +33,31 @@ impl Target {
 
 const MAX_STEPS: usize = 32;
 /// Step (px) below which the iteration has converged.
-const CLOSE_PX: f64 = 1e-9;
+const CONVERGED_PX: f64 = 1e-9;
 
 /// Image position of a target (raster, px), inside or outside the image; `None` if it has no image. `near_px` is its last known position, seen by a ray with
 /// the value `off_centre` of `CameraBody::truth_ray`.
-pub(crate) fn image_point(body: &CameraBody, target: Target, near_px: DVec2, off_centre: bool) -> Option<DVec2> {
+pub(crate) fn image_point(body: &CameraBody, target: ImageTarget, near_px: DVec2, off_centre: bool) -> Option<DVec2> {
     let bends = body.front.as_ref().is_some_and(|front| front.optic().is_some());
     if bends || off_centre || matches!(body.lens, Lens::Telecentric(_)) {
-        followed(body, target, near_px)
+        search_near(body, target, near_px)
     } else {
-        projected(body, target)
+        project(body, target)
     }
 }
 
 /// Image position (px) of a target with nothing before the lens; for a telecentric camera the centre of the image. `None` if it has no image, and with a
 /// mirror, before which the target is elsewhere.
-pub(super) fn unbent(body: &CameraBody, target: Target) -> Option<DVec2> {
+pub(super) fn without_external_optics(body: &CameraBody, target: ImageTarget) -> Option<DVec2> {
     let by_mirror = body.front.as_ref().is_some_and(|front| matches!(front.optic(), Some(Optic::Mirror(_))));
     match body.lens {
         _ if by_mirror => None,
         Lens::Telecentric(_) => Some(body.raster.principal_px()),
-        _ => projected(body, target),
+        _ => project(body, target),
     }
 }
 
-fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
+fn project(body: &CameraBody, target: ImageTarget) -> Option<DVec2> {
     let mut at_mm = body.lens.project(target.direction_from(DVec3::ZERO)?)?;
     if matches!(body.lens, Lens::Prescription(_) | Lens::RayTransfer(_)) {
         for _ in 0..MAX_STEPS {
@@ -65,7 +65,7 @@ fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
             let Some(ray) = body.lens.principal_ray(at_mm) else { break };
             let before_mm = at_mm;
             at_mm = body.lens.project(target.direction_from(ray.origin_m)?)?;
-            if (at_mm - before_mm).length() < CLOSE_PX * body.raster.pitch_mm().x {
+            if (at_mm - before_mm).length() < CONVERGED_PX * body.raster.pitch_mm().x {
                 break;
             }
         }
@@ -74,7 +74,7 @@ fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
 }
 
 /// Newton's method with differences over a hundredth of a pixel, starting at the last known position.
-fn followed(body: &CameraBody, target: Target, near_px: DVec2) -> Option<DVec2> {
+fn search_near(body: &CameraBody, target: ImageTarget, near_px: DVec2) -> Option<DVec2> {
     const DIFFERENCE_PX: f64 = 0.01;
     let axes = {
         let (ray, _) = body.truth_ray(near_px)?;
@@ -97,7 +97,7 @@ fn followed(body: &CameraBody, target: Target, near_px: DVec2) -> Option<DVec2> 
             return None;
         }
         at_px -= step.clamp_length_max(longest_px);
-        if step.length() < CLOSE_PX {
+        if step.length() < CONVERGED_PX {
             return Some(at_px);
         }
     }

@@ -23,8 +23,8 @@ pub use neighbour::{NeighbourTruth, Visibility};
 
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
-use crate::render::look_at::LookAt;
-use correspondence::{Sight, image_velocity};
+use crate::render::look_at::GroundTruthView;
+use correspondence::{PixelView, image_velocity};
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Time, Vector};
 use etendue_tracer::accel::Simd;
@@ -49,38 +49,38 @@ pub struct MotionTruth {
 }
 
 /// Hit of a pixel, and its images in other frames.
-struct Look {
+struct PixelMotion {
     motion_vector: [f32; 2],
     velocity: [f32; 3],
     time_s: f32,
-    neighbours: Vec<neighbour::Found>,
+    neighbours: Vec<neighbour::NeighbourResult>,
 }
 
 /// Returns the maximum memory per pixel, bytes, while its motion relative to `neighbours` frames is computed: its hit and the planes.
 pub(crate) fn bytes_of_pixel(neighbours: usize) -> f64 {
     // An allocation has an overhead of two words.
-    let look = size_of::<Look>() + neighbours * size_of::<neighbour::Found>() + 2 * size_of::<usize>();
+    let pixel_bytes = size_of::<PixelMotion>() + neighbours * size_of::<neighbour::NeighbourResult>() + 2 * size_of::<usize>();
     let planes = size_of::<[f32; 2]>() + size_of::<[f32; 3]>() + size_of::<f32>();
-    (look + planes + (neighbours + 1) * size_of::<neighbour::Found>()) as f64
+    (pixel_bytes + planes + (neighbours + 1) * size_of::<neighbour::NeighbourResult>()) as f64
 }
 
 /// Ground truth of motion of a frame relative to others of the same world. Runs on the caller's pool.
 #[must_use]
 pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
     let (width, height) = (frame.body().raster.width(), frame.body().raster.height());
-    let looks_at = LookAt::new(plan, frame, simd);
+    let looks_at = GroundTruthView::new(plan, frame, simd);
     let neighbours: Vec<Neighbour<'_>> = others.iter().map(|other| Neighbour::new(plan, other, simd)).collect();
-    let looks: Vec<Look> = (0..width * height)
+    let pixels: Vec<PixelMotion> = (0..width * height)
         .into_par_iter()
-        .map(|i| look(plan, &looks_at, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .map(|i| pixel_motion(plan, &looks_at, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     MotionTruth {
         neighbours: (0..others.len())
-            .map(|n| NeighbourTruth::of(width, &looks.iter().map(|look| look.neighbours[n]).collect::<Vec<_>>()))
+            .map(|n| NeighbourTruth::new(width, &pixels.iter().map(|pixel| pixel.neighbours[n]).collect::<Vec<_>>()))
             .collect(),
-        motion_vector: plane(&looks, width, |look| look.motion_vector),
-        velocity: plane(&looks, width, |look| look.velocity),
-        time: plane(&looks, width, |look| look.time_s),
+        motion_vector: plane(&pixels, width, |pixel| pixel.motion_vector),
+        velocity: plane(&pixels, width, |pixel| pixel.velocity),
+        time: plane(&pixels, width, |pixel| pixel.time_s),
     }
 }
 
@@ -94,30 +94,30 @@ pub fn disparity(
     simd: Simd,
 ) -> (Plane<Disparity>, Plane<Identity>) {
     let mut truth = motion_truth(plan, left, &[*right], simd);
-    let found = truth.neighbours.remove(0);
-    (found.flow.map(|[u, _]| -u), found.visibility)
+    let other = truth.neighbours.remove(0);
+    (other.flow.map(|[u, _]| -u), other.visibility)
 }
 
-fn look(plan: &Plan, looks_at: &LookAt<'_>, neighbours: &[Neighbour<'_>], at_px: DVec2) -> Look {
-    let nothing = || Look {
+fn pixel_motion(plan: &Plan, looks_at: &GroundTruthView<'_>, neighbours: &[Neighbour<'_>], at_px: DVec2) -> PixelMotion {
+    let nothing = || PixelMotion {
         motion_vector: [f32::NAN; 2],
         velocity: [f32::NAN; 3],
         time_s: looks_at.ray_time_s(at_px.y as usize),
-        neighbours: vec![neighbour::Found::default(); neighbours.len()],
+        neighbours: vec![neighbour::NeighbourResult::default(); neighbours.len()],
     };
     let Some(ray) = looks_at.ray(at_px) else { return nothing() };
     let (line, pose, time_s) = (&ray.front.ray, &ray.pose, ray.time_s);
-    let surface = match looks_at.meets(pose, line.origin_m, line.direction, ray.ray_time_s, None) {
+    let surface = match looks_at.first_hit(pose, line.origin_m, line.direction, ray.ray_time_s, None) {
         None => SurfacePath::Background(pose.direction_to_world(line.direction)),
-        Some(truth) => SurfacePath::of_point(plan, &truth, time_s),
+        Some(truth) => SurfacePath::from_hit(plan, &truth, time_s),
     };
-    let sight = Sight { at_px, off_centre: ray.off_centre };
-    let here = surface.seen_from(pose, time_s);
-    let image_velocity = image_velocity(&looks_at.frame, &surface, sight, time_s);
-    Look {
+    let pixel_view = PixelView { at_px, off_centre: ray.off_centre };
+    let here = surface.target_from(pose, time_s);
+    let image_velocity = image_velocity(&looks_at.frame, &surface, pixel_view, time_s);
+    PixelMotion {
         motion_vector: image_velocity.map_or([f32::NAN; 2], |v| v.as_vec2().to_array()),
         velocity: surface.velocity_m_s(time_s).map_or([f32::NAN; 3], |v| v.as_vec3().to_array()),
-        neighbours: neighbours.iter().map(|other| other.find(&surface, sight, here)).collect(),
+        neighbours: neighbours.iter().map(|other| other.find(&surface, pixel_view, here)).collect(),
         ..nothing()
     }
 }

@@ -1,11 +1,11 @@
 //! Position and visibility of a point in the other frame.
 
-use super::correspondence::{Correspondence, Sight, correspondence};
-use super::image_point::Target;
+use super::correspondence::{Correspondence, PixelView, correspondence};
+use super::image_point::ImageTarget;
 use super::surface_path::SurfacePath;
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
-use crate::render::look_at::LookAt;
+use crate::render::look_at::GroundTruthView;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, OpticalFlow, Quantity, Vector};
 use etendue_tracer::accel::Simd;
@@ -40,24 +40,24 @@ pub struct NeighbourTruth {
 }
 
 impl NeighbourTruth {
-    pub(super) fn of(width: usize, found: &[Found]) -> Self {
+    pub(super) fn new(width: usize, results: &[NeighbourResult]) -> Self {
         Self {
-            flow: plane(found, width, |found| found.flow),
-            visibility: plane(found, width, |found| found.visibility as u32),
-            scene_flow: plane(found, width, |found| found.scene_flow),
+            flow: plane(results, width, |result| result.flow),
+            visibility: plane(results, width, |result| result.visibility as u32),
+            scene_flow: plane(results, width, |result| result.scene_flow),
         }
     }
 }
 
 /// Result for one pixel's point in the other frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct NeighbourResult {
     flow: [f32; 2],
     visibility: Visibility,
     scene_flow: [f32; 3],
 }
 
-impl Default for Found {
+impl Default for NeighbourResult {
     fn default() -> Self {
         Self { flow: [f32::NAN; 2], visibility: Visibility::NotKnown, scene_flow: [f32::NAN; 3] }
     }
@@ -65,29 +65,29 @@ impl Default for Found {
 
 /// Minimum difference in distance, relative to the distance and over the cosine of incidence, by which a nearer surface occludes a point: rays are traced
 /// with 32-bit floats, which may hit the neighbouring triangle.
-const NEARER: f64 = 1e-6;
+const OCCLUSION_TOLERANCE: f64 = 1e-6;
 /// Lower limit of the cosine.
-const GRAZING: f64 = 1e-3;
+const MIN_COSINE: f64 = 1e-3;
 
 /// Another frame with its world.
-pub(super) struct Neighbour<'a>(LookAt<'a>);
+pub(super) struct Neighbour<'a>(GroundTruthView<'a>);
 
 impl<'a> Neighbour<'a> {
     pub(super) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
-        Self(LookAt::new(plan, frame, simd))
+        Self(GroundTruthView::new(plan, frame, simd))
     }
 
     /// Position and visibility, in the frame, of the point seen from `sight` as `here`.
-    pub(super) fn find(&self, surface: &SurfacePath<'_>, sight: Sight, here: Target) -> Found {
-        let Some(there) = correspondence(&self.0.frame, surface, sight) else {
-            return Found { visibility: Visibility::NoImage, ..Found::default() };
+    pub(super) fn find(&self, surface: &SurfacePath<'_>, pixel_view: PixelView, here: ImageTarget) -> NeighbourResult {
+        let Some(there) = correspondence(&self.0.frame, surface, pixel_view) else {
+            return NeighbourResult { visibility: Visibility::NoImage, ..NeighbourResult::default() };
         };
         let scene_flow = match (here, there.target) {
-            (Target::Point(from), Target::Point(to)) => (to - from).as_vec3().to_array(),
+            (ImageTarget::Point(from), ImageTarget::Point(to)) => (to - from).as_vec3().to_array(),
             _ => [f32::NAN; 3],
         };
-        let flow = (there.at_px - sight.at_px).as_vec2().to_array();
-        Found { flow, visibility: self.visibility(&there), scene_flow }
+        let flow = (there.at_px - pixel_view.at_px).as_vec2().to_array();
+        NeighbourResult { flow, visibility: self.visibility(&there), scene_flow }
     }
 
     fn visibility(&self, there: &Correspondence) -> Visibility {
@@ -100,14 +100,14 @@ impl<'a> Neighbour<'a> {
         let Some((front, _)) = frame.body().truth_ray(there.at_px) else { return Visibility::NoImage };
         let origin_m = front.ray.origin_m;
         let Some(ahead) = there.target.direction_from(origin_m) else { return Visibility::NoImage };
-        let hit = self.0.meets(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
+        let hit = self.0.first_hit(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
         let hidden = match (hit, there.target) {
             (None, _) => false,
-            (Some(_), Target::Direction(_)) => true,
-            (Some(hit), Target::Point(point_m)) => {
+            (Some(_), ImageTarget::Direction(_)) => true,
+            (Some(hit), ImageTarget::Point(point_m)) => {
                 let distance_m = (point_m - origin_m).length();
-                let cosine = hit.normal.dot(there.pose.direction_to_world(ahead)).abs().max(GRAZING);
-                hit.distance_m < distance_m * (1.0 - NEARER / cosine)
+                let cosine = hit.normal.dot(there.pose.direction_to_world(ahead)).abs().max(MIN_COSINE);
+                hit.distance_m < distance_m * (1.0 - OCCLUSION_TOLERANCE / cosine)
             }
         };
         if hidden { Visibility::Hidden } else { Visibility::Seen }

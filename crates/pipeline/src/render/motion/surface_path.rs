@@ -1,6 +1,6 @@
 //! Path of the surface point that a pixel sees, over time.
 
-use super::image_point::Target;
+use super::image_point::ImageTarget;
 use crate::plan::Plan;
 use etendue_core::{CameraPose, Motion};
 use etendue_tracer::geometry::{Mesh, Shape};
@@ -43,10 +43,10 @@ impl<'w> OwnPoint<'w> {
         let Some(mesh) = mesh.filter(|mesh| mesh.animation().is_some()) else { return Self::Fixed(place) };
         let (vertices, pose) = (mesh.triangles()[primitive as usize], mesh.at(time_s));
         let [a, b, c] = vertices.map(|vertex| pose.exact_position(vertex));
-        let (along, across, inside) = (b - a, c - a, place - a);
-        let normal = along.cross(across);
+        let (edge, across, inside) = (b - a, c - a, place - a);
+        let normal = edge.cross(across);
         let square = normal.length_squared();
-        let (u, v) = (normal.dot(inside.cross(across)) / square, normal.dot(along.cross(inside)) / square);
+        let (u, v) = (normal.dot(inside.cross(across)) / square, normal.dot(edge.cross(inside)) / square);
         Self::Between { mesh, vertices, weights: [1.0 - u - v, u, v] }
     }
 
@@ -69,7 +69,7 @@ pub(super) const HALF_STEP_S: f64 = 2e-5;
 
 impl<'w> SurfacePath<'w> {
     /// Path of the point that an instance shows at a position in the world (m) at a time.
-    pub(crate) fn of_point(plan: &'w Plan, truth: &Truth, time_s: f64) -> Self {
+    pub(crate) fn from_hit(plan: &'w Plan, truth: &Truth, time_s: f64) -> Self {
         let instance = &plan.world.instances()[truth.instance as usize];
         let mesh = match instance.shape {
             Shape::Mesh(id) => Some(plan.world.mesh(id)),
@@ -81,19 +81,19 @@ impl<'w> SurfacePath<'w> {
     }
 
     /// The target as seen by a camera at a time.
-    pub(crate) fn seen_from(&self, pose: &CameraPose, time_s: f64) -> Target {
+    pub(crate) fn target_from(&self, pose: &CameraPose, time_s: f64) -> ImageTarget {
         match self {
             Self::Point { own, to_world } => {
-                Target::Point(pose.point_to_camera(to_world.at(time_s).transform_point3(own.at(time_s))))
+                ImageTarget::Point(pose.point_to_camera(to_world.at(time_s).transform_point3(own.at(time_s))))
             }
-            Self::Background(direction) => Target::Direction(pose.rotation.transpose() * *direction),
+            Self::Background(direction) => ImageTarget::Direction(pose.rotation.transpose() * *direction),
         }
     }
 
     /// Velocity in the world at a time, m/s; `None` for the background. At a key, or a vertex frame, where the velocity jumps, the mean of both.
     pub(crate) fn velocity_m_s(&self, time_s: f64) -> Option<DVec3> {
         let Self::Point { own, to_world } = self else { return None };
-        if to_world.as_still().is_some() && matches!(own, OwnPoint::Fixed(_)) {
+        if to_world.as_constant().is_some() && matches!(own, OwnPoint::Fixed(_)) {
             return Some(DVec3::ZERO);
         }
         let at = |time_s: f64| to_world.at(time_s).transform_point3(own.at(time_s));

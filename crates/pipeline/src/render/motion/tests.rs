@@ -11,7 +11,7 @@ use etendue_core::{CameraPath, CameraPose, RowTiming, Shutter};
 use etendue_tracer::accel::Simd;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-const CLOSE_PX: f32 = 1e-5;
+const TOLERANCE_PX: f32 = 1e-5;
 
 /// Ground truth of the frame at 0 relative to those 0.1 s later and earlier.
 fn truth(plan: &Plan, path: &CameraPath, shutter: &Shutter) -> MotionTruth {
@@ -25,14 +25,14 @@ fn centres() -> impl Iterator<Item = DVec2> {
 }
 
 fn assert_flow(truth: &MotionTruth, neighbour: usize, expected: impl Fn(DVec2) -> DVec2) {
-    for (found, at_px) in truth.neighbours[neighbour].flow.samples().iter().zip(centres()) {
+    for (actual, at_px) in truth.neighbours[neighbour].flow.samples().iter().zip(centres()) {
         let expected = expected(at_px).as_vec2().to_array();
-        let close = (0..2).all(|i| (found[i] - expected[i]).abs() <= CLOSE_PX * (1.0 + 0.01 * expected[i].abs()));
-        assert!(close, "{at_px}: {found:?} for {expected:?}");
+        let close = (0..2).all(|i| (actual[i] - expected[i]).abs() <= TOLERANCE_PX * (1.0 + 0.01 * expected[i].abs()));
+        assert!(close, "{at_px}: {actual:?} for {expected:?}");
     }
 }
 
-fn counted(truth: &MotionTruth, neighbour: usize, visibility: Visibility) -> usize {
+fn count_visibility(truth: &MotionTruth, neighbour: usize, visibility: Visibility) -> usize {
     truth.neighbours[neighbour].visibility.samples().iter().filter(|v| **v == visibility as u32).count()
 }
 
@@ -45,15 +45,15 @@ fn a_camera_that_moves_along_a_wall_sees_it_pass_by_f_v_over_z() {
     let velocity = DVec2::new(3.0, 1.0) * FOCAL_PX / 10.0;
     assert_flow(&truth, 0, |_| velocity * 0.1);
     assert_flow(&truth, 1, |_| velocity * -0.1);
-    for (found, world) in truth.motion_vector.samples().iter().zip(truth.velocity.samples()) {
-        let close = (0..2).all(|i| (f64::from(found[i]) - velocity[i]).abs() < 1e-5);
-        assert!(close && *world == [0.0; 3], "{found:?} {world:?}");
+    for (actual, world) in truth.motion_vector.samples().iter().zip(truth.velocity.samples()) {
+        let close = (0..2).all(|i| (f64::from(actual[i]) - velocity[i]).abs() < 1e-5);
+        assert!(close && *world == [0.0; 3], "{actual:?} {world:?}");
     }
     let scene_flow = truth.neighbours[0].scene_flow.samples();
     assert!(scene_flow.iter().all(|v| (DVec3::from(v.map(f64::from)) - DVec3::new(0.3, 0.1, 0.0)).length() < 1e-6));
     // Displacements of 1.8 and 0.6 px leave two columns on the right and one row at the bottom outside.
-    assert_eq!(counted(&truth, 0, Visibility::Outside), 24 * 2 + 32 - 2);
-    assert_eq!(counted(&truth, 0, Visibility::Seen), 30 * 23);
+    assert_eq!(count_visibility(&truth, 0, Visibility::Outside), 24 * 2 + 32 - 2);
+    assert_eq!(count_visibility(&truth, 0, Visibility::Seen), 30 * 23);
     assert!(truth.time.samples().iter().all(|t| (*t - 0.005).abs() < 1e-9));
 }
 
@@ -76,11 +76,11 @@ fn a_camera_that_turns_sees_its_homography_and_the_background_as_well() {
         let rotation = |time_s: f64| DMat3::from_quat(turned(time_s)) * pose.rotation;
         let k = DMat3::from_cols(DVec3::X * FOCAL_PX, DVec3::Y * FOCAL_PX, DVec3::new(16.0, 12.0, 1.0));
         let homography = k * rotation(0.105).transpose() * rotation(0.005) * k.inverse();
-        let seen = |at: DVec2| {
+        let image_at = |at: DVec2| {
             let image = homography * at.extend(1.0);
             image.truncate() / image.z
         };
-        assert_flow(&truth(&plan, &path(pose, &motion), &Shutter::Global), 0, |at| seen(at) - at);
+        assert_flow(&truth(&plan, &path(pose, &motion), &Shutter::Global), 0, |at| image_at(at) - at);
     }
 }
 
@@ -92,8 +92,8 @@ fn a_fisheye_that_turns_about_an_axis_sees_its_own_projection_turn() {
     let motion = track(&[(-1.0, DVec3::ZERO, yaw(-1.0)), (1.0, DVec3::ZERO, yaw(1.0))]);
     let flow = truth(&plan, &path(pose_of(&plan), &motion), &Shutter::Global).neighbours.remove(0).flow;
     // On the middle row r = f θ: 0.05 rad to the right shift everything 0.6 px to the left, and the row remains straight.
-    let seen = |x: usize, y: usize| flow.at(x, y);
-    let above_and_below: Vec<[f32; 2]> = (4..28).flat_map(|x| [seen(x, 11), seen(x, 12)]).collect();
+    let flow_at = |x: usize, y: usize| flow.at(x, y);
+    let above_and_below: Vec<[f32; 2]> = (4..28).flat_map(|x| [flow_at(x, 11), flow_at(x, 12)]).collect();
     for pair in above_and_below.chunks(2) {
         assert!((pair[0][1] + pair[1][1]).abs() < 1e-5, "mirrored about the middle: {pair:?}");
     }
@@ -107,9 +107,9 @@ fn a_fisheye_that_turns_about_an_axis_sees_its_own_projection_turn() {
         d.truncate().normalize() * (12.0 * angle) + DVec2::new(16.0, 12.0)
     };
     let turn = DMat3::from_rotation_y(-0.05);
-    for (found, at) in flow.samples().iter().zip(centres()) {
+    for (actual, at) in flow.samples().iter().zip(centres()) {
         let expected = (back(turn * direction(at)) - at).as_vec2().to_array();
-        assert!((0..2).all(|i| (found[i] - expected[i]).abs() < CLOSE_PX), "{at}: {found:?} for {expected:?}");
+        assert!((0..2).all(|i| (actual[i] - expected[i]).abs() < TOLERANCE_PX), "{at}: {actual:?} for {expected:?}");
     }
 }
 
@@ -145,8 +145,8 @@ fn rows_between_those_that_are_read_take_no_time() {
     let expected = (velocity * (0.1 / (1.0 - velocity.y * 1e-3 / 3.0))).as_vec2().to_array();
     for (x, y) in (0..32 * 8).map(|i| (i % 32, 3 * (i / 32))) {
         assert!((f64::from(truth.time.at(x, y)) - 0.005 - 1e-3 * (y / 3) as f64).abs() < 1e-8);
-        let found = truth.neighbours[0].flow.at(x, y);
-        assert!((0..2).all(|i| (found[i] - expected[i]).abs() < CLOSE_PX), "{x} {y}: {found:?} for {expected:?}");
+        let actual = truth.neighbours[0].flow.at(x, y);
+        assert!((0..2).all(|i| (actual[i] - expected[i]).abs() < TOLERANCE_PX), "{x} {y}: {actual:?} for {expected:?}");
     }
 }
 
@@ -162,17 +162,17 @@ fn interlaced_rows_follow_their_own_field() {
 
 #[test]
 fn what_moves_and_turns_is_followed_in_its_own_frame() {
-    let still = CameraPath::still(pose_of(&plan(PINHOLE, "")));
-    let moved = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::new(0.0, -4.0, 0.0)));
-    let found = truth(&moved, &still, &Shutter::Global);
+    let still = CameraPath::constant(pose_of(&plan(PINHOLE, "")));
+    let translated = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::new(0.0, -4.0, 0.0)));
+    let motion = truth(&translated, &still, &Shutter::Global);
     for (i, at) in centres().enumerate() {
         // At 5 ms the board has moved by 2 cm to the right; it is 24 px wide.
         let is_board = (at - DVec2::new(16.24, 12.0)).abs().max_element() < 12.0;
-        let [flow, vector] = [found.neighbours[0].flow.samples()[i], found.motion_vector.samples()[i]];
+        let [flow, vector] = [motion.neighbours[0].flow.samples()[i], motion.motion_vector.samples()[i]];
         let (u, v) = if is_board { (4.8, 48.0) } else { (0.0, 0.0) };
-        assert!((flow[0] - u).abs() < CLOSE_PX && flow[1].abs() < CLOSE_PX, "{at}: {flow:?}");
+        assert!((flow[0] - u).abs() < TOLERANCE_PX && flow[1].abs() < TOLERANCE_PX, "{at}: {flow:?}");
         assert!((vector[0] - v).abs() < 1e-3 && vector[1].abs() < 1e-3, "{at}: {vector:?}");
-        let velocity = found.velocity.samples()[i];
+        let velocity = motion.velocity.samples()[i];
         assert!(if is_board { (velocity[1] + 4.0).abs() < 1e-5 } else { velocity[1].is_nan() }, "{at}: {velocity:?}");
     }
     // Around the camera's axis: the wheel's own rotation.
@@ -181,9 +181,9 @@ fn what_moves_and_turns_is_followed_in_its_own_frame() {
     let spun = with_motion(plan(PINHOLE, WALL), 0, &spin);
     let centre = DVec2::new(16.0, 12.0);
     let turn = glam::DMat2::from_angle(0.1);
-    let found = truth(&spun, &still, &Shutter::Global);
-    assert_flow(&found, 0, |at| centre + turn * (at - centre) - at);
-    for (vector, at) in found.motion_vector.samples().iter().zip(centres()) {
+    let motion = truth(&spun, &still, &Shutter::Global);
+    assert_flow(&motion, 0, |at| centre + turn * (at - centre) - at);
+    for (vector, at) in motion.motion_vector.samples().iter().zip(centres()) {
         let expected = (at - centre).perp();
         // Differences over 40 µs of a rotation: ω³ h²/6 of the radius, 5e-10, and rounding, 1e-12 px / 4e-5 s.
         assert!((0..2).all(|i| (f64::from(vector[i]) - expected[i]).abs() < 1e-4), "{at}: {vector:?} for {expected}");
@@ -192,10 +192,10 @@ fn what_moves_and_turns_is_followed_in_its_own_frame() {
 
 #[test]
 fn what_another_surface_comes_before_is_hidden() {
-    let still = CameraPath::still(pose_of(&plan(PINHOLE, "")));
+    let still = CameraPath::constant(pose_of(&plan(PINHOLE, "")));
     let board = with_motion(plan(PINHOLE, &format!("{WALL}{BOARD}")), 1, &shifting(DVec3::new(0.0, -4.0, 0.0)));
-    let found = truth(&board, &still, &Shutter::Global);
-    let [forward, backward] = [0, 1].map(|n| found.neighbours[n].visibility.samples());
+    let motion = truth(&board, &still, &Shutter::Global);
+    let [forward, backward] = [0, 1].map(|n| motion.neighbours[n].visibility.samples());
     for (i, at) in centres().enumerate() {
         let on_board = |shift_px: f64| (at - DVec2::new(16.24 + shift_px, 12.0)).abs().max_element() < 12.0;
         let expected = |shift_px: f64| {
@@ -209,20 +209,20 @@ fn what_another_surface_comes_before_is_hidden() {
         assert_eq!((forward[i], backward[i]), (expected(4.8) as u32, expected(-4.8) as u32), "{at}");
     }
     // 4.8 px of 24 rows each, and the background behind the board as well.
-    assert!(counted(&found, 0, Visibility::Hidden) >= 4 * 24);
+    assert!(count_visibility(&motion, 0, Visibility::Hidden) >= 4 * 24);
     let alone = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::new(0.0, -4.0, 0.0)));
     let alone = truth(&alone, &still, &Shutter::Global);
-    assert_eq!(counted(&alone, 0, Visibility::Hidden), counted(&found, 0, Visibility::Hidden));
+    assert_eq!(count_visibility(&alone, 0, Visibility::Hidden), count_visibility(&motion, 0, Visibility::Hidden));
 }
 
 #[test]
 fn what_is_behind_the_camera_later_has_no_image() {
     let plan = plan(PINHOLE, BOARD);
     let path = path(pose_of(&plan), &shifting(DVec3::new(60.0, 0.0, 0.0)));
-    let found = truth(&plan, &path, &Shutter::Global);
-    let board = found.velocity.samples().iter().filter(|v| !v[0].is_nan()).count();
-    assert_eq!(counted(&found, 0, Visibility::NoImage), board);
-    let none = found.neighbours[0].flow.samples().iter().filter(|v| v[0].is_nan()).count();
+    let motion = truth(&plan, &path, &Shutter::Global);
+    let board = motion.velocity.samples().iter().filter(|v| !v[0].is_nan()).count();
+    assert_eq!(count_visibility(&motion, 0, Visibility::NoImage), board);
+    let none = motion.neighbours[0].flow.samples().iter().filter(|v| v[0].is_nan()).count();
     assert!(none == board && board > 24 * 24, "{none} {board}");
 }
 
@@ -254,15 +254,15 @@ const BEHIND: &str = "[[scene.objects]]\nname = \"behind\"\nmaterial = \"grey\"\
 fn nothing_moves_where_nothing_moves_whatever_the_lens() {
     for (camera, pitch_um) in cameras() {
         let plan = plan_of(&camera, pitch_um, &format!("{WALL}{BOARD}{BEHIND}"));
-        let found = truth(&plan, &CameraPath::still(pose_of(&plan)), &Shutter::Global);
-        for (flow, seen) in found.neighbours[0].flow.samples().iter().zip(found.neighbours[0].visibility.samples()) {
-            let is_still = flow.iter().all(|v| v.abs() < CLOSE_PX) && *seen == Visibility::Seen as u32;
+        let motion = truth(&plan, &CameraPath::constant(pose_of(&plan)), &Shutter::Global);
+        for (flow, visibility) in motion.neighbours[0].flow.samples().iter().zip(motion.neighbours[0].visibility.samples()) {
+            let is_still = flow.iter().all(|v| v.abs() < TOLERANCE_PX) && *visibility == Visibility::Seen as u32;
             assert!(
-                is_still || (flow[0].is_nan() && *seen == Visibility::NotKnown as u32),
-                "{camera}: {flow:?} {seen}"
+                is_still || (flow[0].is_nan() && *visibility == Visibility::NotKnown as u32),
+                "{camera}: {flow:?} {visibility}"
             );
         }
-        assert!(counted(&found, 0, Visibility::Seen) > 300, "{camera}");
+        assert!(count_visibility(&motion, 0, Visibility::Seen) > 300, "{camera}");
     }
 }
 
@@ -272,7 +272,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
         let plan = plan_of(&camera, pitch_um, &format!("{WALL}{BEHIND}"));
         let (body, pose) = (&plan.cameras[0].body, pose_of(&plan));
         let path = path(pose, &shifting(DVec3::new(1.0, 2.0, -1.0)));
-        let found = truth(&plan, &path, &Shutter::Global);
+        let motion = truth(&plan, &path, &Shutter::Global);
         // Intersection of a pixel's ray at a time with one of the walls, in the closed form of planes.
         let meets = |at_px: DVec2, time_s: f64| {
             let (front, _) = body.truth_ray(at_px)?;
@@ -282,7 +282,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
             Some(origin_m + direction * ((10.0_f64.copysign(direction.x) - origin_m.x) / direction.x))
         };
         let mut checked = 0;
-        for (flow, at_px) in found.neighbours[0].flow.samples().iter().zip(centres()) {
+        for (flow, at_px) in motion.neighbours[0].flow.samples().iter().zip(centres()) {
             let there_px = at_px + DVec2::new(f64::from(flow[0]), f64::from(flow[1]));
             let Some((here, there)) = meets(at_px, 0.005).zip(meets(there_px, 0.105)) else { continue };
             // Outside the walls, or beyond the mirror's edge, where an image ends.
@@ -290,7 +290,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
                 continue;
             }
             // 1e-6 px of rounded flow, at the distance of the pixel's point.
-            let pixel_m = meets(at_px + DVec2::X, 0.005).map_or(f64::INFINITY, |beside| (beside - here).length());
+            let pixel_m = meets(at_px + DVec2::X, 0.005).map_or(f64::INFINITY, |neighbour_m| (neighbour_m - here).length());
             assert!((here - there).length() < 1e-6 + 1e-5 * pixel_m, "{camera} {at_px}: {here} {there}");
             checked += 1;
         }
@@ -310,14 +310,14 @@ fn a_telecentric_camera_sees_shifts_and_no_distance() {
 fn disparity_is_base_times_focal_length_over_depth() {
     let plan = plan(PINHOLE, &format!("{WALL}{BOARD}"));
     let pose = pose_of(&plan);
-    let at = |y_m: f64| CameraPath::still(CameraPose { position_m: DVec3::Y * y_m, ..pose });
+    let at = |y_m: f64| CameraPath::constant(CameraPose { position_m: DVec3::Y * y_m, ..pose });
     let [left, right] = [0.0, -0.25].map(|y_m| camera(&plan, &at(y_m), &Shutter::Global));
     let [left, right] = [&left, &right].map(|camera| FrameView { camera, frame: 0 });
-    let (found, seen) = disparity(&plan, &left, &right, Simd::Auto);
+    let (actual, visibility) = disparity(&plan, &left, &right, Simd::Auto);
     for (i, at) in centres().enumerate() {
         let is_board = (at - DVec2::new(16.0, 12.0)).abs().max_element() < 12.0;
         let expected = 0.25 * FOCAL_PX / if is_board { 5.0 } else { 10.0 };
-        assert!((f64::from(found.samples()[i]) - expected).abs() < 1e-6, "{at}");
+        assert!((f64::from(actual.samples()[i]) - expected).abs() < 1e-6, "{at}");
     }
-    assert!(seen.samples().contains(&(Visibility::Hidden as u32)));
+    assert!(visibility.samples().contains(&(Visibility::Hidden as u32)));
 }

@@ -10,7 +10,7 @@
 //! adaptive, there are 64): light minus airlight is, except for noise, the light from surfaces. They have the raster of the film, without the effects behind
 //! the lens. Surfaces with opacity are present as in ground truth: where it is at least one half.
 
-use crate::plan::{CameraPlan, PassAt, Plan, Settings};
+use crate::plan::{CameraPlan, NumberedPass, Plan, Settings};
 use crate::render::camera_light::{SourceJob, lights, path_settings, region_and_change_over, render_job, with_source};
 use crate::render::exposure::FilmExposure;
 use crate::render::film::Film;
@@ -18,8 +18,8 @@ use crate::render::light::{RaySource, RenderJob, Sampling};
 use crate::render::near_precipitation::near;
 use crate::render::observer::Unobserved;
 use crate::render::truth::is_there;
-use crate::render::{Request, Shot};
-use crate::sizes::film::Layout;
+use crate::render::{LightRequest, FrameCapture};
+use crate::sizes::film::FilmLayout;
 use etendue_core::quantity::{Cover, Quantity, Radiance, Transmittance};
 use etendue_core::{Bands, FieldRay, Plane, RadianceField, Spectral, SpectralCube, Wavelengths};
 use etendue_optics::PRINCIPAL_NM;
@@ -43,14 +43,14 @@ pub struct WeatherLayers {
 
 /// Layers of a camera's image; takes slightly longer than its light. Runs on the caller's pool.
 #[must_use]
-pub fn weather_layers(plan: &Plan, camera: &CameraPlan, shot: Shot, simd: Simd) -> WeatherLayers {
-    with_source(camera, shot, LayersJob { plan, camera, request: Request { shot, simd, ..Request::default() } })
+pub fn weather_layers(plan: &Plan, camera: &CameraPlan, frame_capture: FrameCapture, simd: Simd) -> WeatherLayers {
+    with_source(camera, frame_capture, LayersJob { plan, camera, request: LightRequest { frame_capture: shot: frame_capture, simd, ..LightRequest::default() } })
 }
 
 struct LayersJob<'a> {
     plan: &'a Plan,
     camera: &'a CameraPlan,
-    request: Request,
+    request: LightRequest,
 }
 
 impl SourceJob for LayersJob<'_> {
@@ -58,42 +58,42 @@ impl SourceJob for LayersJob<'_> {
 
     fn run(self, source: &dyn RaySource) -> WeatherLayers {
         let Self { plan, camera, request } = self;
-        let rows = FilmExposure::of(camera, request.shot);
+        let rows = FilmExposure::new(camera, request.frame_capture);
         let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
         let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
         let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
             near(precipitation, &media, &rows, request.simd, &region, &change_over)
         });
-        let share =
-            |of| Shares { view: &view, material_table: &plan.material_table, media: &media, near: near.as_ref(), of };
-        let even = Layout { bands: Some(whole(camera)), folded: false, watched: false };
+        let field_of =
+            |of| FractionField { view: &view, material_table: &plan.material_table, media: &media, near: near.as_ref(), fraction: of };
+        let uniform = FilmLayout { bands: Some(single_band(camera)), accumulates_electrons: false, watched: false };
         let job = |layout| {
             let job = render_job(camera, rows.clone(), request, source, None);
             RenderJob {
                 layout,
                 tolerance: None,
-                sampling: Sampling { pass: PassAt::only(spp(camera)), ..job.sampling },
+                sampling: Sampling { pass: NumberedPass::only(spp(camera)), ..job.sampling },
                 ..job
             }
         };
-        let shares = |of| {
-            let film = job(even).gather::<1>(&share(of), None, &Unobserved).expect("nobody cancels");
+        let fractions_of = |of| {
+            let film = job(uniform).gather::<1>(&field_of(of), None, &Unobserved).expect("nobody cancels");
             radiance(&film).planes()[0].samples().to_vec()
         };
         let lights = lights(plan, camera, &view);
-        let settings = PathSettings { only_airlight: true, ..path_settings(camera, PassAt::only(camera.settings.spp)) };
+        let settings = PathSettings { only_airlight: true, ..path_settings(camera, NumberedPass::only(camera.settings.spp)) };
         let tracer =
             PathTracer::new(&view, &plan.material_table, &lights, settings).with_media(&media).with_near(near.as_ref());
-        let bands = camera.settings.bands.unwrap_or_else(|| whole(camera));
-        let job = job(Layout { bands: Some(bands), folded: false, watched: false });
+        let bands = camera.settings.bands.unwrap_or_else(|| single_band(camera));
+        let job = job(FilmLayout { bands: Some(bands), accumulates_electrons: false, watched: false });
         let airlight = match camera.settings.wavelengths {
             1 => job.gather::<1>(&tracer, None, &Unobserved),
             8 => job.gather::<8>(&tracer, None, &Unobserved),
             _ => job.gather::<4>(&tracer, None, &Unobserved),
         };
         WeatherLayers {
-            transmittance: plane(camera, shares(Share::Transmittance)),
-            cover: near.is_some().then(|| plane(camera, shares(Share::Cover))),
+            transmittance: plane(camera, fractions_of(WeatherFraction::Transmittance)),
+            cover: near.is_some().then(|| plane(camera, fractions_of(WeatherFraction::Cover))),
             airlight: radiance(&airlight.expect("nobody cancels")),
         }
     }
@@ -106,7 +106,7 @@ pub(crate) fn spp(camera: &CameraPlan) -> u32 {
 }
 
 /// The wavelength range of a camera's light as a single band.
-fn whole(camera: &CameraPlan) -> Bands {
+fn single_band(camera: &CameraPlan) -> Bands {
     let range = camera.settings.range;
     Bands::new(range.low_nm, range.width_nm(), 1).expect("a compiled plan has a range")
 }
@@ -122,37 +122,37 @@ fn plane<Q: Quantity<Sample = f32>>(camera: &CameraPlan, samples: Vec<f32>) -> P
 
 /// Fraction to evaluate.
 #[derive(Clone, Copy)]
-enum Share {
+enum WeatherFraction {
     Transmittance,
     Cover,
 }
 
 /// Fractions in place of radiance, so that they are averaged in the same way.
-struct Shares<'a> {
+struct FractionField<'a> {
     view: &'a RenderSpace<'a>,
     material_table: &'a MaterialTable,
     media: &'a Media<'a>,
     near: Option<&'a NearParticles<'a>>,
-    of: Share,
+    fraction: WeatherFraction,
 }
 
-impl RadianceField<1> for Shares<'_> {
-    fn radiance(&self, asked: &FieldRay, _wavelengths: &Wavelengths<1>) -> Spectral<1> {
-        let mut ray = asked.ray;
+impl RadianceField<1> for FractionField<'_> {
+    fn radiance(&self, field_ray: &FieldRay, _wavelengths: &Wavelengths<1>) -> Spectral<1> {
+        let mut ray = field_ray.ray;
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-        let met =
+        let hit =
             self.view.truth(origin, direction, ray.time_s, |point| is_there(self.view, self.material_table, point));
-        ray.t_max = met.map_or(f32::INFINITY, |truth| truth.distance_m as f32);
+        ray.t_max = hit.map_or(f32::INFINITY, |truth| truth.distance_m as f32);
         let near = self.near.filter(|near| near.looks_along(ray.direction));
-        match self.of {
-            Share::Cover => {
-                let is_met = near.is_some_and(|near| near.closest(&ray, ray.t_max).is_some());
-                Spectral::splat(if is_met { 1.0 } else { 0.0 })
+        match self.fraction {
+            WeatherFraction::Cover => {
+                let is_hit = near.is_some_and(|near| near.closest(&ray, ray.t_max).is_some());
+                Spectral::splat(if is_hit { 1.0 } else { 0.0 })
             }
-            Share::Transmittance => {
+            WeatherFraction::Transmittance => {
                 let media = near.map_or(self.media, NearParticles::media);
                 let at = Wavelengths { nm: [PRINCIPAL_NM as f32], pdf: [1.0] };
-                let random = RandomCounter { stream: &asked.stream, counter: 0 };
+                let random = RandomCounter { stream: &field_ray.stream, counter: 0 };
                 media.transmittance(MediaRay { ray: &ray, peak: ForwardPeak::Exact }, random, &at)
             }
         }

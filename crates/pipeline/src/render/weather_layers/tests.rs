@@ -1,8 +1,8 @@
 //! Layers of weather compared with closed forms, and with weather over stored radiance.
 
 use super::*;
-use crate::camera::stored::Stored;
-use crate::plan::{Airlight, Falling, Route, Weather};
+use crate::camera::stored::StoredRadianceImage;
+use crate::plan::{Airlight, PrecipitationExposure, Route, Weather};
 use crate::{Choices, compile};
 use etendue_core::TimeInterval;
 use etendue_core::maths::f64::exp;
@@ -35,7 +35,7 @@ fn plan(weather: &str, render: &str) -> Plan {
 }
 
 fn layers(plan: &Plan) -> WeatherLayers {
-    weather_layers(plan, &plan.cameras[0], Shot::default(), Simd::Auto)
+    weather_layers(plan, &plan.cameras[0], FrameCapture::default(), Simd::Auto)
 }
 
 /// 1 over the cosine of a pixel's direction to the axis.
@@ -46,8 +46,8 @@ fn slant(i: usize) -> f64 {
 
 /// The mean of a pixel's 16 samples differs from the value at its centre: tolerance 1e-3.
 fn agree(plane: &Plane<Transmittance>, expected: impl Fn(usize) -> f64) {
-    for (i, share) in plane.samples().iter().enumerate() {
-        assert!((f64::from(*share) - expected(i)).abs() < 1e-3, "{i}: {share} {}", expected(i));
+    for (i, fraction) in plane.samples().iter().enumerate() {
+        assert!((f64::from(*fraction) - expected(i)).abs() < 1e-3, "{i}: {fraction} {}", expected(i));
     }
 }
 
@@ -83,8 +83,8 @@ fn transmittance_of_uneven_fog_is_right_in_the_mean() {
     };
     let count = SIZE[0] * SIZE[1];
     let mean = (0..count).map(expected).sum::<f64>() / count as f64;
-    let found = layers(&plan).transmittance.samples().iter().map(|share| f64::from(*share)).sum::<f64>() / count as f64;
-    assert!((found - mean).abs() < 4e-3, "{found} {mean}");
+    let actual = layers(&plan).transmittance.samples().iter().map(|fraction| f64::from(*fraction)).sum::<f64>() / count as f64;
+    assert!((actual - mean).abs() < 4e-3, "{actual} {mean}");
     assert!((mean - exp(-0.5)).abs() > 1e-3, "uneven: {mean}");
 }
 
@@ -104,25 +104,25 @@ fn both_forms_of_rain_cover_the_same_pixels() {
     };
     let distance = Plane::<Length>::from_samples(width, height, (0..width * height).map(distance).collect());
     let radiance = SpectralCube::new(width, height, Bands::new(500.0, 100.0, 1).expect("a band"));
-    let stored = Stored { projection, radiance: &radiance, distance: distance.as_ref() };
+    let stored = StoredRadianceImage { projection, radiance: &radiance, distance: distance.as_ref() };
     let precipitation = plan.precipitation.clone().expect("rain");
     let weather = Weather {
         airlight: Airlight::Uniform(Spectrum::constant(1.0)),
         media: plan.media.clone(),
-        falling: Some(Falling { precipitation, exposure_s: 0.001 }),
+        falling: Some(PrecipitationExposure { precipitation, exposure_s: 0.001 }),
     };
     let start = TimeInterval::at(camera.timing.frame_start_s(0)).expect("finite");
-    let drawn = weather.over(&stored, &camera.path.at(0.0), start).expect("distances").cover.expect("rain falls");
+    let rendered_drops = weather.apply(&stored, &camera.path.at(0.0), start).expect("distances").cover.expect("rain falls");
     let of = |plane: &Plane<Cover>, [x, y]: [usize; 2]| f64::from(plane.at(x, y));
     let mean =
         |plane: &Plane<Cover>| plane.samples().iter().map(|c| f64::from(*c)).sum::<f64>() / (width * height) as f64;
-    let means = [mean(&traced), mean(&drawn)];
+    let means = [mean(&traced), mean(&rendered_drops)];
     assert!((means[0] / means[1] - 1.0).abs() < 0.05 && means[0] > 1e-3, "{means:?}");
     let like = |dx: usize, dy: usize| {
         let (mut both, mut a2, mut b2) = (0.0, 0.0, 0.0);
         for at in (2..height - 2).flat_map(|y| (2..width - 2).map(move |x| [x, y])) {
             let a = of(&traced, [at[0] + dx - 2, at[1] + dy - 2]) - means[0];
-            let b = of(&drawn, at) - means[1];
+            let b = of(&rendered_drops, at) - means[1];
             (both, a2, b2) = (both + a * b, a2 + a * a, b2 + b * b);
         }
         both / (a2 * b2).sqrt()

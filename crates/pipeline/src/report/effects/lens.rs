@@ -1,23 +1,23 @@
 //! Effects from the scene to the sensor plane.
 
 use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
-use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
+use super::planned_effect::{EffectGroup, PlannedEffect, camera_change, required_if, without};
 use crate::plan::{CameraPlan, Plan, Route};
 use crate::report::FrameCost;
 use crate::report::cpu_time::path_cpu_s;
 use etendue_core::EffectStatus;
-use etendue_optics::effects::{Effect, SpreadBy};
+use etendue_optics::effects::{Effect, SpreadMethod};
 use etendue_optics::front::{Front, Optic};
 use etendue_optics::{DepthOfField, Lens};
 
 const GROUP: EffectGroup = EffectGroup::Lens;
 
 pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
-    let cost = FrameCost::of(plan, camera);
+    let cost = FrameCost::new(plan, camera);
     let of_lens = vec![
         distortion(camera),
         vignetting(camera),
-        rims(camera),
+        clear_apertures(camera),
         defocus(camera),
         lateral_colour(camera),
         dispersion(camera),
@@ -34,7 +34,7 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
         Lens::Prescription(_) => EffectStatus::Modelled("rays are refracted at the lens surfaces".to_owned()),
         Lens::RayTransfer(_) => EffectStatus::Modelled("the ray transfer functions map each ray".to_owned()),
         Lens::Calibrated(_) => EffectStatus::Modelled("ray directions follow the calibrated projection".to_owned()),
-        _ => where_there(
+        _ => required_if(
             lens.distortion().is_some(),
             "each sample's position on the sensor is displaced before its ray is generated",
             "the lens has no distortion",
@@ -42,27 +42,27 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
     };
     let effect = PlannedEffect::new(GROUP, "distortion", status).described_by("lens.distortion");
     match distortion_px(&camera.body) {
-        Some(shift_px) => effect.dropped_by([without(camera, "lens.distortion")]).erring("shift up to", shift_px, "px"),
+        Some(shift_px) => effect.dropped_by([without(camera, "lens.distortion")]).with_error("shift up to", shift_px, "px"),
         None => effect,
     }
 }
 
 fn vignetting(camera: &CameraPlan) -> PlannedEffect {
-    let status = where_there(
+    let status = required_if(
         !matches!(camera.body.lens, Lens::Telecentric(_)),
         "each ray is weighted by the solid angle of the pupil seen from its pixel",
         "all pixels of a telecentric camera see the pupil under the same solid angle",
     );
     let effect = PlannedEffect::new(GROUP, "vignetting", status).described_by("lens.type");
     match vignetting_percent(&camera.body) {
-        Some(percent) => effect.erring("corner not darkened by", percent, "%"),
+        Some(percent) => effect.with_error("corner not darkened by", percent, "%"),
         None => effect,
     }
 }
 
-fn rims(camera: &CameraPlan) -> PlannedEffect {
+fn clear_apertures(camera: &CameraPlan) -> PlannedEffect {
     let (name, key) = ("mechanical vignetting", "lens.front_aperture");
-    let rims = match &camera.body.lens {
+    let apertures = match &camera.body.lens {
         Lens::Prescription(_) => {
             let status = EffectStatus::Modelled("each surface's clear aperture stops rays".to_owned());
             return PlannedEffect::new(GROUP, name, status).described_by(key);
@@ -74,12 +74,12 @@ fn rims(camera: &CameraPlan) -> PlannedEffect {
         Lens::Thick(lens) => [lens.parameters().front_aperture.is_some(), lens.parameters().rear_aperture.is_some()],
         _ => [false, false],
     };
-    let status = where_there(
-        rims != [false, false],
+    let status = required_if(
+        apertures != [false, false],
         "clear apertures in front of and behind the pupil stop rays",
         "no clear aperture is described",
     );
-    let keys = ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(rims).filter(|(_, is_there)| *is_there);
+    let keys = ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(apertures).filter(|(_, is_there)| *is_there);
     let effect = PlannedEffect::new(GROUP, name, status).described_by(key);
     effect.dropped_by(keys.map(|(key, _)| without(camera, key)))
 }
@@ -93,15 +93,15 @@ fn defocus(camera: &CameraPlan) -> PlannedEffect {
         Route::Pupil(_) => ("the stored radiance is blurred in order of depth", "render.depth_of_field"),
     };
     let status =
-        where_there(is_modelled, text, if blurs { "depth_of_field = \"none\"" } else { "everything is in focus" });
+        required_if(is_modelled, text, if blurs { "depth_of_field = \"none\"" } else { "everything is in focus" });
     let set = match (&camera.settings.route, &body.lens) {
-        (Route::Pupil(_), _) => vec![of_camera(camera, "render.depth_of_field", "none")],
+        (Route::Pupil(_), _) => vec![camera_change(camera, "render.depth_of_field", "none")],
         (Route::Lens, Lens::Thin(_) | Lens::Thick(_)) => pinhole(camera),
         (Route::Lens, Lens::Calibrated(_)) => vec![without(camera, "lens.focus_distance_m")],
         (Route::Lens, _) => Vec::new(),
     };
     let effect = PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by(set);
-    effect.erring("blur at infinity", blur_px(body, f64::INFINITY), "px").erring(
+    effect.with_error("blur at infinity", blur_px(body, f64::INFINITY), "px").with_error(
         "blur at 1 m",
         blur_px(body, 1.0),
         "px",
@@ -118,7 +118,7 @@ fn pinhole(camera: &CameraPlan) -> Vec<String> {
         ("lens.focal_length_mm", format!("{:?}", lens.principal_distance_mm())),
         ("lens.f_number", format!("{f_number:?}")),
     ];
-    keys.iter().map(|(key, value)| of_camera(camera, key, value)).collect()
+    keys.iter().map(|(key, value)| camera_change(camera, key, value)).collect()
 }
 
 fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
@@ -128,7 +128,7 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
             EffectStatus::Modelled("the ray transfer functions depend on wavelength".to_owned())
         }
         Lens::Prescription(_) => EffectStatus::Modelled("refraction in the glasses depends on wavelength".to_owned()),
-        _ => where_there(
+        _ => required_if(
             lens.lateral_colour().is_some(),
             "image size depends on wavelength",
             "image size is the same for all wavelengths",
@@ -137,7 +137,7 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
     let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
     match lateral_colour_px(&camera.body, camera.settings.range) {
         Some(px) => {
-            effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colour separation up to", px, "px")
+            effect.dropped_by([without(camera, "lens.lateral_colour")]).with_error("colour separation up to", px, "px")
         }
         None => effect,
     }
@@ -145,20 +145,20 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
 
 fn dispersion(camera: &CameraPlan) -> PlannedEffect {
     let is_there = camera.body.disperses() && camera.settings.route == Route::Lens;
-    let lack =
+    let absent_reason =
         format!("{} wavelengths share each path: the lens treats all wavelengths equally", camera.settings.wavelengths);
     let text = "each path carries one wavelength: rays through the lens depend on wavelength";
-    PlannedEffect::new(GROUP, "one wavelength a path", where_there(is_there, text, lack))
+    PlannedEffect::new(GROUP, "one wavelength a path", required_if(is_there, text, absent_reason))
         .described_by("render.wavelengths_per_path")
 }
 
 fn route(camera: &CameraPlan, cost: &FrameCost) -> PlannedEffect {
     let is_there = matches!(camera.settings.route, Route::Pupil(_));
     let text = "radiance is rendered at the centre of the entrance pupil, and the lens is applied to the image";
-    let status = where_there(is_there, text, "each sample is traced through the lens");
+    let status = required_if(is_there, text, "each sample is traced through the lens");
     let effect = PlannedEffect::new(GROUP, "lens on the picture", status).described_by("render.route");
     PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "the lens on the picture")), ..effect }
-        .dropped_by([of_camera(camera, "render.route", "lens")])
+        .dropped_by([camera_change(camera, "render.route", "lens")])
 }
 
 fn part_s(cost: &FrameCost, name: &str) -> f64 {
@@ -170,23 +170,23 @@ fn optic(camera: &CameraPlan) -> Option<&Optic> {
 }
 
 /// An element before the lens: dropping the last one removes the whole section.
-fn before_the_lens(camera: &CameraPlan, name: &'static str, key: &'static str, status: EffectStatus) -> PlannedEffect {
+fn external_optics(camera: &CameraPlan, name: &'static str, key: &'static str, status: EffectStatus) -> PlannedEffect {
     let front = camera.body.front.as_ref();
-    let things = front.map_or(0, |front| usize::from(front.dirt().is_some()) + usize::from(front.optic().is_some()));
-    let dropped = if things == 1 { "external_optics" } else { key };
-    PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, dropped)])
+    let elements = front.map_or(0, |front| usize::from(front.dirt().is_some()) + usize::from(front.optic().is_some()));
+    let key_name = if elements == 1 { "external_optics" } else { key };
+    PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, key_name)])
 }
 
 fn mirror(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Mirror(_)));
-    let status = where_there(is_there, "each ray is reflected at the mirror", "none is described");
-    before_the_lens(camera, "mirror before the lens", "external_optics.mirror", status)
+    let status = required_if(is_there, "each ray is reflected at the mirror", "none is described");
+    external_optics(camera, "mirror before the lens", "external_optics.mirror", status)
 }
 
 fn windscreen(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Windscreen(_)));
-    let status = where_there(is_there, "each ray is traced through the windscreen's layers", "none is described");
-    before_the_lens(camera, "wind-screen", "external_optics.windscreen", status)
+    let status = required_if(is_there, "each ray is traced through the windscreen's layers", "none is described");
+    external_optics(camera, "wind-screen", "external_optics.windscreen", status)
 }
 
 fn drops(camera: &CameraPlan) -> PlannedEffect {
@@ -207,8 +207,8 @@ fn drops(camera: &CameraPlan) -> PlannedEffect {
 
 fn dirt(camera: &CameraPlan) -> PlannedEffect {
     let is_there = camera.body.front.as_ref().is_some_and(|front| front.dirt().is_some());
-    let status = where_there(is_there, "each ray is weighted by the mask", "none is described");
-    before_the_lens(camera, "dirt before the lens", "external_optics.dirt", status)
+    let status = required_if(is_there, "each ray is weighted by the mask", "none is described");
+    external_optics(camera, "dirt before the lens", "external_optics.dirt", status)
 }
 
 /// An effect on the irradiance: dropping the last one removes the whole section, with its margin.
@@ -223,18 +223,18 @@ fn on_irradiance(camera: &CameraPlan, effect: Effect, cost: &FrameCost) -> Plann
     let (key, own) = match effect {
         Effect::PointSpread => ("effects.psf", without(camera, "effects.psf")),
         Effect::Glare => ("effects.glare", without(camera, "effects.glare")),
-        Effect::Ghosts => ("effects.ghosts", of_camera(camera, "effects.ghosts", "false")),
+        Effect::Ghosts => ("effects.ghosts", camera_change(camera, "effects.ghosts", "false")),
     };
     let file =
-        (effect == Effect::Ghosts && camera.products.ghosts).then(|| of_camera(camera, "output.ghosts", "false"));
+        (effect == Effect::Ghosts && camera.products.ghosts).then(|| camera_change(camera, "output.ghosts", "false"));
     let set = [if is_last { without(camera, "effects") } else { own }].into_iter().chain(file);
     let cpu_s = part_s(cost, effect.name());
     let margin_s = if is_last { margin_s(camera, cost) } else { 0.0 };
     PlannedEffect::new(GROUP, effect.name(), irradiance_effect_status(camera, effect))
         .described_by(key)
         .dropped_by(set)
-        .taking(cpu_s)
-        .saving(cpu_s + margin_s)
+        .with_cpu_time(cpu_s)
+        .with_saving(cpu_s + margin_s)
 }
 
 /// Time of the paths of the margin, s.
@@ -242,9 +242,9 @@ fn margin_s(camera: &CameraPlan, cost: &FrameCost) -> f64 {
     if camera.settings.route != Route::Lens {
         return 0.0;
     }
-    let (film, picture) = (camera.body.film(), &camera.body.raster);
+    let (film, image_raster) = (camera.body.film(), &camera.body.raster);
     let pixels = |width: usize, height: usize| width as f64 * height as f64;
-    let part = 1.0 - pixels(picture.width(), picture.height()) / pixels(film.width(), film.height());
+    let part = 1.0 - pixels(image_raster.width(), image_raster.height()) / pixels(film.width(), film.height());
     cost.paths * path_cpu_s(camera) * part
 }
 
@@ -259,14 +259,14 @@ pub(in crate::report) fn irradiance_effect_status(camera: &CameraPlan, effect: E
 /// Method of the point spread, and the contrast error of applying it to the film.
 fn spread_by(camera: &CameraPlan) -> String {
     let Some((by, width)) = camera.body.effects.spread_by() else { return String::new() };
-    let by = if camera.settings.route == Route::Lens { by } else { SpreadBy::Film };
+    let by = if camera.settings.route == Route::Lens { by } else { SpreadMethod::Film };
     let error = width.film_error;
     match by {
-        SpreadBy::Samples => {
+        SpreadMethod::Samples => {
             format!(
                 ", applied by displacing samples (applied to the film, the contrast error would be up to {error:.2})"
             )
         }
-        SpreadBy::Film => format!(", applied to the film (contrast error up to {error:.3})"),
+        SpreadMethod::Film => format!(", applied to the film (contrast error up to {error:.3})"),
     }
 }

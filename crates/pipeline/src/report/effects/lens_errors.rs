@@ -41,8 +41,8 @@ pub(super) fn lateral_colour_px(body: &CameraBody, range: WavelengthRange) -> Op
     let colour = body.lens.lateral_colour()?;
     let WavelengthRange { low_nm, high_nm } = range;
     let sizes = (0..=RADII).map(|i| colour.at(low_nm + (high_nm - low_nm) * f64::from(i) / f64::from(RADII)));
-    let (least, most) = sizes.fold((f64::INFINITY, 0.0_f64), |(a, b), size| (a.min(size), b.max(size)));
-    Some((most - least) * body.raster.max_radius_mm() / body.raster.pitch_mm().x)
+    let (min, max) = sizes.fold((f64::INFINITY, 0.0_f64), |(a, b), size| (a.min(size), b.max(size)));
+    Some((max - min) * body.raster.max_radius_mm() / body.raster.pitch_mm().x)
 }
 
 #[cfg(test)]
@@ -62,8 +62,8 @@ mod tests {
         let body = body("lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8 }");
         let tangent_squared = CORNER_MM.length_squared();
         let expected = 100.0 * (1.0 - 1.0 / ((1.0 + tangent_squared) * (1.0 + tangent_squared)));
-        let found = vignetting_percent(&body).expect("light on the axis");
-        assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
+        let actual = vignetting_percent(&body).expect("light on the axis");
+        assert!((actual - expected).abs() < 1e-9, "{actual} for {expected}");
     }
 
     #[test]
@@ -71,8 +71,8 @@ mod tests {
         let lens = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8, distortion = { direction = \
                     \"observed_to_ideal\", radius_unit = \"focal_lengths\", k1 = 0.1 } }";
         let radius_mm = CORNER_MM.length();
-        let found = distortion_px(&body(lens)).expect("it has one");
-        assert!((found - 0.1 * radius_mm * CORNER_MM.length_squared() / 0.006).abs() < 1e-9, "{found}");
+        let actual = distortion_px(&body(lens)).expect("it has one");
+        assert!((actual - 0.1 * radius_mm * CORNER_MM.length_squared() / 0.006).abs() < 1e-9, "{actual}");
         assert_eq!(distortion_px(&body("lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8 }")), None);
     }
 
@@ -80,9 +80,9 @@ mod tests {
     fn colours_come_apart_with_the_distance_from_the_axis() {
         let lens = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8, lateral_colour = { wavelength_nm = [400, \
                     700], magnification = [1.001, 1.0] } }";
-        let found = lateral_colour_px(&body(lens), WavelengthRange::new(400.0, 700.0)).expect("it has one");
+        let actual = lateral_colour_px(&body(lens), WavelengthRange::new(400.0, 700.0)).expect("it has one");
         // Sizes are relative to that at 587.56 nm, which is 1.000 37.
         let expected = 1e-3 / (1.001 - 1e-3 * (587.56 - 400.0) / 300.0) * CORNER_MM.length() / 0.006;
-        assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+        assert!((actual - expected).abs() < 1e-6, "{actual} for {expected}");
     }
 }

@@ -1,10 +1,10 @@
 //! Effects of light transport.
 
-use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
+use super::planned_effect::{EffectGroup, PlannedEffect, camera_change, required_if};
 use crate::plan::{CameraPlan, Plan, Settings};
 use crate::render::training;
 use crate::report::FrameCost;
-use crate::report::cpu_time::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_share, path_cpu_s};
+use crate::report::cpu_time::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_fraction, path_cpu_s};
 use crate::sizes::block::Blocks;
 use etendue_core::EffectStatus;
 use etendue_core::{Integrator, LightSampling};
@@ -13,7 +13,7 @@ use etendue_tracer::integrator::PathSettings;
 const GROUP: EffectGroup = EffectGroup::LightTransport;
 
 pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
-    let paths = FrameCost::of(plan, camera).paths;
+    let paths = FrameCost::new(plan, camera).paths;
     vec![
         first_surfaces(paths),
         shadows(camera, paths),
@@ -40,19 +40,19 @@ fn first_surfaces(paths: f64) -> PlannedEffect {
 
 fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let integrator = camera.settings.paths.integrator;
-    let status = where_there(
+    let status = required_if(
         integrator != Integrator::Flat,
         "a shadow ray to each sampled light finds occluders",
         "integrator = \"flat\" traces no shadow rays",
     );
     let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
-    let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
-    effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_by(camera, paths, FLAT_PATH_CPU_S))
+    let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").with_cpu_time(cpu_s);
+    effect.dropped_by([camera_change(camera, "render.integrator", "flat")]).with_saving(saved_by(camera, paths, FLAT_PATH_CPU_S))
 }
 
 fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let settings = &camera.settings;
-    let status = where_there(
+    let status = required_if(
         settings.paths.integrator == Integrator::Path && settings.paths.max_bounces > 1,
         format!("paths continue from surface to surface, over at most {} surfaces", settings.paths.max_bounces),
         match settings.paths.integrator {
@@ -62,9 +62,9 @@ fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     );
     PlannedEffect::new(GROUP, "indirect light", status)
         .described_by("render.integrator")
-        .dropped_by([of_camera(camera, "render.integrator", "direct")])
-        .taking(paths * (path_cpu_s(camera) - DIRECT_PATH_CPU_S))
-        .saving(saved_by(camera, paths, DIRECT_PATH_CPU_S))
+        .dropped_by([camera_change(camera, "render.integrator", "direct")])
+        .with_cpu_time(paths * (path_cpu_s(camera) - DIRECT_PATH_CPU_S))
+        .with_saving(saved_by(camera, paths, DIRECT_PATH_CPU_S))
 }
 
 /// Time saved by an integrator of `sample_s` per sample, s: branches, and paths that train the guiding, go with the paths.
@@ -73,11 +73,11 @@ fn saved_by(camera: &CameraPlan, paths: f64, sample_s: f64) -> f64 {
 }
 
 /// Limit of two surfaces: direct light, and light reflected once.
-const FEW_BOUNCES: u32 = 2;
+const TWO_BOUNCES: u32 = 2;
 
 fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let PathSettings { integrator, max_bounces, .. } = camera.settings.paths;
-    let status = if integrator == Integrator::Path && max_bounces > FEW_BOUNCES {
+    let status = if integrator == Integrator::Path && max_bounces > TWO_BOUNCES {
         let text = format!("surfaces 3 to {max_bounces} of a path, unless Russian roulette ends it");
         EffectStatus::WhereNeeded(text)
     } else {
@@ -86,14 +86,14 @@ fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let of_path_s = path_cpu_s(camera) - TWO_BOUNCES_CPU_S;
     PlannedEffect::new(GROUP, "bounces beyond the second", status)
         .described_by("render.max_bounces")
-        .dropped_by([of_camera(camera, "render.max_bounces", "2")])
-        .taking(paths * of_path_s)
-        .saving(of_path_s * (paths + branched_paths(camera, paths) * branches_share(camera)))
+        .dropped_by([camera_change(camera, "render.max_bounces", "2")])
+        .with_cpu_time(paths * of_path_s)
+        .with_saving(of_path_s * (paths + branched_paths(camera, paths) * branches_fraction(camera)))
 }
 
 fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
-    let lack = format!("light scattered by more than {} surfaces is missing", settings.paths.max_bounces);
-    let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(lack));
+    let absent_reason = format!("light scattered by more than {} surfaces is missing", settings.paths.max_bounces);
+    let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(absent_reason));
     effect.described_by("render.max_bounces")
 }
 
@@ -112,28 +112,28 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
         })
     };
     let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
-    effect.dropped_by([of_camera(camera, "render.caustics", "false")])
+    effect.dropped_by([camera_change(camera, "render.caustics", "false")])
 }
 
 fn regularization(camera: &CameraPlan) -> PlannedEffect {
-    let status = where_there(
+    let status = required_if(
         camera.settings.paths.regularize,
         "metals, coats, glass and paint that a path hits after a wider lobe are roughened (biased)".to_owned(),
         "lobes have the width of their models",
     );
     let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
-    effect.dropped_by([of_camera(camera, "render.regularize", "false")])
+    effect.dropped_by([camera_change(camera, "render.regularize", "false")])
 }
 
 fn guiding(camera: &CameraPlan) -> PlannedEffect {
     let paths = if camera.settings.guiding { training::paths_of(camera) } else { 0 };
-    let status = where_there(
+    let status = required_if(
         paths > 0,
         format!("directions at diffuse surfaces are sampled from a distribution learned by {paths} training paths"),
         "directions at diffuse surfaces are sampled by the cosine only",
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
-    effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
+    effect.dropped_by([camera_change(camera, "render.guiding", "false")]).with_cpu_time(paths as f64 * path_cpu_s(camera))
 }
 
 /// Paths of a camera that may branch: all except those that train the guiding.
@@ -144,18 +144,18 @@ fn branched_paths(camera: &CameraPlan, paths: f64) -> f64 {
 
 /// CPU time of all branches except the first of each path, s.
 fn branches_cpu_s(camera: &CameraPlan, paths: f64) -> f64 {
-    branched_paths(camera, paths) * branches_share(camera) * path_cpu_s(camera)
+    branched_paths(camera, paths) * branches_fraction(camera) * path_cpu_s(camera)
 }
 
 fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let branches = camera.settings.paths.branches;
-    let status = where_there(
+    let status = required_if(
         branches > 1,
         format!("{branches} lights are sampled and {branches} paths continue at the first surface of each sample"),
         "one light is sampled and one path continues at the first surface of each sample",
     );
     let effect = PlannedEffect::new(GROUP, "branched paths", status).described_by("render.branches");
-    effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(branches_cpu_s(camera, paths))
+    effect.dropped_by([camera_change(camera, "render.branches", "1")]).with_cpu_time(branches_cpu_s(camera, paths))
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
@@ -169,18 +169,18 @@ fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
         ),
     };
     let effect = PlannedEffect::new(GROUP, "lights drawn by gloss", status).described_by("render.light_sampling");
-    effect.dropped_by([of_camera(camera, "render.light_sampling", "irradiance")])
+    effect.dropped_by([camera_change(camera, "render.light_sampling", "irradiance")])
 }
 
 fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
     let blocks = camera.settings.blocks;
-    let status = where_there(
+    let status = required_if(
         blocks != Blocks::SINGLE,
         format!("{} pixels share the tails of their paths, so their errors are correlated", blocks.len_px()),
         "each pixel has its own paths",
     );
     let effect = PlannedEffect::new(GROUP, "path reuse", status).described_by("render.path_reuse_px");
-    effect.dropped_by([of_camera(camera, "render.path_reuse_px", "1")])
+    effect.dropped_by([camera_change(camera, "render.path_reuse_px", "1")])
 }
 
 fn adaptive_sampling(camera: &CameraPlan) -> PlannedEffect {
@@ -190,7 +190,7 @@ fn adaptive_sampling(camera: &CameraPlan) -> PlannedEffect {
         return PlannedEffect::new(GROUP, name, status).described_by(key);
     };
     let text = format!("pixels whose error is small enough stop at {} samples", limit.min_spp);
-    PlannedEffect::new(GROUP, name, EffectStatus::WhereNeeded(text)).described_by(key).dropped_by([of_camera(
+    PlannedEffect::new(GROUP, name, EffectStatus::WhereNeeded(text)).described_by(key).dropped_by([camera_change(
         camera,
         "render.spp",
         &limit.min_spp.to_string(),

@@ -20,7 +20,7 @@ mod sensor;
 mod tests;
 mod weather;
 
-pub use planned_effect::{EffectGroup, IfDropped, PlannedEffect};
+pub use planned_effect::{EffectGroup, OmissionResult, PlannedEffect};
 
 use crate::plan::{CameraPlan, Plan};
 

@@ -60,12 +60,12 @@ pub struct PlannedEffect {
     /// Memory during rendering of the frame, bytes; `None`: unknown.
     pub memory_bytes: Option<f64>,
     /// Result of leaving it out; `None` if it is not modelled.
-    pub if_dropped: Option<IfDropped>,
+    pub omission: Option<OmissionResult>,
 }
 
 /// Result of leaving an effect out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct IfDropped {
+pub struct OmissionResult {
     /// Changes of keys, in the syntax of `--set`, that leave it out; `None` if no key does.
     pub set: Option<Vec<String>>,
     /// Estimated CPU time saved per frame, s; below 0 if it increases; `None`: unknown.
@@ -77,8 +77,8 @@ pub struct IfDropped {
 impl PlannedEffect {
     /// An effect of this status, with everything else unknown.
     pub(super) fn new(group: EffectGroup, name: &'static str, status: EffectStatus) -> Self {
-        let if_dropped = status.is_modelled().then(IfDropped::default);
-        Self { group, name, key: None, status, cpu_s: None, memory_bytes: None, if_dropped }
+        let if_dropped = status.is_modelled().then(OmissionResult::default);
+        Self { group, name, key: None, status, cpu_s: None, memory_bytes: None, omission: if_dropped }
     }
 
     /// Identifier in files: letters, digits and underscores.
@@ -96,7 +96,7 @@ impl PlannedEffect {
     /// Sets the changes that leave it out.
     pub(super) fn dropped_by(mut self, set: impl IntoIterator<Item = String>) -> Self {
         let set: Vec<String> = set.into_iter().collect();
-        if let Some(if_dropped) = self.if_dropped.as_mut().filter(|_| !set.is_empty()) {
+        if let Some(if_dropped) = self.omission.as_mut().filter(|_| !set.is_empty()) {
             if_dropped.set = Some(set);
         }
         self
@@ -104,30 +104,30 @@ impl PlannedEffect {
 
     /// Sets the changes of keys of its camera that leave it out.
     pub(super) fn left_out_by(self, camera: &CameraPlan, changes: &[KeyChange]) -> Self {
-        self.dropped_by(changes.iter().map(|change| of_camera(camera, change.key, change.value.unwrap_or(REMOVED))))
+        self.dropped_by(changes.iter().map(|change| camera_change(camera, change.key, change.value.unwrap_or(REMOVED))))
     }
 
     /// Sets its CPU time, s, all of which is saved by leaving it out.
-    pub(super) fn taking(self, cpu_s: f64) -> Self {
-        Self { cpu_s: self.status.is_modelled().then_some(cpu_s), ..self }.saving(cpu_s)
+    pub(super) fn with_cpu_time(self, cpu_s: f64) -> Self {
+        Self { cpu_s: self.status.is_modelled().then_some(cpu_s), ..self }.with_saving(cpu_s)
     }
 
     /// Sets the CPU time saved by leaving it out, s.
-    pub(super) fn saving(mut self, cpu_s: f64) -> Self {
-        if let Some(if_dropped) = &mut self.if_dropped {
+    pub(super) fn with_saving(mut self, cpu_s: f64) -> Self {
+        if let Some(if_dropped) = &mut self.omission {
             if_dropped.cpu_saved_s = Some(cpu_s);
         }
         self
     }
 
     /// Sets its memory, bytes.
-    pub(super) fn holding(self, bytes: f64) -> Self {
+    pub(super) fn with_memory(self, bytes: f64) -> Self {
         Self { memory_bytes: self.status.is_modelled().then_some(bytes), ..self }
     }
 
     /// Adds an error with a closed form.
-    pub(super) fn erring(mut self, quantity: &'static str, value: f64, unit: &'static str) -> Self {
-        if let Some(if_dropped) = self.if_dropped.as_mut().filter(|_| value.is_finite()) {
+    pub(super) fn with_error(mut self, quantity: &'static str, value: f64, unit: &'static str) -> Self {
+        if let Some(if_dropped) = self.omission.as_mut().filter(|_| value.is_finite()) {
             if_dropped.errors.push(KnownError { quantity, value, unit });
         }
         self
@@ -135,15 +135,15 @@ impl PlannedEffect {
 }
 
 /// Required if present, otherwise skipped, each with its reason.
-pub(super) fn where_there(is_there: bool, reason: impl Into<String>, lack: impl Into<String>) -> EffectStatus {
-    if is_there { EffectStatus::Modelled(reason.into()) } else { EffectStatus::LeftOut(lack.into()) }
+pub(super) fn required_if(is_there: bool, reason: impl Into<String>, absent_reason: impl Into<String>) -> EffectStatus {
+    if is_there { EffectStatus::Modelled(reason.into()) } else { EffectStatus::LeftOut(absent_reason.into()) }
 }
 
 /// Value that removes a key.
 pub(super) const REMOVED: &str = "null";
 
 /// A change of a key of a camera: of `lens.distortion`, `render.caustics` …
-pub(super) fn of_camera(camera: &CameraPlan, key: &str, value: &str) -> String {
+pub(super) fn camera_change(camera: &CameraPlan, key: &str, value: &str) -> String {
     // A dot in a name would end it.
     let is_plain = !camera.name.contains(['.', '=']);
     let entry = if is_plain { camera.name.clone() } else { camera.index.to_string() };
@@ -152,5 +152,5 @@ pub(super) fn of_camera(camera: &CameraPlan, key: &str, value: &str) -> String {
 
 /// Removes a key of a camera.
 pub(super) fn without(camera: &CameraPlan, key: &str) -> String {
-    of_camera(camera, key, REMOVED)
+    camera_change(camera, key, REMOVED)
 }

@@ -1,6 +1,6 @@
 //! Processing steps from digital numbers to the image.
 
-use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
+use super::planned_effect::{EffectGroup, PlannedEffect, camera_change, required_if, without};
 use crate::plan::{CameraPlan, PictureFormat};
 use etendue_core::EffectStatus;
 use etendue_isp::{BlackLevel, ColourMatrix, Processing, ToneCurve, WhiteBalance};
@@ -45,20 +45,20 @@ pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
 
 /// A step that is present only if its key requests it.
 fn step(camera: &CameraPlan, name: &'static str, key: &'static str, is_there: bool, text: &str) -> PlannedEffect {
-    let status = where_there(is_there, text, "not requested");
+    let status = required_if(is_there, text, "not requested");
     PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, key)])
 }
 
 fn black_level(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
     let is_own = p.black_level != BlackLevel::Stated;
     let text = "a black level other than the sensor's is subtracted";
-    let status = where_there(is_own, text, "the sensor's black level is subtracted");
+    let status = required_if(is_own, text, "the sensor's black level is subtracted");
     let key = "isp.black_level";
     PlannedEffect::new(GROUP, "own black level", status).described_by(key).dropped_by([without(camera, key)])
 }
 
 fn defects(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
-    let status = where_there(!p.defects.is_off(), "mapped pixels and outliers are corrected", "not requested");
+    let status = required_if(!p.defects.is_off(), "mapped pixels and outliers are corrected", "not requested");
     let keys = [
         ("isp.defect_map", !p.defects.map.is_empty()),
         ("isp.defect_outlier_threshold", p.defects.outlier_threshold.is_some()),
@@ -83,14 +83,14 @@ fn white_balance(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
 }
 
 fn demosaic(p: &Processing) -> PlannedEffect {
-    let status = where_there(p.colour.is_some(), "the missing colours of each pixel are interpolated", "monochrome");
+    let status = required_if(p.colour.is_some(), "the missing colours of each pixel are interpolated", "monochrome");
     PlannedEffect::new(GROUP, "demosaic", status).described_by("isp.demosaic")
 }
 
 /// Three channels can be interpreted as red, green and blue; other numbers need a matrix.
 fn colour_matrix(camera: &CameraPlan, p: &Processing, channels: usize) -> PlannedEffect {
     let is_there = p.colour.as_ref().is_some_and(|colour| colour.matrix != ColourMatrix::identity());
-    let status = where_there(
+    let status = required_if(
         is_there,
         "converts the sensor's colours to sRGB",
         "red, green and blue remain those of the sensor",
@@ -102,9 +102,9 @@ fn colour_matrix(camera: &CameraPlan, p: &Processing, channels: usize) -> Planne
 
 fn tone(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
     let is_there = p.tone != ToneCurve::Gamma(1.0);
-    let status = where_there(is_there, "linear light is encoded by a curve", "values are proportional to light");
+    let status = required_if(is_there, "linear light is encoded by a curve", "values are proportional to light");
     let key = "isp.tone_curve";
-    PlannedEffect::new(GROUP, "tone curve", status).described_by(key).dropped_by([of_camera(camera, key, "linear")])
+    PlannedEffect::new(GROUP, "tone curve", status).described_by(key).dropped_by([camera_change(camera, key, "linear")])
 }
 
 fn quantisation(format: PictureFormat) -> PlannedEffect {
@@ -113,7 +113,7 @@ fn quantisation(format: PictureFormat) -> PlannedEffect {
         PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
     };
     let effect = PlannedEffect::new(GROUP, "picture bits", EffectStatus::Modelled(text));
-    effect.described_by("isp.picture_bits").erring("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
+    effect.described_by("isp.picture_bits").with_error("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
 }
 
 fn never(name: &'static str) -> PlannedEffect {

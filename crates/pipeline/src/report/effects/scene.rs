@@ -1,6 +1,6 @@
 //! Geometry, materials and light sources.
 
-use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
+use super::planned_effect::{EffectGroup, PlannedEffect, required_if};
 use crate::plan::{CameraPlan, Plan, TimeDependence};
 use crate::render::light_counts;
 use crate::report::memory::TextureUse;
@@ -27,13 +27,13 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
 }
 
 /// Guarded if present.
-fn where_needed(is_there: bool, reason: impl Into<String>, lack: &str) -> EffectStatus {
-    if is_there { EffectStatus::WhereNeeded(reason.into()) } else { EffectStatus::LeftOut(lack.to_owned()) }
+fn required_if_present(is_there: bool, reason: impl Into<String>, absent_reason: &str) -> EffectStatus {
+    if is_there { EffectStatus::WhereNeeded(reason.into()) } else { EffectStatus::LeftOut(absent_reason.to_owned()) }
 }
 
 fn instances(plan: &Plan) -> PlannedEffect {
     let (instances, meshes) = (plan.world.instances().len(), plan.world.meshes().len());
-    let status = where_there(
+    let status = required_if(
         instances > meshes && meshes > 0,
         format!("{instances} instances share {meshes} meshes, each stored once"),
         "no mesh is used more than once",
@@ -44,29 +44,29 @@ fn instances(plan: &Plan) -> PlannedEffect {
 fn textures(plan: &Plan) -> PlannedEffect {
     let count = plan.material_table.textures().len();
     let text = format!("{count} images, evaluated only where the surface hit has one");
-    let memory = TextureUse::of(&plan.material_table);
+    let memory = TextureUse::from_materials(&plan.material_table);
     let text = memory.tiles().map_or(text.clone(), |tiles| format!("{text}; {tiles}"));
-    let status = where_needed(count > 0, text, "no surface has a texture");
+    let status = required_if_present(count > 0, text, "no surface has a texture");
     let bytes = memory.memory_bytes() as f64;
-    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes)
+    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").with_memory(bytes)
 }
 
 fn normal_maps(plan: &Plan) -> PlannedEffect {
     let count = plan.material_table.materials().iter().filter(|material| material.normal_map.is_some()).count();
     let text = format!("of {count} materials; tangents are evaluated only for these");
-    let status = where_needed(count > 0, text, "no material has a normal map");
+    let status = required_if_present(count > 0, text, "no material has a normal map");
     PlannedEffect::new(GROUP, "normal maps", status).described_by("scene.materials.normal_map")
 }
 
 fn transparency(plan: &Plan) -> PlannedEffect {
     let text = "shadow rays evaluate materials with an opacity and thin sheets, which transmit light undeviated; other \
                 materials block them";
-    let status = where_needed(plan.material_table.has_passages(), text, "no material transmits light undeviated");
+    let status = required_if_present(plan.material_table.has_passages(), text, "no material transmits light undeviated");
     PlannedEffect::new(GROUP, "transparency", status).described_by("scene.materials.opacity")
 }
 
 fn motion(camera: &CameraPlan) -> PlannedEffect {
-    let status = where_there(
+    let status = required_if(
         camera.time == TimeDependence::Motion,
         "motion during the exposure: each sample has a time within the exposure of its row",
         "no motion is visible to the camera",
@@ -76,13 +76,13 @@ fn motion(camera: &CameraPlan) -> PlannedEffect {
 
 fn modulation(plan: &Plan) -> PlannedEffect {
     let text = "each row receives the mean of a light over its exposure, evaluated only for lights that change";
-    let status = where_needed(plan.is_modulated(), text, "all lights are constant");
+    let status = required_if_present(plan.is_modulated(), text, "all lights are constant");
     PlannedEffect::new(GROUP, "lights that change", status).described_by("scene.lights.modulation")
 }
 
 /// The sun of a sky, or suns among the lights. One key leaves out a sky's; those among the lights are named in their list.
 fn sun(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
-    let status = where_there(lights.suns > 0, format!("{} sampled at each surface", discs(lights.suns)), "none");
+    let status = required_if(lights.suns > 0, format!("{} sampled at each surface", discs(lights.suns)), "none");
     let is_of_sky = plan.sky.is_some_and(|sky| sky.sun_lx > 0.0) && plan.sources.suns.len() == 1;
     let effect = PlannedEffect::new(GROUP, "sun", status).described_by("scene.environment.sun");
     effect.dropped_by(is_of_sky.then(|| "scene.environment.sun=false".to_owned()))
@@ -98,7 +98,7 @@ fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
         LightCounts { image_environment: true, .. } => ("an environment map, sampled at each surface", true),
         _ => ("uniform radiance from all directions", lights.uniform_environment),
     };
-    let status = where_there(is_there, text, "no light comes from infinity");
+    let status = required_if(is_there, text, "no light comes from infinity");
     let effect = PlannedEffect::new(GROUP, "sky and surroundings", status).described_by("scene.environment");
     effect.dropped_by(plan.sources.environment.is_some().then(|| "scene.environment=null".to_owned()))
 }
@@ -107,7 +107,7 @@ fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
 fn lamps(lights: &LightCounts) -> PlannedEffect {
     let count = lights.lamps + lights.openings;
     let text = format!("{count} lights, sampled by their contribution at each surface");
-    let status = where_there(count > 0, text, "none");
+    let status = required_if(count > 0, text, "none");
     let effect = PlannedEffect::new(GROUP, "lamps", status).described_by("scene.lights");
     effect.dropped_by(["scene.lights=null".to_owned()])
 }
@@ -117,12 +117,12 @@ fn measured_lamps(plan: &Plan) -> PlannedEffect {
         |profile: &Profile| matches!(profile, Profile::PhotometricGrid(_) | Profile::Masked(_) | Profile::MaskImage(_));
     let count = plan.sources.lamps.iter().filter(|lamp| is_measured(lamp.profile())).count();
     let text = format!("{count} lights; intensity distributions are evaluated only for these");
-    let status = where_needed(count > 0, text, "no light has a measured distribution");
+    let status = required_if_present(count > 0, text, "no light has a measured distribution");
     PlannedEffect::new(GROUP, "measured lamp distributions", status).described_by("scene.lights.file")
 }
 
 fn glowing_surfaces(lights: &LightCounts) -> PlannedEffect {
     let count = lights.triangles + lights.spheres;
-    let status = where_there(count > 0, format!("{count} triangles and spheres emit light"), "no surface emits light");
+    let status = required_if(count > 0, format!("{count} triangles and spheres emit light"), "no surface emits light");
     PlannedEffect::new(GROUP, "glowing surfaces", status).described_by("scene.materials.emission")
 }

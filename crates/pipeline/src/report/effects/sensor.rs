@@ -1,6 +1,6 @@
 //! From light to digital numbers: the sensor's own list of effects.
 
-use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, without};
+use super::planned_effect::{EffectGroup, PlannedEffect, camera_change, without};
 use crate::plan::{CameraPlan, TimeDependence};
 use etendue_core::{EffectStatus, KnownError, Shutter};
 use etendue_sensor::SensorEffect;
@@ -9,11 +9,11 @@ const GROUP: EffectGroup = EffectGroup::Sensor;
 
 pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
     let Some(sensor) = &camera.body.sensor else {
-        let lack = "no electronics are described, so no electrons are computed".to_owned();
-        let none = PlannedEffect::new(GROUP, "electronics", EffectStatus::LeftOut(lack));
+        let absent_reason = "no electronics are described, so no electrons are computed".to_owned();
+        let none = PlannedEffect::new(GROUP, "electronics", EffectStatus::LeftOut(absent_reason));
         return vec![rolling_shutter(camera), none.described_by("sensor.full_well_e")];
     };
-    let listed = sensor.effects().into_iter().map(|effect| of_list(camera, effect));
+    let listed = sensor.effects().into_iter().map(|effect| listed_effect(camera, effect));
     std::iter::once(rolling_shutter(camera)).chain(listed).collect()
 }
 
@@ -33,10 +33,10 @@ fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
         Some(_) => without(camera, "sensor.shutter"),
         None => {
             let shutter = format!("{{type=\"global\",exposure_s={:?}}}", rows.exposure_s);
-            of_camera(camera, "sensor.shutter", &shutter)
+            camera_change(camera, "sensor.shutter", &shutter)
         }
     };
-    PlannedEffect::new(GROUP, "rolling shutter", status).described_by("sensor.shutter").dropped_by([global]).erring(
+    PlannedEffect::new(GROUP, "rolling shutter", status).described_by("sensor.shutter").dropped_by([global]).with_error(
         "last row earlier by",
         1e3 * rows.shutter.length_s(rows.rows, 0.0),
         "ms",
@@ -44,10 +44,10 @@ fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
 }
 
 /// An effect of the sensor's list, with the changes of keys that leave it out.
-fn of_list(camera: &CameraPlan, effect: SensorEffect) -> PlannedEffect {
+fn listed_effect(camera: &CameraPlan, effect: SensorEffect) -> PlannedEffect {
     let SensorEffect { name, key, status, left_out_by, errors } = effect;
     let planned = PlannedEffect::new(GROUP, name, status).described_by(key).left_out_by(camera, &left_out_by);
     errors
         .into_iter()
-        .fold(planned, |planned, KnownError { quantity, value, unit }| planned.erring(quantity, value, unit))
+        .fold(planned, |planned, KnownError { quantity, value, unit }| planned.with_error(quantity, value, unit))
 }

@@ -19,15 +19,15 @@ pub(super) fn plan_of(lens: &str, camera: &str, render: &str, set: &str) -> Plan
     );
     let read = |_: &Path| Ok(text.clone());
     let overrides = Overrides::new((!set.is_empty()).then_some(set));
-    let job = Description::load(Path::new("job.toml"), &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
+    let job = Description::load(Path::new("job.toml"), &read, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
     let plan = compile(&job, &Assets::default(), &Choices::default());
-    plan.unwrap_or_else(|faults| panic!("{}", faults.iter().map(|f| format!("{f}\n")).collect::<String>()))
+    plan.unwrap_or_else(|errors| panic!("{}", errors.iter().map(|f| format!("{f}\n")).collect::<String>()))
 }
 
 const PINHOLE: &str = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8 }";
 
 #[test]
-fn names_are_alone_and_every_reason_is_said() {
+fn names_are_unique_and_every_reason_is_stated() {
     let plan = plan_of(PINHOLE, "", "", "");
     let effects = plan.effects(&plan.cameras[0]);
     let ids: BTreeSet<String> = effects.iter().map(PlannedEffect::id).collect();
@@ -45,7 +45,7 @@ fn names_are_alone_and_every_reason_is_said() {
 fn what_is_skipped_takes_nothing_and_cannot_be_dropped() {
     let plan = plan_of(PINHOLE, "", "", "");
     for effect in plan.effects(&plan.cameras[0]).iter().filter(|effect| !effect.status.is_modelled()) {
-        assert!(effect.cpu_s.is_none() && effect.memory_bytes.is_none() && effect.if_dropped.is_none(), "{effect:?}");
+        assert!(effect.cpu_s.is_none() && effect.memory_bytes.is_none() && effect.omission.is_none(), "{effect:?}");
     }
 }
 
@@ -64,16 +64,16 @@ fn savings_are_differences_of_whole_frames() {
         ("", "max_bounces = 2"),
     ] {
         let plan = plan_of(thin, camera, render, "");
-        let whole_s = FrameCost::of(&plan, &plan.cameras[0]).cpu_s();
+        let whole_s = FrameCost::new(&plan, &plan.cameras[0]).cpu_s();
         let mut compared = 0;
         for effect in plan.effects(&plan.cameras[0]) {
-            let Some(IfDropped { set: Some(set), cpu_saved_s: Some(saved_s), .. }) = &effect.if_dropped else {
+            let Some(OmissionResult { set: Some(set), cpu_saved_s: Some(saved_s), .. }) = &effect.omission else {
                 continue;
             };
             let [set] = set.as_slice() else { continue };
             let without = plan_of(thin, camera, render, set);
-            let saved = whole_s - FrameCost::of(&without, &without.cameras[0]).cpu_s();
-            assert!((saved - saved_s).abs() < 1e-6 * whole_s, "{}: {saved_s} foretold, and it is {saved}", effect.name);
+            let cpu_saved = whole_s - FrameCost::new(&without, &without.cameras[0]).cpu_s();
+            assert!((cpu_saved - saved_s).abs() < 1e-6 * whole_s, "{}: {saved_s} foretold, and it is {cpu_saved}", effect.name);
             compared += 1;
         }
         assert!(compared >= 2, "{compared}");

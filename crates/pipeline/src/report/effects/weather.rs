@@ -1,6 +1,6 @@
 //! Fog, rain and snow.
 
-use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
+use super::planned_effect::{EffectGroup, PlannedEffect, camera_change, required_if};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::change_over;
 use etendue_core::EffectStatus;
@@ -13,14 +13,14 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
 
 /// The layers of weather, which require at least one element: removed together with the last.
 fn layers(plan: &Plan, is_last: bool) -> impl Iterator<Item = String> {
-    let asked = plan.cameras.iter().filter(move |camera| is_last && camera.products.weather);
-    asked.map(|camera| of_camera(camera, "output.weather", "false"))
+    let cameras = plan.cameras.iter().filter(move |camera| is_last && camera.products.weather);
+    cameras.map(|camera| camera_change(camera, "output.weather", "false"))
 }
 
 fn media(plan: &Plan) -> PlannedEffect {
     let count = plan.media.len() - usize::from(plan.precipitation.is_some());
     let text = format!("{count} between the surfaces: scattering distances are sampled along rays");
-    let status = where_there(count > 0, text, "the air is clear");
+    let status = required_if(count > 0, text, "the air is clear");
     let set = std::iter::once("scene.media=null".to_owned()).chain(layers(plan, plan.precipitation.is_none()));
     PlannedEffect::new(GROUP, "fog and other media", status).described_by("scene.media").dropped_by(set)
 }
@@ -30,7 +30,7 @@ fn falling(plan: &Plan) -> PlannedEffect {
         Some(precipitation) if precipitation.field.law().is_snow() => "snow is a participating medium for all rays",
         _ => "rain is a participating medium for all rays",
     };
-    let status = where_there(plan.precipitation.is_some(), text, "no precipitation");
+    let status = required_if(plan.precipitation.is_some(), text, "no precipitation");
     let set = std::iter::once("scene.precipitation=null".to_owned()).chain(layers(plan, plan.media.len() == 1));
     PlannedEffect::new(GROUP, "rain and snow", status).described_by("scene.precipitation").dropped_by(set)
 }

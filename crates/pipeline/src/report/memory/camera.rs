@@ -42,8 +42,8 @@ impl CameraMemory {
         let sizes = Sizes::new(plan, camera);
         let frame = FrameMemory::new(camera);
         // A sensor with a state keeps the frame while the other files are made.
-        let remembers = camera.body.sensor.as_ref().is_some_and(|sensor| sensor.remembers());
-        let remembered_frame = if remembers && camera.time != TimeDependence::None { frame.held } else { 0.0 };
+        let remembers = camera.body.sensor.as_ref().is_some_and(|sensor| sensor.has_memory());
+        let remembered_frame = if remembers && camera.time != TimeDependence::None { frame.stored } else { 0.0 };
         let light = sizes.light() + remembered_frame + sizes.shared_films();
         let distances = if sizes.is_at_pupil { light + view.stage_bytes(PUPIL_PLANES * sizes.film_plane) } else { 0.0 };
         let stages = [
@@ -63,9 +63,9 @@ impl CameraMemory {
 
     /// Returns the stage with the highest memory.
     #[must_use]
-    pub fn most(&self) -> StageMemory {
-        let most = self.stages.iter().copied().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
-        most.unwrap_or(StageMemory { stage: "nothing is done", bytes: 0.0 })
+    pub fn peak_stage(&self) -> StageMemory {
+        let peak = self.stages.iter().copied().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
+        peak.unwrap_or(StageMemory { stage: "nothing is done", bytes: 0.0 })
     }
 }
 
@@ -137,7 +137,7 @@ impl<'a> Sizes<'a> {
     fn light(&self) -> f64 {
         let products = &self.camera.products;
         let electrons = if self.camera.body.sensor.is_some() { self.captures } else { 0.0 };
-        let electrons = self.plane * (electrons + f64::from(u8::from(self.camera.settings.folded)));
+        let electrons = self.plane * (electrons + f64::from(u8::from(self.camera.settings.accumulates_electrons)));
         let sampling = if products.sampling { 3.0 * self.plane } else { 0.0 };
         electrons + sampling + self.spectra()
     }
@@ -154,8 +154,8 @@ impl<'a> Sizes<'a> {
 
     /// Returns the memory while films are converted to light on the sensor: the films, the products and the effects.
     fn conversion(&self, threads: usize) -> f64 {
-        let asked = self.camera.products.needs_radiance() || self.is_at_pupil;
-        let radiance = if asked { 2.0 * self.bands * self.film_plane } else { 0.0 };
+        let is_requested = self.camera.products.needs_radiance() || self.is_at_pupil;
+        let radiance = if is_requested { 2.0 * self.bands * self.film_plane } else { 0.0 };
         let blurred = match self.camera.depth_of_field {
             DepthOfField::None => 0.0,
             DepthOfField::Physical | DepthOfField::Fast(_) => 2.0 * self.bands * self.film_plane,
@@ -163,8 +163,8 @@ impl<'a> Sizes<'a> {
         let ghosts = self.ghost_count() * self.bands * (self.film_plane + self.plane);
         let effects = if self.camera.body.effects.is_idle() { 0.0 } else { 2.0 * self.bands * self.plane };
         let through_lens = if self.is_at_pupil { self.bands * self.film_plane } else { 0.0 };
-        let made = radiance + blurred + ghosts + effects + through_lens + self.plane;
-        self.films_in_conversion() + made + (self.captures - 1.0) * self.spectra() + self.convolution(threads)
+        let total = radiance + blurred + ghosts + effects + through_lens + self.plane;
+        self.films_in_conversion() + total + (self.captures - 1.0) * self.spectra() + self.convolution(threads)
     }
 
     /// Returns the memory of point spread and glare for the bands that are processed in parallel: light and its variance before and after in 64 bits, and three
@@ -218,8 +218,8 @@ impl<'a> Sizes<'a> {
     }
 
     fn motion(&self) -> f64 {
-        let asked = &self.camera.products.annotations;
-        let neighbours = if asked.needs_neighbours() { 2 } else { usize::from(asked.disparity.is_some()) };
+        let annotations = &self.camera.products.annotations;
+        let neighbours = if annotations.needs_neighbours() { 2 } else { usize::from(annotations.disparity.is_some()) };
         let bytes = motion::bytes_of_pixel(neighbours) * self.plane / SAMPLE;
         if neighbours == 0 { 0.0 } else { bytes + self.writing(bytes / self.plane) }
     }

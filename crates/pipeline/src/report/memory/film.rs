@@ -31,11 +31,11 @@ impl Plan {
         let film = scratch_bytes(pixels, bands, has_variance(camera.settings.replicates, Shard::WHOLE));
         // A further pass has its own file in addition to that of the pass before.
         let films = if camera.pass_count() > 1 { 2.0 } else { 1.0 };
-        let (loaded, made) =
-            if all_bands_for.is_some() { (cubes_in_memory(camera), 0.0) } else { (0.0, cubes_made(camera)) };
+        let (loaded, created) =
+            if all_bands_for.is_some() { (cubes_in_memory(camera), 0.0) } else { (0.0, computed_cube_bytes(camera)) };
         FilmBytes {
-            memory: layout.bytes_beside_cube(size.0, size.1) + loaded * means,
-            disk: films * film + made * means,
+            memory: layout.bytes_without_cube(size.0, size.1) + loaded * means,
+            disk: films * film + created * means,
             all_bands_for,
         }
     }
@@ -52,7 +52,7 @@ fn cubes_in_memory(camera: &CameraPlan) -> f64 {
 
 /// Cubes computed from a film band after band and stored on disk: the light that passes the lens at the pupil, and the result of effects on it and on its
 /// variance.
-fn cubes_made(camera: &CameraPlan) -> f64 {
+fn computed_cube_bytes(camera: &CameraPlan) -> f64 {
     if !needs_irradiance(camera) {
         return 0.0;
     }

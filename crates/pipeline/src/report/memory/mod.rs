@@ -21,8 +21,8 @@ use scene::ViewMemory;
 const PROGRAM_BYTES: f64 = 36e6;
 /// Memory of freed blocks that the C library retains, bytes: glibc retains blocks of up to 32 MiB (M_MMAP_THRESHOLD_MAX), and runs of several cameras were
 /// observed to retain up to two of them, or half of a camera's memory.
-const KEPT_BYTES: f64 = (64 << 20) as f64;
-const KEPT_FRACTION: f64 = 0.5;
+const RETAINED_BYTES: f64 = (64 << 20) as f64;
+const RETAINED_FRACTION: f64 = 0.5;
 /// Number of threads that a plan assumes, the same on all machines.
 const PLANNED_THREADS: usize = 4;
 
@@ -36,7 +36,7 @@ pub struct RunMemory {
     /// Memory of each camera, with its name.
     pub cameras: Vec<(String, CameraMemory)>,
     /// Memory of films that are stored in addition to that of the camera.
-    pub held_films: f64,
+    pub stored_films: f64,
 }
 
 impl RunMemory {
@@ -48,15 +48,15 @@ impl RunMemory {
         let world = plan.world.bytes() as f64;
         Self {
             program: PROGRAM_BYTES,
-            scene: world + TextureUse::of(&plan.material_table).memory_bytes() as f64,
+            scene: world + TextureUse::from_materials(&plan.material_table).memory_bytes() as f64,
             cameras: plan.cameras.iter().map(|camera| (camera.name.clone(), of_camera(camera))).collect(),
-            held_films: 0.0,
+            stored_films: 0.0,
         }
     }
 
     /// Returns the memory as a plan states it.
     #[must_use]
-    pub fn planned(plan: &Plan) -> Self {
+    pub fn of_plan(plan: &Plan) -> Self {
         Self::new(plan, PLANNED_THREADS)
     }
 
@@ -67,7 +67,7 @@ impl RunMemory {
             let count = if group[0].time == TimeDependence::None { 1 } else { moments };
             count as f64 * plan.film_bytes(group[0]).memory
         });
-        Self { held_films: films.sum(), ..self }
+        Self { stored_films: films.sum(), ..self }
     }
 
     /// Returns the memory of a run that renders films and computes nothing from them.
@@ -79,16 +79,16 @@ impl RunMemory {
 
     /// Returns the camera with the highest memory.
     #[must_use]
-    pub fn largest(&self) -> Option<&(String, CameraMemory)> {
-        self.cameras.iter().max_by(|(_, a), (_, b)| a.most().bytes.total_cmp(&b.most().bytes))
+    pub fn largest_camera(&self) -> Option<&(String, CameraMemory)> {
+        self.cameras.iter().max_by(|(_, a), (_, b)| a.peak_stage().bytes.total_cmp(&b.peak_stage().bytes))
     }
 
     /// Returns the peak memory without the program itself.
     #[must_use]
     pub fn beyond_program(&self) -> f64 {
         // The film of the largest camera is one of the stored ones.
-        let camera = self.largest().map_or(0.0, |(_, camera)| camera.most().bytes - camera.film.min(self.held_films));
-        self.scene + self.held_films + camera + (KEPT_FRACTION * camera).min(KEPT_BYTES)
+        let camera = self.largest_camera().map_or(0.0, |(_, camera)| camera.peak_stage().bytes - camera.film.min(self.stored_films));
+        self.scene + self.stored_films + camera + (RETAINED_FRACTION * camera).min(RETAINED_BYTES)
     }
 
     /// Returns the peak memory of the whole run.
@@ -101,12 +101,12 @@ impl RunMemory {
     #[must_use]
     pub fn parts(&self) -> String {
         let mb = |bytes: f64| format!("{:.1} MB", bytes / 1e6);
-        let camera = self.largest().map_or_else(String::new, |(name, camera)| {
-            let most = camera.most();
-            format!(", camera {name} {} while {} (its film {})", mb(most.bytes), most.stage, mb(camera.film))
+        let camera = self.largest_camera().map_or_else(String::new, |(name, camera)| {
+            let peak = camera.peak_stage();
+            format!(", camera {name} {} while {} (its film {})", mb(peak.bytes), peak.stage, mb(camera.film))
         });
-        let held =
-            if self.held_films > 0.0 { format!(", stored films {}", mb(self.held_films)) } else { String::new() };
-        format!("program {}, scene {}{held}{camera}", mb(self.program), mb(self.scene))
+        let stored =
+            if self.stored_films > 0.0 { format!(", stored films {}", mb(self.stored_films)) } else { String::new() };
+        format!("program {}, scene {}{stored}{camera}", mb(self.program), mb(self.scene))
     }
 }

@@ -13,7 +13,7 @@ const NODE_BYTES: usize = 2 * size_of::<[f32; 4]>();
 /// Memory per triangle while the tree is built: its corners, its box, the reference that is sorted, and two nodes before and after optimisation.
 const BUILDING_BYTES: usize = size_of::<[Vec3; 3]>() + size_of::<[Vec3; 2]>() + NODE_BYTES + 2 * 2 * NODE_BYTES;
 /// Memory per triangle in the tree: a quarter of a group of four with their indices, as much for groups that are not full and for nodes, and its identifier.
-const HELD_BYTES: usize = 2 * size_of::<[f32; 10]>() + size_of::<[u32; 2]>();
+const TREE_BYTES: usize = 2 * size_of::<[f32; 10]>() + size_of::<[u32; 2]>();
 
 /// The memory of a view, bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub(super) struct ViewMemory {
     /// Memory while its tree is built.
     pub(super) building: f64,
     /// Memory while it is in use.
-    pub(super) held: f64,
+    pub(super) stored: f64,
 }
 
 impl ViewMemory {
@@ -32,12 +32,12 @@ impl ViewMemory {
         };
         let instanced: usize = world.instances().iter().map(|instance| triangles(&instance.shape)).sum();
         let flattened = instanced.min(MAX_TRIANGLES);
-        Self { building: (flattened * BUILDING_BYTES) as f64, held: (flattened * HELD_BYTES) as f64 }
+        Self { building: (flattened * BUILDING_BYTES) as f64, stored: (flattened * TREE_BYTES) as f64 }
     }
 
     /// Returns the memory of a stage that builds a view and then takes `bytes` while it uses the view; 0 if `bytes` is 0.
     pub(super) fn stage_bytes(&self, bytes: f64) -> f64 {
-        if bytes == 0.0 { 0.0 } else { self.building.max(bytes + self.held) }
+        if bytes == 0.0 { 0.0 } else { self.building.max(bytes + self.stored) }
     }
 }
 
@@ -45,7 +45,7 @@ impl ViewMemory {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::report) struct TextureUse {
     /// Bytes of the textures in memory.
-    held_bytes: u64,
+    bytes_in_memory: u64,
     /// Number of textures in tiles on disk.
     tiled: usize,
     /// Bytes of these on disk.
@@ -55,10 +55,10 @@ pub(in crate::report) struct TextureUse {
 }
 
 impl TextureUse {
-    pub(in crate::report) fn of(materials: &MaterialTable) -> Self {
+    pub(in crate::report) fn from_materials(materials: &MaterialTable) -> Self {
         let mut all = Self::default();
         for texture in materials.textures() {
-            all.held_bytes += texture.texel_bytes() as u64;
+            all.bytes_in_memory += texture.texel_bytes() as u64;
             if let Some((bytes, memory)) = texture.tiles() {
                 all.tiled += 1;
                 all.tiled_bytes += bytes;
@@ -71,7 +71,7 @@ impl TextureUse {
 
     /// Maximum memory, bytes.
     pub(in crate::report) fn memory_bytes(&self) -> u64 {
-        self.held_bytes + self.limit_bytes.min(self.tiled_bytes)
+        self.bytes_in_memory + self.limit_bytes.min(self.tiled_bytes)
     }
 
     /// Textures on disk, as text; `None` without any.

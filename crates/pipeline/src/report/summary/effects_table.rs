@@ -3,7 +3,7 @@
 use super::words::seconds;
 use crate::plan::{CameraPlan, Plan};
 use crate::report::FrameCost;
-use crate::report::effects::{EffectGroup, IfDropped, PlannedEffect};
+use crate::report::effects::{EffectGroup, OmissionResult, PlannedEffect};
 use etendue_core::EffectStatus;
 use std::fmt::{self, Formatter};
 
@@ -12,12 +12,12 @@ const WIDTH: usize = 110;
 /// Column at which lists begin.
 const INDENT: usize = 17;
 /// Column at which the last column of the table begins.
-const DROPPED: usize = 62;
+const OMISSION_COLUMN: usize = 62;
 /// Minimum fraction of the frame's time for a row, if nothing else is known of the effect.
-const LISTED_SHARE: f64 = 0.005;
+const MIN_LISTED_FRACTION: f64 = 0.005;
 
 pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    let frame_s = FrameCost::of(plan, camera).cpu_s();
+    let frame_s = FrameCost::new(plan, camera).cpu_s();
     let effects = plan.effects(camera);
     let (rows, rest): (Vec<_>, Vec<_>) = effects.iter().partition(|effect| has_figures(effect, frame_s));
     let (name, need) = ("effect", "");
@@ -29,43 +29,43 @@ pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<
     };
     list("also required", &named(|effect| matches!(effect.status, EffectStatus::Modelled(_))), f)?;
     list("also guarded", &named(|effect| matches!(effect.status, EffectStatus::WhereNeeded(_))), f)?;
-    list("skipped", &named(|effect| !effect.status.is_modelled() && !is_said_above(effect)), f)
+    list("skipped", &named(|effect| !effect.status.is_modelled() && !is_listed_above(effect)), f)
 }
 
 /// Returns true if the lines of the sensor, of processing and of products already state that it is left out.
-fn is_said_above(effect: &PlannedEffect) -> bool {
+fn is_listed_above(effect: &PlannedEffect) -> bool {
     matches!(effect.group, EffectGroup::Sensor | EffectGroup::Processing | EffectGroup::Output)
 }
 
 /// Returns true if a row would state more than the name.
 fn has_figures(effect: &PlannedEffect, frame_s: f64) -> bool {
-    let has_errors = effect.if_dropped.as_ref().is_some_and(|dropped| !dropped.errors.is_empty());
-    let takes = effect.cpu_s.is_some_and(|s| s > LISTED_SHARE * frame_s);
+    let has_errors = effect.omission.as_ref().is_some_and(|omission| !omission.errors.is_empty());
+    let takes = effect.cpu_s.is_some_and(|s| s > MIN_LISTED_FRACTION * frame_s);
     effect.status.is_modelled() && (takes || effect.memory_bytes.is_some() || has_errors)
 }
 
 fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
     let unknown = || "–".to_owned();
     let cpu = effect.cpu_s.map_or_else(unknown, seconds);
-    let share = effect.cpu_s.filter(|_| frame_s > 0.0);
-    let share = share.map_or_else(unknown, |s| format!("{:.0} %", 100.0 * s / frame_s));
+    let fraction = effect.cpu_s.filter(|_| frame_s > 0.0);
+    let fraction = fraction.map_or_else(unknown, |s| format!("{:.0} %", 100.0 * s / frame_s));
     let memory = effect.memory_bytes.map_or_else(unknown, |bytes| format!("{:.1}", bytes / 1e6));
     let need = if matches!(effect.status, EffectStatus::WhereNeeded(_)) { "guarded" } else { "required" };
-    write!(f, "  {:<29} {need:<8} {cpu:>6} {share:>5} {memory:>6}  ", effect.name)?;
-    let parts = effect.if_dropped.as_ref().map_or_else(Vec::new, |dropped| self::dropped(effect.group, dropped));
-    writeln!(f, "{}", wrapped(&parts, DROPPED))
+    write!(f, "  {:<29} {need:<8} {cpu:>6} {fraction:>5} {memory:>6}  ", effect.name)?;
+    let parts = effect.omission.as_ref().map_or_else(Vec::new, |omission| self::dropped(effect.group, omission));
+    writeln!(f, "{}", wrapped(&parts, OMISSION_COLUMN))
 }
 
 /// Result of dropping it, part by part; the removal of a product changes nothing else.
-fn dropped(group: EffectGroup, dropped: &IfDropped) -> Vec<String> {
-    let saved = match (&dropped.set, dropped.cpu_saved_s) {
+fn dropped(group: EffectGroup, omission: &OmissionResult) -> Vec<String> {
+    let saving = match (&omission.set, omission.cpu_saved_s) {
         (None, _) => Some("no key".to_owned()),
         (Some(_), Some(s)) => Some(format!("saves {} s", seconds(s))),
         (Some(_), None) => None,
     };
-    let is_unknown = dropped.errors.is_empty() && dropped.set.is_some() && group != EffectGroup::Output;
-    let errors = dropped.errors.iter().map(ToString::to_string);
-    saved.into_iter().chain(errors).chain(is_unknown.then(|| "error ?".to_owned())).collect()
+    let is_unknown = omission.errors.is_empty() && omission.set.is_some() && group != EffectGroup::Output;
+    let errors = omission.errors.iter().map(ToString::to_string);
+    saving.into_iter().chain(errors).chain(is_unknown.then(|| "error ?".to_owned())).collect()
 }
 
 /// Parts separated by commas, in lines that begin at a column and end within the width.

@@ -78,7 +78,7 @@ fn shape(mirror: &Mirror) -> String {
 
 fn reflectance(mirror: &Mirror) -> String {
     match mirror.reflectance() {
-        Reflectance::Share(curve) => {
+        Reflectance::Fraction(curve) => {
             let (low, high) = curve.range();
             match low == high {
                 true => format!("reflectance {low}"),
@@ -92,12 +92,12 @@ fn reflectance(mirror: &Mirror) -> String {
 /// The drops, and their omissions.
 pub(super) fn drops(drops: &Drops) -> Vec<String> {
     let p = drops.parameters();
-    let [least, greatest] = p.radius_mm.map(figure);
+    let [smallest, greatest] = p.radius_mm.map(figure);
     let volume: f64 = drops.droplets().iter().map(|d| Cap::new(d.radius_mm, p.contact_angle_rad).volume_mm3()).sum();
     let largest = drops.droplets().iter().map(|d| d.radius_mm).fold(0.0, f64::max);
     let there = vec![
         format!(
-            "water drops on the windscreen, traced: {} of {least} to {greatest} mm radius fell on {} × {} mm and \
+            "water drops on the windscreen, traced: {} of {smallest} to {greatest} mm radius fell on {} × {} mm and \
              merged to {} of at most {} mm; contact angle {}°; they cover {:.2} % of this area and contain {:.1} µl",
             p.count,
             figure(p.size_mm.x),
@@ -116,14 +116,14 @@ pub(super) fn drops(drops: &Drops) -> Vec<String> {
 }
 
 /// Returns the changes of the drops over time, as text.
-fn course(course: &Course) -> String {
-    let Course { start_s, sliding, drying_s, arrivals_hz, wiper } = course;
-    let slide = sliding
+fn course(drop_motion: &Course) -> String {
+    let Course { start_s, sliding, drying_s, arrivals_hz, wiper } = drop_motion;
+    let sliding_text = sliding
         .map(|s| format!("slide at up to {} mm/s from {} mm radius", figure(s.speed_mm_s), figure(s.still_radius_mm)));
     let dry = drying_s.map(|s| format!("dry in {} s", figure(s)));
-    let arrive = (*arrivals_hz > 0.0).then(|| format!("arrive at {} per second", figure(*arrivals_hz)));
-    let wiped = wiper.map(|w| format!("are wiped every {} s from {} s", figure(w.period_s), figure(w.start_s)));
-    let changes: Vec<String> = [slide, dry, arrive, wiped].into_iter().flatten().collect();
+    let arrival_text = (*arrivals_hz > 0.0).then(|| format!("arrive at {} per second", figure(*arrivals_hz)));
+    let wiper_text = wiper.map(|w| format!("are wiped every {} s from {} s", figure(w.period_s), figure(w.start_s)));
+    let changes: Vec<String> = [sliding_text, dry, arrival_text, wiper_text].into_iter().flatten().collect();
     format!(
         "drops change from {} s on (figures above: at that time): they {}; each exposure uses their state at its \
          middle",

@@ -4,8 +4,8 @@ use super::{figure, front, line, list};
 use crate::plan::{CameraPlan, Route};
 use etendue_optics::DepthOfField;
 use etendue_optics::effects::Effect;
-use etendue_optics::{Effects, Lens, PupilProjection, PupilStance};
-use etendue_projection::Sense;
+use etendue_optics::{Effects, Lens, PupilProjection, PupilOrientation};
+use etendue_projection::DistortionDirection;
 use std::fmt::{self, Formatter};
 
 pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -53,10 +53,10 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             line(f, "route", format!("{size}; {}", depth_of_field(camera)))
         }
     }?;
-    line(f, "left out", left_out(lens, &camera.body.effects))
+    line(f, "left out", omitted_effects(lens, &camera.body.effects))
 }
 
-fn left_out(lens: &Lens, effects: &Effects) -> String {
+fn omitted_effects(lens: &Lens, effects: &Effects) -> String {
     let missing = |words: &[&'static str]| {
         let models = |effect| effects.status(effect).is_modelled();
         let effect = |word: &str| match word {
@@ -97,8 +97,8 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
         Lens::Calibrated(lens) => {
             let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
                 (true, _) => "illumination as measured",
-                (false, PupilStance::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
-                (false, PupilStance::Turning) => "illumination of a pupil that faces the light, dΩ/dA",
+                (false, PupilOrientation::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
+                (false, PupilOrientation::Oriented) => "illumination of a pupil that faces the light, dΩ/dA",
             };
             let missing = missing(&["aberrations", "dispersion", "diffraction", "glare", "ghosts"]);
             format!("{missing}: not modelled; {pupil}")
@@ -143,8 +143,8 @@ fn distortion(lens: &Lens) -> String {
         (Some(d), _) => {
             let [k1, k2] = d.coefficients();
             let sense = match d.sense() {
-                Sense::IdealToObserved => "ideal to observed",
-                Sense::ObservedToIdeal => "observed to ideal",
+                DistortionDirection::IdealToObserved => "ideal to observed",
+                DistortionDirection::ObservedToIdeal => "observed to ideal",
             };
             format!("radial, {sense}, k1 {k1}, k2 {k2}, radius in units of {:.4} mm", d.unit_mm())
         }

@@ -2,34 +2,34 @@
 
 use super::list;
 use super::words::ratio;
-use crate::compile::shared_light::why_apart;
+use crate::compile::shared_light::own_light_reason;
 use crate::plan::Settings;
-use crate::plan::pixel_density::UNIFORM_SHARE_WITH_BANDS;
+use crate::plan::pixel_density::UNIFORM_FRACTION_WITH_BANDS;
 use crate::plan::{CameraPlan, Plan};
 use crate::plan::{SpectralGain, WavelengthSampling};
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use etendue_core::Bands;
 
 /// Another camera of the plan whose film serves this one; `None` if it has its own.
-pub(super) fn server<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<&'a CameraPlan> {
+pub(super) fn light_provider<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<&'a CameraPlan> {
     plan.cameras.iter().find(|other| other.light == camera.light).filter(|other| other.index != camera.index)
 }
 
 /// Text on a camera's light; `None` if it is its own and no other camera's is nearly the same.
 pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
-    if !camera.owns_light() {
+    if !camera.is_first_with_light() {
         let owner = &camera.light.camera;
-        return Some(match server(plan, camera) {
+        return Some(match light_provider(plan, camera) {
             Some(_) => format!("that of camera {owner}, with the same errors: the light is equal and is rendered once"),
             None => format!("equal to that of camera {owner} of the job, with the same random numbers"),
         });
     }
-    why_apart(plan, camera)
+    own_light_reason(plan, camera)
         .map(|(other, unlike)| format!("its own: camera {other} has the same view, but differs in {}", list(&unlike)))
 }
 
 /// Further cameras that a film serves, as a part of a sentence.
-pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
+pub(super) fn other_users(plan: &Plan, camera: &CameraPlan) -> String {
     let others: Vec<&str> = plan
         .cameras
         .iter()
@@ -55,8 +55,8 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
             format!("sampled by the pixel's response and the light's spectrum, which divides {}", saves(gain))
         }
         (WavelengthSampling::Response, Some(gain)) => {
-            let why = match (gain.pays(), camera.settings.bands) {
-                (false, _) if gain.is_felt() => "which may cost more than it saves",
+            let why = match (gain.should_apply(), camera.settings.bands) {
+                (false, _) if gain.is_gain() => "which may cost more than it saves",
                 (false, _) => "which saves too little",
                 (true, Some(_)) => "but bands are stored, too",
                 (true, None) => "but it is left out as requested",
@@ -68,8 +68,8 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
 
 /// Effect on the variance of pixels whose samples differ much.
 fn saves(gain: &SpectralGain) -> String {
-    let SpectralGain { mean, least, most } = gain;
-    format!("the variance of noisy pixels by {} ({} to {})", ratio(*mean), ratio(*least), ratio(*most))
+    let SpectralGain { mean, min, max } = gain;
+    format!("the variance of noisy pixels by {} ({} to {})", ratio(*mean), ratio(*min), ratio(*max))
 }
 
 /// Returns the noise from the choice of wavelengths alone in a band of uniform light, as a part of a sentence.
@@ -79,16 +79,16 @@ pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
     if camera.pass_count() > 1 {
         return String::new();
     }
-    let of = if s.folded { SpectrumSpread::most_band_noise } else { SpectrumSpread::band_noise };
-    let noise = of(camera.spectrum_spread(), s.spp, s.replicates, s.wavelengths, band_share(s, bands));
+    let of = if s.accumulates_electrons { SpectrumSpread::max_band_noise } else { SpectrumSpread::band_noise };
+    let noise = of(camera.spectrum_spread(), s.spp, s.replicates, s.wavelengths, band_fraction(s, bands));
     let Some(noise) = noise else { return String::new() };
-    let most = if s.folded { "up to " } else { "" };
-    format!(", each with {most}{:.1} % of noise from wavelength sampling under uniform illumination", 100.0 * noise)
+    let prefix = if s.accumulates_electrons { "up to " } else { "" };
+    format!(", each with {prefix}{:.1} % of noise from wavelength sampling under uniform illumination", 100.0 * noise)
 }
 
 /// Minimum fraction of the density of wavelengths in a band: if electrons are accumulated in addition to bands, half of the density follows the pixel's
 /// response, which may be zero there.
-fn band_share(settings: &Settings, bands: Bands) -> f64 {
-    let even = bands.width_nm() / settings.range.width_nm();
-    if settings.folded { UNIFORM_SHARE_WITH_BANDS * even } else { even }
+fn band_fraction(settings: &Settings, bands: Bands) -> f64 {
+    let uniform_fraction = bands.width_nm() / settings.range.width_nm();
+    if settings.accumulates_electrons { UNIFORM_FRACTION_WITH_BANDS * uniform_fraction } else { uniform_fraction }
 }

@@ -9,11 +9,11 @@ mod processing;
 mod time;
 mod words;
 
-use crate::plan::remark::{Weight, grouped};
+use crate::plan::remark::{Severity, grouped};
 use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{light_counts, training};
 use crate::report::FrameCost;
-use crate::report::cpu_time::Share;
+use crate::report::cpu_time::FilmWork;
 use crate::report::effects::lens::irradiance_effect_status;
 use crate::report::memory::TextureUse;
 use crate::report::{FilmBytes, RunMemory};
@@ -24,7 +24,7 @@ use etendue_core::{Accelerator, Bands, EffectStatus, Integrator};
 use etendue_optics::effects::Effect;
 use etendue_sensor::SensorEffect;
 use etendue_sensor::figures::db;
-use etendue_sensor::figures::{DynamicRange, Switch};
+use etendue_sensor::figures::{DynamicRange, CaptureTransition};
 use etendue_tracer::geometry::Shape;
 use std::fmt::{self, Display, Formatter};
 use words::{count, figure, line, list, seconds};
@@ -46,14 +46,14 @@ impl Display for Summary<'_> {
         memory(plan, f)?;
         writeln!(f, "\n{LEGEND}")?;
         section(f, "warnings", &plan.warnings())?;
-        let notes = grouped(&plan.remarks).into_iter().filter(|remark| remark.weight == Weight::Note);
-        section(f, "notes", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
+        let notes = grouped(&plan.notes).into_iter().filter(|note| note.weight == Severity::Note);
+        section(f, "notes", &notes.map(|note| note.to_string()).collect::<Vec<_>>())
     }
 }
 
 /// Writes the memory of the whole run.
 fn memory(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
-    let memory = RunMemory::planned(plan);
+    let memory = RunMemory::of_plan(plan);
     line(f, "memory", format!("{:.0} MB for the whole run: {}", memory.bytes() / 1e6, memory.parts()))
 }
 
@@ -71,15 +71,15 @@ const LEGEND: &str = "no key: no key leaves it out. error ?: unknown; etendue tr
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "\nscene")?;
     let stored: usize = plan.world.meshes().iter().map(|m| m.triangles().len()).sum();
-    let (mut seen, mut spheres) = (0, 0);
+    let (mut visible_triangles, mut spheres) = (0, 0);
     for instance in plan.world.instances() {
         match instance.shape {
-            Shape::Mesh(id) => seen += plan.world.mesh(id).triangles().len(),
+            Shape::Mesh(id) => visible_triangles += plan.world.mesh(id).triangles().len(),
             Shape::Sphere { .. } => spheres += 1,
         }
     }
     let instances = plan.world.instances().len();
-    let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
+    let triangles = format!("{} ({stored} stored)", count(visible_triangles, "triangle"));
     let trees = match plan.world.tree_quality() {
         Accelerator::Fast => "; acceleration structure built fast: rays take longer",
         Accelerator::Default => "",
@@ -90,7 +90,7 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     meshes(plan, f)?;
     let textures = count(plan.material_table.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
-    if let Some(tiles) = TextureUse::of(&plan.material_table).tiles() {
+    if let Some(tiles) = TextureUse::from_materials(&plan.material_table).tiles() {
         line(f, "textures", tiles)?;
     }
     if let Some(sky) = &plan.sky {
@@ -221,8 +221,8 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
     let samples = samples(camera);
     let alone = if s.wavelengths == 1 && camera.body.disperses() { ", as the optics are dispersive" } else { "" };
-    let carried = count(s.wavelengths as usize, "wavelength");
-    line(f, "sampling", format!("{samples}, seed {}, {carried} per path{alone}", s.seed))?;
+    let wavelength_count = count(s.wavelengths as usize, "wavelength");
+    line(f, "sampling", format!("{samples}, seed {}, {wavelength_count} per path{alone}", s.seed))?;
     if let Some(text) = light::wavelengths(camera) {
         line(f, "wavelengths", text)?;
     }
@@ -255,13 +255,13 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         let noise = light::band_noise(camera, bands);
         format!("{} band means of {} nm are stored{noise}", bands.count(), bands.width_nm())
     };
-    let kept = match (s.bands, s.folded) {
+    let storage = match (s.bands, s.accumulates_electrons) {
         (Some(bands), false) => cube(bands),
         (Some(bands), true) => format!("{}; electrons are summed as well", cube(bands)),
         (None, true) => "not stored: pixels sum electrons directly".to_owned(),
         (None, false) => "not stored".to_owned(),
     };
-    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range.low_nm, s.range.high_nm))
+    line(f, "spectrum", format!("{} to {} nm; {storage}", s.range.low_nm, s.range.high_nm))
 }
 
 fn path_depth(settings: &Settings) -> String {
@@ -284,14 +284,14 @@ fn path_depth(settings: &Settings) -> String {
 fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let effects = &camera.body.effects;
     let [columns, rows] = effects.margin_px();
-    let about = match (effects.is_idle(), columns + rows) {
+    let area = match (effects.is_idle(), columns + rows) {
         (true, _) => "none on the irradiance".to_owned(),
         (false, 0) => "on the irradiance; light from outside the image is missing".to_owned(),
         (false, _) => {
             format!("on the irradiance, with {columns} columns and {rows} rows rendered beyond each edge of the image")
         }
     };
-    line(f, "effects", about)?;
+    line(f, "effects", area)?;
     for effect in Effect::ALL {
         let status = irradiance_effect_status(camera, effect);
         line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
@@ -315,13 +315,13 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             p.exposure.exposure_s, p.read_out.bits, p.charge.full_well.capacity_e
         ),
     )?;
-    let (silent, stated): (Vec<_>, Vec<_>) =
+    let (without_figures, with_figures): (Vec<_>, Vec<_>) =
         sensor.effects().into_iter().partition(|effect| effect.status == EffectStatus::NotDescribed);
-    for SensorEffect { name, status, .. } in stated {
+    for SensorEffect { name, status, .. } in with_figures {
         line(f, "", format!("{name}: {status}: {}", status.reason()))?;
     }
-    let silent: Vec<_> = silent.into_iter().map(|effect| effect.name).collect();
-    line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
+    let without_figures: Vec<_> = without_figures.into_iter().map(|effect| effect.name).collect();
+    line(f, "", format!("left out, as not described: {}", without_figures.join(", ")))?;
     line(f, "", range(&sensor.dynamic_range()))
 }
 
@@ -334,36 +334,36 @@ fn scale(camera: &CameraPlan) -> String {
 
 /// Dynamic range of a frame.
 fn range(range: &DynamicRange) -> String {
-    if range.most_e <= range.least_e {
+    if range.upper_e <= range.lower_e {
         return "dynamic range: none; the full well or the range of the ADC is below the noise".into();
     }
-    let switch = |s: &Switch| {
+    let switch = |s: &CaptureTransition| {
         format!("; switch to the next capture at {:.4e} e⁻: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
     };
     let switches: String = range.switches.iter().map(switch).collect();
-    format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
+    format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.lower_e, range.upper_e)
 }
 
 fn products(products: &Products) -> String {
-    let listed = products.listed().into_iter().filter(|product| product.is_delivered);
+    let listed = products.list().into_iter().filter(|product| product.is_delivered);
     let list: Vec<&str> = listed.filter_map(|product| product.text).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
 }
 
 /// Minimum time, s, or fraction of the whole, of the listed work in addition to the paths.
-const LISTED_CPU_S: f64 = 0.5;
-const LISTED_SHARE: f64 = 0.05;
+const MIN_LISTED_CPU_S: f64 = 0.5;
+const MIN_LISTED_FRACTION: f64 = 0.05;
 /// Total time below which no fractions are stated, s.
 const SHORT_CPU_S: f64 = 1.0;
 
 fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    let cost = FrameCost::of(plan, camera);
-    if let Some(server) = light::server(plan, camera) {
+    let cost = FrameCost::new(plan, camera);
+    if let Some(server) = light::light_provider(plan, camera) {
         line(f, "cost", format!("no separate paths: shares those of camera {}", server.name))?;
-        return cost_beside(&cost.parts, cost.film_cpu_s(), f);
+        return write_further_cost(&cost.parts, cost.film_cpu_s(), f);
     }
     let upwards = if cost.is_lower_bound { " or more" } else { "" };
-    let served = light::served(plan, camera);
+    let served = light::other_users(plan, camera);
     line(
         f,
         "cost",
@@ -374,7 +374,7 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
             film(cost.film)
         ),
     )?;
-    cost_beside(&cost.parts, cost.cpu_s(), f)
+    write_further_cost(&cost.parts, cost.cpu_s(), f)
 }
 
 /// Storage of a film.
@@ -389,14 +389,14 @@ fn film(bytes: FilmBytes) -> String {
 }
 
 /// Work in addition to the paths, and the total time; empty if it is short.
-fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
-    let least_s = LISTED_CPU_S.min(LISTED_SHARE * whole_s);
-    let listed = |share: &&Share| whole_s > SHORT_CPU_S && share.cpu_s > least_s;
-    let words = |share: &Share| {
-        let why = if share.holds_for.is_empty() { String::new() } else { format!(" ({})", share.holds_for) };
-        format!("{} {}{why}", share.name, seconds(share.cpu_s))
+fn write_further_cost(film_work: &[FilmWork], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
+    let min_s = MIN_LISTED_CPU_S.min(MIN_LISTED_FRACTION * whole_s);
+    let listed = |work: &&FilmWork| whole_s > SHORT_CPU_S && work.cpu_s > min_s;
+    let words = |work: &FilmWork| {
+        let why = if work.holds_for.is_empty() { String::new() } else { format!(" ({})", work.holds_for) };
+        format!("{} {}{why}", work.name, seconds(work.cpu_s))
     };
-    let list: Vec<String> = shares.iter().filter(|share| share.cpu_s > 0.0).filter(listed).map(words).collect();
+    let list: Vec<String> = film_work.iter().filter(|work| work.cpu_s > 0.0).filter(listed).map(words).collect();
     if list.is_empty() {
         return Ok(());
     }

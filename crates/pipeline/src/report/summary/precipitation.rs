@@ -12,7 +12,7 @@ pub(super) fn field(precipitation: &Precipitation) -> String {
         "{what} of {} mm/h (its {number} carry {} mm/h), {} {number} per m³; meteorological visibility {} m (2 %) and \
          extinction {} 1/km, extinction in an image {} 1/km; falls from {} m",
         significant(law.rate_mm_h()),
-        significant(law.carried_mm_h()),
+        significant(law.water_rate_mm_h()),
         significant(law.number_per_m3()),
         significant(law.visibility_m()),
         significant(1e3 * law.meteorological_extinction_per_m()),

@@ -14,7 +14,7 @@ pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Res
         return line(f, "processing", "none: no image is produced");
     };
     line(f, "processing", development.to_string())?;
-    line(f, "left out", left_out(&development.processing))
+    line(f, "left out", omitted_steps(&development.processing))
 }
 
 /// The steps, in order.
@@ -29,7 +29,7 @@ impl fmt::Display for Development {
             .chain([tone(&processing.tone)])
             .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px, amount {}", s.radius_px, s.amount)))
             .chain(paper(processing, Stage::Display))
-            .chain([written(*format)]);
+            .chain([format_name(*format)]);
         f.write_str(&steps.collect::<Vec<_>>().join(", "))
     }
 }
@@ -108,14 +108,14 @@ fn paper(p: &Processing, stage: Stage) -> Vec<String> {
     p.image_filters.iter().filter(|filter| filter.stage() == stage).map(|filter| name(filter).to_owned()).collect()
 }
 
-fn written(format: PictureFormat) -> String {
+fn format_name(format: PictureFormat) -> String {
     match format {
         PictureFormat::Png { bits } => format!("{bits} bits"),
         PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
     }
 }
 
-fn left_out(p: &Processing) -> String {
+fn omitted_steps(p: &Processing) -> String {
     let absent = [
         (p.defects.is_off(), "defect correction"),
         (p.shading.is_none(), "shading correction"),
@@ -124,6 +124,6 @@ fn left_out(p: &Processing) -> String {
         (p.sharpening.is_none(), "sharpening"),
     ];
     let list: Vec<&str> = absent.iter().filter(|(is, _)| *is).map(|(_, name)| *name).collect();
-    let asked = if list.is_empty() { String::new() } else { format!("{}: not requested; ", list.join(", ")) };
-    format!("{asked}highlight recovery and local tone mapping: not modelled")
+    let not_requested = if list.is_empty() { String::new() } else { format!("{}: not requested; ", list.join(", ")) };
+    format!("{not_requested}highlight recovery and local tone mapping: not modelled")
 }

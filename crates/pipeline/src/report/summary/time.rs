@@ -7,21 +7,21 @@ use etendue_tracer::geometry::{Instance, Shape};
 
 /// Moving parts; `None` without any.
 pub(super) fn motion(plan: &Plan) -> Option<String> {
-    let instances = plan.world.instances().iter().filter(|i| i.to_world.as_still().is_none()).count();
-    let cameras = plan.cameras.iter().filter(|camera| !camera.path.is_still()).count();
-    let told = |count: usize, one: &str, many: &str| match count {
+    let instances = plan.world.instances().iter().filter(|i| i.to_world.as_constant().is_none()).count();
+    let cameras = plan.cameras.iter().filter(|camera| !camera.path.is_stationary()).count();
+    let phrase = |count: usize, one: &str, many: &str| match count {
         0 => None,
         1 => Some(format!("one {one} moves")),
         n => Some(format!("{n} {many} move")),
     };
-    let lamps = plan.sources.lamps.iter().filter(|lamp| lamp.to_world().as_still().is_none()).count();
+    let lamps = plan.sources.lamps.iter().filter(|lamp| lamp.to_world().as_constant().is_none()).count();
     let deforms = |instance: &&Instance| match instance.shape {
-        Shape::Mesh(id) => plan.world.mesh(id).animation().is_some_and(|animation| !animation.is_still()),
+        Shape::Mesh(id) => plan.world.mesh(id).animation().is_some_and(|animation| !animation.is_static()),
         Shape::Sphere { .. } => false,
     };
     let deforming = plan.world.instances().iter().filter(deforms).count();
     let moving =
-        [told(instances, "instance", "instances"), told(lamps, "lamp", "lamps"), told(cameras, "camera", "cameras")];
+        [phrase(instances, "instance", "instances"), phrase(lamps, "lamp", "lamps"), phrase(cameras, "camera", "cameras")];
     let deforming = match deforming {
         0 => None,
         1 => Some("the vertices of one instance move".to_owned()),

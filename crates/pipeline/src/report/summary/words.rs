@@ -12,8 +12,8 @@ pub(super) fn list(words: &[&str]) -> String {
 }
 
 /// A number with a noun: "1 sphere", "2 spheres".
-pub(super) fn count(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+pub(super) fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 /// One line: a name and its text.

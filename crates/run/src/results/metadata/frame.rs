@@ -12,14 +12,14 @@ use std::path::Path;
 
 /// Keys of the sensor's state, and of the first frame that contributed to it.
 const STATE: &str = "sensor_state";
-const SINCE: &str = "sensor_since_frame";
+const SINCE_FRAME: &str = "sensor_since_frame";
 /// Keys of the digests of the frame's files, by name, and of the hash of the rest of the file.
 const FILES: &str = "files";
 const SHA256: &str = "sha256";
 
 /// Returns a raw frame's facts: file, exposure and gain, levels, destination of overflowing charge, mean level and clipped pixels.
 pub(crate) fn raw_frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
-    let area = raw.picture;
+    let area = raw.image;
     let account = |(capture, a): &(usize, ChargeAccount)| {
         json!({
             "capture": capture,
@@ -40,15 +40,15 @@ pub(crate) fn raw_frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
         "picture_in_raw_px": [area.x, area.y, area.width, area.height],
         "companding_knees_dn": raw.companding.as_ref().map(|c| c.knees.clone()),
         "charge_e": raw.accounts.iter().map(account).collect::<Vec<_>>(),
-        (levels::LEVELS): levels::Levels::new(raw),
+        (levels::LEVELS): levels::FrameLevels::new(raw),
     })
 }
 
 /// Facts of a frame with its times and poses, and of its `photograph`, if any.
-pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph: Option<Value>) -> Value {
+pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, image: Option<Value>) -> Value {
     let exposure = camera.timing.capture(frame, 0);
     let pose = |time_s: f64| pose_rows(&camera.path.at(time_s));
-    let mut facts = photograph.unwrap_or_else(|| json!({ "frame": frame }));
+    let mut facts = image.unwrap_or_else(|| json!({ "frame": frame }));
     facts["plan_hash"] = plan.hash_text().into();
     let timing = &camera.timing;
     facts["exposure"] = json!({});
@@ -57,7 +57,7 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
     add_time(&mut facts, timing, "time", timing.frame_start(frame));
     add_time(&mut facts, timing, "pose_time", timing.frame_middle(frame));
     facts["camera_to_world"] = json!(pose(exposure.middle_s()));
-    if camera.time == TimeDependence::Motion && camera.path.still_over(exposure).is_none() {
+    if camera.time == TimeDependence::Motion && camera.path.constant_over(exposure).is_none() {
         facts["camera_to_world_start"] = json!(pose(exposure.start_s()));
         facts["camera_to_world_end"] = json!(pose(exposure.end_s()));
     }
@@ -67,12 +67,12 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
 /// Adds the state of the sensor after the frame, accumulated from the run's first frame on.
 pub(crate) fn with_state(mut facts: Value, after: &SensorState, since: u32) -> Value {
     facts[STATE] = serde_json::to_value(after).unwrap_or(Value::Null);
-    facts[SINCE] = since.into();
+    facts[SINCE_FRAME] = since.into();
     facts
 }
 
 /// Adds the digests of the frame's files and a hash of all facts, for [`check_whole`].
-pub(crate) fn sealed(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> Value {
+pub(crate) fn with_seal(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> Value {
     facts[FILES] = json!(files);
     facts[SHA256] = seal(&facts).into();
     facts
@@ -82,13 +82,13 @@ pub(crate) fn sealed(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> 
 ///
 /// # Errors
 /// Describes the first that differs.
-pub(crate) fn check_whole(facts: &Value, frame: u32, folder: &Path) -> Result<(), String> {
+pub(crate) fn check_seal(facts: &Value, frame: u32, folder: &Path) -> Result<(), String> {
     if facts["frame"] != frame {
         return Err("it is the file of another frame".to_owned());
     }
     let mut unsealed = facts.clone();
-    let stated = unsealed.as_object_mut().and_then(|table| table.remove(SHA256));
-    if stated != Some(seal(&unsealed).into()) {
+    let stated_digest = unsealed.as_object_mut().and_then(|table| table.remove(SHA256));
+    if stated_digest != Some(seal(&unsealed).into()) {
         return Err("it was changed after it was written".to_owned());
     }
     let files = BTreeMap::<String, FileDigest>::deserialize(&facts[FILES]);
@@ -107,14 +107,14 @@ fn seal(facts: &Value) -> String {
 /// Facts without those that only a resumed run needs.
 pub(crate) fn without_state(mut facts: Value) -> Value {
     if let Some(table) = facts.as_object_mut() {
-        [STATE, SINCE, FILES, SHA256].iter().for_each(|key| drop(table.remove(*key)));
+        [STATE, SINCE_FRAME, FILES, SHA256].iter().for_each(|key| drop(table.remove(*key)));
     }
     facts
 }
 
 /// State of a sensor after a frame, accumulated from frame `since` on; `None` if the file does not state it.
 pub(crate) fn state_of(facts: &Value, since: u32) -> Option<SensorState> {
-    facts.get(SINCE).filter(|stated| **stated == since)?;
+    facts.get(SINCE_FRAME).filter(|since_frame| **since_frame == since)?;
     serde_json::from_value(facts.get(STATE)?.clone()).ok()
 }
 

@@ -19,8 +19,8 @@ impl PhotometryAsset {
             PhotometryAxes::A => self.by_column(&columns, |v| v),
             PhotometryAxes::B => {
                 let bands: Vec<f64> =
-                    rows.iter().map(|v| latitudes(&self.horizontal_deg, |h| at(h, *v), |h| h)).collect();
-                trapezes(&self.vertical_deg, &bands)
+                    rows.iter().map(|v| integrate_over_latitudes(&self.horizontal_deg, |h| at(h, *v), |h| h)).collect();
+                integrate_trapezoids(&self.vertical_deg, &bands)
             }
         }
     }
@@ -28,13 +28,13 @@ impl PhotometryAsset {
     /// Flux of a grid whose vertical angles are latitudes after `latitude` is applied.
     fn by_column(&self, columns: &[usize], latitude: impl Fn(f64) -> f64 + Copy) -> f64 {
         let bands: Vec<f64> =
-            columns.iter().map(|h| latitudes(&self.vertical_deg, |v| self.column(*h)[v], latitude)).collect();
-        trapezes(&self.horizontal_deg, &bands)
+            columns.iter().map(|h| integrate_over_latitudes(&self.vertical_deg, |v| self.column(*h)[v], latitude)).collect();
+        integrate_trapezoids(&self.horizontal_deg, &bands)
     }
 }
 
 /// ∫ f cos t dt over a grid in degrees.
-fn latitudes(grid_deg: &[f64], value: impl Fn(usize) -> f64, latitude_deg: impl Fn(f64) -> f64) -> f64 {
+fn integrate_over_latitudes(grid_deg: &[f64], value: impl Fn(usize) -> f64, latitude_deg: impl Fn(f64) -> f64) -> f64 {
     let at = |i: usize| (latitude_deg(grid_deg[i]).to_radians(), value(i));
     let piece = |i: usize| {
         let ((t0, f0), (t1, f1)) = (at(i - 1), at(i));
@@ -45,7 +45,7 @@ fn latitudes(grid_deg: &[f64], value: impl Fn(usize) -> f64, latitude_deg: impl 
 }
 
 /// ∫ f dt over a grid in degrees.
-fn trapezes(grid_deg: &[f64], values: &[f64]) -> f64 {
+fn integrate_trapezoids(grid_deg: &[f64], values: &[f64]) -> f64 {
     let step = |i: usize| (grid_deg[i] - grid_deg[i - 1]).to_radians() * 0.5 * (values[i] + values[i - 1]);
     (1..grid_deg.len()).map(step).sum()
 }
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn an_even_lamp_gives_the_solid_angle_of_its_grid() {
+    fn a_uniform_lamp_gives_the_solid_angle_of_its_grid() {
         let all = [
             (PhotometryAxes::C, steps(0.0, 360.0, 5), steps(0.0, 180.0, 7), 4.0 * PI),
             (PhotometryAxes::C, vec![0.0, 360.0], vec![0.0, 60.0], PI),

@@ -121,11 +121,11 @@ impl PhotometryAsset {
         else {
             return 0.0;
         };
-        let along = |column: usize| {
+        let column_value = |column: usize| {
             let values = self.column(column);
             blend(values[v], values[(v + 1).min(values.len() - 1)], t)
         };
-        blend(along(h), along((h + 1).min(self.horizontal_deg.len() - 1)), s)
+        blend(column_value(h), column_value((h + 1).min(self.horizontal_deg.len() - 1)), s)
     }
 
     /// Intensity (cd) towards the right and up as in UN regulations for headlamps (a latitude and a longitude about a vertical axis, degrees); `None`
@@ -231,8 +231,8 @@ mod tests {
         assert_eq!(a.candela_ahead(10.0, -5.0), Some(a.candela_at(10.0, -5.0)));
         let b = grid(PhotometryAxes::B, &across, &up, |h, v| 100.0 + h + 2.0 * v);
         // cos 10° cos 20°, cos 10° sin 20°, sin 10° are ahead, right and up: asin 0.336824 and atan(0.173648 / 0.925417).
-        let found = b.candela_ahead(20.0, 10.0).expect("ahead");
-        assert!((found - (100.0 + 19.683_498 + 2.0 * 10.627_584)).abs() < 1e-5, "{found}: angles to six decimals");
+        let actual = b.candela_ahead(20.0, 10.0).expect("ahead");
+        assert!((actual - (100.0 + 19.683_498 + 2.0 * 10.627_584)).abs() < 1e-5, "{actual}: angles to six decimals");
         assert_eq!(grid(PhotometryAxes::C, &across, &up, |_, _| 1.0).candela_ahead(0.0, 0.0), None);
     }
 

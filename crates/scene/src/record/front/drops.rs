@@ -2,7 +2,7 @@
 
 use etendue_core::ExactTime;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, time, vector, whole};
 use crate::record::render::MAX_SEED;
@@ -16,7 +16,7 @@ record! {
         /// Offset of the rectangle's middle, right and down along the glass. Default: 0.
         optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
         /// Number of drops on the glass.
-        inside amount: DropAmount;
+        inside amount: DropCount;
         /// Smallest base radius.
         required min_radius_mm: Placed<f64> = number("mm").above(0.0);
         /// Largest base radius before merging. Real drops stay caps up to about 2.7 mm.
@@ -73,7 +73,7 @@ record! {
 
 keyed! {
     /// Number of fallen drops, before touching drops merge.
-    pub enum DropAmount {
+    pub enum DropCount {
         /// Drops in the rectangle; 0 only with "arrivals_per_s".
         count => Count(Placed<u64>) = whole(0, 1_000_000);
         /// Drops per dm²; 1 … 1 000 000 in all.
@@ -81,29 +81,29 @@ keyed! {
     }
 }
 
-fn check(drops: &Drops, faults: &mut Faults) {
-    let (least, greatest) = (&drops.min_radius_mm, &drops.max_radius_mm);
-    if least.value > greatest.value {
-        let problem = format!("{} mm is above max_radius_mm = {} mm", least.value, greatest.value);
-        faults.add(ErrorCode::WrongOrder, &least.place, problem, "give a minimum of at most the maximum");
+fn check(drops: &Drops, errors: &mut DescriptionErrors) {
+    let (min, greatest) = (&drops.min_radius_mm, &drops.max_radius_mm);
+    if min.value > greatest.value {
+        let problem = format!("{} mm is above max_radius_mm = {} mm", min.value, greatest.value);
+        errors.add(ErrorCode::WrongOrder, &min.place, problem, "give a minimum of at most the maximum");
     }
-    if let (DropAmount::Count(count), None) = (&drops.amount, &drops.arrivals_per_s)
+    if let (DropCount::Count(count), None) = (&drops.amount, &drops.arrivals_per_s)
         && count.value == 0
     {
-        faults.add(
+        errors.add(
             ErrorCode::Empty,
             &count.place,
             "there are no drops, and none are added",
             "give 1 or more, or \"arrivals_per_s\"",
         );
     }
-    check_course(drops, faults);
-    if let DropAmount::Density(density) = &drops.amount {
+    check_course(drops, errors);
+    if let DropCount::Density(density) = &drops.amount {
         let [width, height] = drops.size_mm.value;
         let count = density.value * width * height * 1e-4;
         if !(0.5..1_000_000.5).contains(&count) {
             let problem = format!("this density gives {count:.3} drops in size_mm = [{width}, {height}]");
-            faults.add(ErrorCode::OutOfRange, &density.place, problem, "choose it to give 1 to 1 000 000 drops");
+            errors.add(ErrorCode::OutOfRange, &density.place, problem, "choose it to give 1 to 1 000 000 drops");
         }
     }
 }
@@ -116,10 +116,10 @@ impl Drops {
     }
 }
 
-fn check_course(drops: &Drops, faults: &mut Faults) {
+fn check_course(drops: &Drops, errors: &mut DescriptionErrors) {
     if let (Some(start), false) = (&drops.start_s, drops.changes()) {
         let problem = "\"start_s\" has no effect here: nothing changes the drops";
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &start.place,
             problem,
@@ -130,29 +130,29 @@ fn check_course(drops: &Drops, faults: &mut Faults) {
     if let Some(sliding) = drops.sliding.as_ref().filter(too_still) {
         let (still, greatest) = (&sliding.still_radius_mm, drops.max_radius_mm.value);
         let problem = format!("{} mm is not below max_radius_mm = {greatest} mm", still.value);
-        faults.add(ErrorCode::WrongOrder, &still.place, problem, "make it smaller, or remove \"sliding\"");
+        errors.add(ErrorCode::WrongOrder, &still.place, problem, "make it smaller, or remove \"sliding\"");
     }
 }
 
-fn check_wiper(wiper: &Wiper, faults: &mut Faults) {
+fn check_wiper(wiper: &Wiper, errors: &mut DescriptionErrors) {
     let [inner, outer] = wiper.blade_mm.value;
     if inner >= outer {
         let problem = format!("the blade ends at {outer} mm, but begins at {inner} mm");
-        faults.add(ErrorCode::WrongOrder, &wiper.blade_mm.place, problem, "give the smaller distance first");
+        errors.add(ErrorCode::WrongOrder, &wiper.blade_mm.place, problem, "give the smaller distance first");
     }
     let [rest, turn] = wiper.angles_deg.value;
     if rest == turn || (rest - turn).abs() >= 360.0 {
         let problem = format!("the wiper turns from {rest}° to {turn}°");
-        faults.add(
+        errors.add(
             ErrorCode::OutOfRange,
             &wiper.angles_deg.place,
             problem,
             "give two angles that differ by more than 0° and less than 360°",
         );
     }
-    let least = 2.0 * wiper.sweep_s.value;
-    if wiper.period_s.value < least {
-        let problem = format!("{} s is shorter than one sweep there and back, {least} s", wiper.period_s.value);
-        faults.add(ErrorCode::OutOfRange, &wiper.period_s.place, problem, "make it at least twice \"sweep_s\"");
+    let min_period_s = 2.0 * wiper.sweep_s.value;
+    if wiper.period_s.value < min_period_s {
+        let problem = format!("{} s is shorter than one sweep there and back, {min_period_s} s", wiper.period_s.value);
+        errors.add(ErrorCode::OutOfRange, &wiper.period_s.place, problem, "make it at least twice \"sweep_s\"");
     }
 }

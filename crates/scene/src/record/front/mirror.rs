@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{keyed, known, number, path, record, variants, vector};
 use crate::record::material::Metal;
@@ -118,9 +118,9 @@ impl Finish {
     }
 }
 
-fn check(mirror: &Mirror, faults: &mut Faults) {
+fn check(mirror: &Mirror, errors: &mut DescriptionErrors) {
     if mirror.distance_mm.is_none() && !matches!(mirror.shape, MirrorShape::Hyperboloid(_)) {
         let remedy = "add it: the distance of the mirror's vertex from the centre of the entrance pupil, mm";
-        faults.add(ErrorCode::MissingKey, &mirror.place, "the key \"distance_mm\" is missing", remedy);
+        errors.add(ErrorCode::MissingKey, &mirror.place, "the key \"distance_mm\" is missing", remedy);
     }
 }

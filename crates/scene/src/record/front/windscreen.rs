@@ -1,7 +1,7 @@
 //! A windscreen in front of the camera.
 
 use super::drops::Drops;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record};
 use crate::record::curve::{Curve, curve};
@@ -50,14 +50,14 @@ record! {
     }
 }
 
-fn check(glass: &Windscreen, faults: &mut Faults) {
+fn check(glass: &Windscreen, errors: &mut DescriptionErrors) {
     if let (Some(thickness), None) = (&glass.reference_thickness_mm, &glass.internal_transmittance) {
         let problem = "\"reference_thickness_mm\" has no effect here, it belongs to \"internal_transmittance\"";
-        faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it, or add the transmittance");
+        errors.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it, or add the transmittance");
     }
     let doubles = glass.double_image.as_ref().is_none_or(|d| d.value);
-    if let (Some(share), false) = (&glass.double_image_sample_fraction, doubles) {
+    if let (Some(fraction), false) = (&glass.double_image_sample_fraction, doubles) {
         let problem = "\"double_image_sample_fraction\" has no effect with double_image = false";
-        faults.add(ErrorCode::NoEffect, &share.place, problem, "remove one of them");
+        errors.add(ErrorCode::NoEffect, &fraction.place, problem, "remove one of them");
     }
 }

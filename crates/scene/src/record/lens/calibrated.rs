@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
-use super::numbers::{f_number, share};
+use super::numbers::{f_number, fraction};
 use super::projection::{CalibrationFile, Projection, TableSource};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, words};
 
@@ -14,7 +14,7 @@ record! {
     /// A calibrated or ideal projection with the photometry of a lens.
     pub struct Calibrated check(check) {
         /// Viewing directions of the pixels.
-        inside view: View;
+        inside view: PixelDirections;
         /// f-number: irradiance on the axis is E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
         required f_number: Placed<f64> = f_number();
         /// Distance from the entrance pupil to the surface in focus, along the axis (flat) or ray (turning). Default: everything is sharp.
@@ -26,7 +26,7 @@ record! {
         /// Field angle beyond which the camera sees nothing. Default: the projection's end.
         optional greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
         /// Image size by wavelength. Default: equal.
         optional lateral_colour: LateralColour = record();
     }
@@ -34,7 +34,7 @@ record! {
 
 keyed! {
     /// Viewing directions of the pixels.
-    pub enum View {
+    pub enum PixelDirections {
         /// The projection.
         projection => Projection(Box<Projection>) = record();
         /// Calibration file of another program, for the sensor's image size.
@@ -42,7 +42,7 @@ keyed! {
     }
 }
 
-impl View {
+impl PixelDirections {
     /// File of a projection's table.
     #[must_use]
     pub fn projection_file(&self) -> Option<&Placed<PathBuf>> {
@@ -89,19 +89,19 @@ keyed! {
     }
 }
 
-fn check(lens: &Calibrated, faults: &mut Faults) {
+fn check(lens: &Calibrated, errors: &mut DescriptionErrors) {
     if let (Some(pupil), Some(_), None) = (&lens.pupil, &lens.relative_illumination, &lens.focus_distance_m) {
         let problem = "\"pupil\" has no effect here: the relative illumination is measured, and there is no defocus";
-        faults.add(ErrorCode::NoEffect, &pupil.place, problem, "remove it");
+        errors.add(ErrorCode::NoEffect, &pupil.place, problem, "remove it");
     }
 }
 
-fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
+fn check_illumination(table: &RelativeIllumination, errors: &mut DescriptionErrors) {
     let radii = match (&table.source, &table.ratio) {
         (IlluminationSource::File(_), None) => return,
         (IlluminationSource::File(_), Some(ratios)) => {
             let place = ratios.first().map_or(&table.place, |first| &first.place);
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 place,
                 "\"ratio\" has no effect here, it belongs to \"radius_mm\"",
@@ -110,7 +110,7 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
             return;
         }
         (IlluminationSource::Radii(_), None) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &table.place,
                 "the key \"ratio\" is missing",
@@ -123,15 +123,15 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
     let ratios = table.ratio.as_deref().unwrap_or_default();
     if radii.len() != ratios.len() {
         let problem = format!("found {} radii and {} ratios", radii.len(), ratios.len());
-        faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+        errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
     }
     if let Some(pair) = radii.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
-        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising radii");
+        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising radii");
     }
     for (list, start, name) in [(&radii[..], 0.0, "radius"), (ratios, 1.0, "ratio")] {
         if let Some(first) = list.first().filter(|first| first.value != start) {
-            faults.add(
+            errors.add(
                 ErrorCode::OutOfRange,
                 &first.place,
                 format!("the first {name} is {}", first.value),

@@ -14,7 +14,7 @@ pub enum FocusDistance {
 
 words! {
     /// The word for an infinite distance.
-    pub enum Endless {
+    pub enum InfinityWord {
         /// Infinitely far.
         "infinity" => Infinity,
     }
@@ -22,5 +22,5 @@ words! {
 
 pub(super) fn focus_distance() -> impl Rule<Out = FocusDistance> {
     let metres = variant!(number("m").above(0.0), FocusDistance::Metres);
-    either(metres, variant!(choice::<Endless>(), Endless::Infinity == FocusDistance::Infinity))
+    either(metres, variant!(choice::<InfinityWord>(), InfinityWord::Infinity == FocusDistance::Infinity))
 }

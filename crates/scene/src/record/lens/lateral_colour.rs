@@ -1,6 +1,6 @@
 //! Image size by wavelength.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{list, number, record};
 
@@ -14,14 +14,14 @@ record! {
     }
 }
 
-fn check_colour(table: &LateralColour, faults: &mut Faults) {
+fn check_colour(table: &LateralColour, errors: &mut DescriptionErrors) {
     let (wavelengths, sizes) = (&table.wavelength_nm, &table.magnification);
     if wavelengths.len() != sizes.len() {
         let problem = format!("found {} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
-        faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+        errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
     }
     if let Some(pair) = wavelengths.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
-        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising wavelengths");
+        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising wavelengths");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::distortion::Distortion;
 use super::lateral_colour::LateralColour;
-use super::numbers::{f_number, focal_length, share};
+use super::numbers::{f_number, focal_length, fraction};
 use crate::place::Placed;
 use crate::reader::record;
 
@@ -14,7 +14,7 @@ record! {
         /// Focal length over the pinhole's diameter; sets the irradiance.
         required f_number: Placed<f64> = f_number();
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
         /// Distortion.
         optional distortion: Distortion = record();
         /// Image size by wavelength. Default: equal.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
 use crate::asset::ASPHERE_TERMS;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector, words};
 use crate::record::curve::spectrum_file;
@@ -14,7 +14,7 @@ record! {
     /// A ray-traced lens.
     pub struct Prescription check(check) {
         /// Source of its surfaces.
-        inside source: Source;
+        inside source: SurfaceListSource;
         /// With "file": clear semi-apertures of its surfaces. Default: the file's, otherwise as its fields need.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
         /// f-number at infinity focus; opens the stop, at most to its semi-aperture. Default: the file's, or the full stop.
@@ -35,7 +35,7 @@ record! {
 
 keyed! {
     /// Source of the surfaces.
-    pub enum Source {
+    pub enum SurfaceListSource {
         /// A lens of docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
         published => Published(Placed<String>) = text("the name of a published lens");
         /// Sequential lens of Zemax (.zmx) or CODE V (.seq), as text.
@@ -82,7 +82,7 @@ record! {
     /// A glass by its optical constants, relative to air.
     pub struct GlassNumbers check(check_glass) {
         /// Given constants.
-        inside known: GlassKnown;
+        inside known: GlassConstants;
         /// With "index": Abbe number V_d. Default: no dispersion.
         optional abbe: Placed<f64> = number("").above(5.0);
         /// With "sellmeier_b": C₁, C₂, C₃.
@@ -92,7 +92,7 @@ record! {
 
 keyed! {
     /// Given constants of a glass.
-    pub enum GlassKnown {
+    pub enum GlassConstants {
         /// Refractive index n_d, at 587.56 nm; with "abbe" a Conrady curve on the normal line.
         index => Index(Placed<f64>) = number("").above(1.0).at_most(5.0);
         /// B₁, B₂, B₃ of Sellmeier's equation n² = 1 + Σ B λ²/(λ² − C), λ in µm.
@@ -113,7 +113,7 @@ pub enum Coating {
 
 words! {
     /// The word for a surface without a coating.
-    pub enum Bare {
+    pub enum UncoatedWord {
         /// Bare glass: Fresnel reflection.
         "uncoated" => Uncoated,
     }
@@ -138,7 +138,7 @@ pub enum FocusBy {
 
 words! {
     /// The word for focusing by the sensor.
-    pub enum Mover {
+    pub enum FocusMechanism {
         /// The sensor moves, or the lens as a whole.
         "sensor" => Sensor,
     }
@@ -171,32 +171,32 @@ fn glass() -> impl Rule<Out = Glass> {
 }
 
 pub(crate) fn coating() -> impl Rule<Out = Coating> {
-    let share = variant!(number("").above(0.0).at_most(1.0), Coating::Share);
+    let fraction = variant!(number("").above(0.0).at_most(1.0), Coating::Share);
     let layer = variant!(record::<Layer>(), Layer::QuarterWave => Coating::QuarterWave);
-    either(variant!(choice::<Bare>(), Bare::Uncoated == Coating::Uncoated), either(share, layer))
+    either(variant!(choice::<UncoatedWord>(), UncoatedWord::Uncoated == Coating::Uncoated), either(fraction, layer))
 }
 
 fn focus_by() -> impl Rule<Out = FocusBy> {
     let group = variant!(vector::<2>(number("").at_least(1.0)), FocusBy::Group);
-    either(variant!(choice::<Mover>(), Mover::Sensor == FocusBy::Sensor), group)
+    either(variant!(choice::<FocusMechanism>(), FocusMechanism::Sensor == FocusBy::Sensor), group)
 }
 
-fn check(lens: &Prescription, faults: &mut Faults) {
-    if lens.focus_distance_m.is_none() && !matches!(lens.source, Source::File(_)) {
+fn check(lens: &Prescription, errors: &mut DescriptionErrors) {
+    if lens.focus_distance_m.is_none() && !matches!(lens.source, SurfaceListSource::File(_)) {
         let problem = "the key \"focus_distance_m\" is missing";
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             &lens.place,
             problem,
             "add \"focus_distance_m\", a distance in m or \"infinity\"",
         );
     }
-    let given = lens.semi_apertures_mm.iter().flatten().next();
-    if let (Some(given), false) = (given, matches!(lens.source, Source::File(_))) {
+    let semi_aperture = lens.semi_apertures_mm.iter().flatten().next();
+    if let (Some(semi_aperture), false) = (semi_aperture, matches!(lens.source, SurfaceListSource::File(_))) {
         let problem = "\"semi_apertures_mm\" has no effect here, it belongs to \"file\"";
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
-            &given.place,
+            &semi_aperture.place,
             problem,
             "remove it; a surface states its own \"semi_aperture_mm\"",
         );
@@ -205,17 +205,17 @@ fn check(lens: &Prescription, faults: &mut Faults) {
         && !(group.value.iter().all(|i| i.fract() == 0.0) && group.value[0] <= group.value[1])
     {
         let problem = format!("{} to {} is not a range of surfaces", group.value[0], group.value[1]);
-        faults.add(
+        errors.add(
             ErrorCode::WrongOrder,
             &group.place,
             problem,
             "give two whole numbers, the first surface's and the last's",
         );
     }
-    let Source::Surfaces(surfaces) = &lens.source else { return };
+    let SurfaceListSource::Surfaces(surfaces) = &lens.source else { return };
     let (last, others) = surfaces.split_last().map_or((None, &[][..]), |(last, others)| (Some(last), others));
     for surface in others.iter().filter(|s| s.thickness_mm.is_none()) {
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             &surface.place,
             "the distance to the next surface is missing",
@@ -225,15 +225,15 @@ fn check(lens: &Prescription, faults: &mut Faults) {
     if let Some(thickness) = last.and_then(|s| s.thickness_mm.as_ref()) {
         let problem =
             "\"thickness_mm\" of the last surface has no effect: the focus determines the position of the sensor";
-        faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
+        errors.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
     }
     for surface in surfaces {
         if let Some(beyond) = surface.asphere.iter().flatten().nth(ASPHERE_TERMS) {
             let problem = format!("found more than {ASPHERE_TERMS} coefficients");
-            faults.add(ErrorCode::WrongCount, &beyond.place, problem, "give those of r² to r²⁰");
+            errors.add(ErrorCode::WrongCount, &beyond.place, problem, "give those of r² to r²⁰");
         }
         if let Some(radius) = surface.radius_mm.as_ref().filter(|r| r.value == 0.0) {
-            faults.add(
+            errors.add(
                 ErrorCode::OutOfRange,
                 &radius.place,
                 "found a radius of 0",
@@ -243,21 +243,21 @@ fn check(lens: &Prescription, faults: &mut Faults) {
     }
 }
 
-fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
+fn check_glass(glass: &GlassNumbers, errors: &mut DescriptionErrors) {
     match (&glass.known, &glass.abbe, &glass.sellmeier_c_um2) {
-        (GlassKnown::Index(_), _, Some(c)) => {
-            faults.add(ErrorCode::NoEffect, &c.place, "\"sellmeier_c_um2\" belongs to \"sellmeier_b\"", "remove it");
+        (GlassConstants::Index(_), _, Some(c)) => {
+            errors.add(ErrorCode::NoEffect, &c.place, "\"sellmeier_c_um2\" belongs to \"sellmeier_b\"", "remove it");
         }
-        (GlassKnown::Sellmeier(_), Some(abbe), _) => {
-            faults.add(
+        (GlassConstants::Sellmeier(_), Some(abbe), _) => {
+            errors.add(
                 ErrorCode::NoEffect,
                 &abbe.place,
                 "\"abbe\" has no effect here, it belongs to \"index\"",
                 "remove it",
             );
         }
-        (GlassKnown::Sellmeier(b), _, None) => {
-            faults.add(
+        (GlassConstants::Sellmeier(b), _, None) => {
+            errors.add(
                 ErrorCode::MissingKey,
                 &b.place,
                 "the resonances of Sellmeier's equation are missing",
@@ -268,13 +268,13 @@ fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
     }
 }
 
-fn check_filter(filter: &IrCut, faults: &mut Faults) {
+fn check_filter(filter: &IrCut, errors: &mut DescriptionErrors) {
     match (&filter.normal, &filter.edge_width_nm) {
         (IrCutCurve::Edge(edge), None) => {
-            faults.add(ErrorCode::MissingKey, &edge.place, "the width of the edge is missing", "add \"edge_width_nm\"");
+            errors.add(ErrorCode::MissingKey, &edge.place, "the width of the edge is missing", "add \"edge_width_nm\"");
         }
         (IrCutCurve::Spectrum(_), Some(width)) => {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &width.place,
                 "\"edge_width_nm\" has no effect here, it belongs to \"edge_nm\"",

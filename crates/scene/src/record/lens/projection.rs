@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants, words};
 
@@ -225,7 +225,7 @@ record! {
 
 record! {
     /// The affine map x′ = x + e y, y′ = d x + c y of the polynomials in pixels.
-    pub struct Stretch {
+    pub struct AffineMap {
         /// Scale of the rows. Default: 1.
         optional c: Placed<f64> = number("");
         /// Shift down per step to the right. Default: 0.
@@ -243,7 +243,7 @@ record! {
         /// a₀ (negative), a₁, a₂ …, in px to the power 1 − i.
         required polynomial: Vec<Placed<f64>> = list(number(""), 1);
         /// The affine map.
-        inside stretch: Stretch;
+        inside stretch: AffineMap;
     }
 }
 
@@ -259,7 +259,7 @@ record! {
         /// Largest field angle of the polynomial.
         required greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
         /// The affine map.
-        inside stretch: Stretch;
+        inside stretch: AffineMap;
     }
 }
 
@@ -297,11 +297,11 @@ keyed! {
     }
 }
 
-fn check_table(table: &Table, faults: &mut Faults) {
+fn check_table(table: &Table, errors: &mut DescriptionErrors) {
     match (&table.source, &table.radius_mm, &table.focal_length_mm) {
         (TableSource::File(_), Some(radii), _) => {
             let place = radii.first().map_or(&table.place, |first| &first.place);
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 place,
                 "\"radius_mm\" has no effect here, it belongs to \"angle_deg\"",
@@ -309,7 +309,7 @@ fn check_table(table: &Table, faults: &mut Faults) {
             );
         }
         (TableSource::Angles(_), None, _) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &table.place,
                 "the key \"radius_mm\" is missing",
@@ -318,11 +318,11 @@ fn check_table(table: &Table, faults: &mut Faults) {
         }
         (TableSource::Angles(_), _, Some(focal_length)) => {
             let problem = "\"focal_length_mm\" has no effect here, it belongs to \"file\"";
-            faults.add(ErrorCode::NoEffect, &focal_length.place, problem, "remove it");
+            errors.add(ErrorCode::NoEffect, &focal_length.place, problem, "remove it");
         }
         (TableSource::Angles(angles), Some(radii), None) if angles.len() != radii.len() => {
             let problem = format!("found {} angles and {} radii", angles.len(), radii.len());
-            faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
         }
         _ => {}
     }

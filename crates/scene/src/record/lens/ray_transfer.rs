@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::focus::{FocusDistance, focus_distance};
-use super::numbers::share;
+use super::numbers::fraction;
 use crate::place::Placed;
 use crate::reader::{keyed, number, path, record};
 
@@ -15,7 +15,7 @@ record! {
         /// Position of the sensor.
         inside sensor: SensorPlace;
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
     }
 }
 

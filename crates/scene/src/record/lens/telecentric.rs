@@ -1,6 +1,6 @@
 //! The parallel (orthographic) camera.
 
-use super::numbers::{f_number, share};
+use super::numbers::{f_number, fraction};
 use crate::place::Placed;
 use crate::reader::{number, record};
 
@@ -12,6 +12,6 @@ record! {
         /// f-number on the sensor's side; sets the irradiance.
         required f_number: Placed<f64> = f_number();
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
     }
 }

@@ -3,7 +3,7 @@
 use super::distortion::Distortion;
 use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
-use super::numbers::{f_number, focal_length, share};
+use super::numbers::{f_number, focal_length, fraction};
 use crate::place::Placed;
 use crate::reader::{choice, number, record, words};
 
@@ -17,7 +17,7 @@ record! {
         /// Distance from the entrance pupil to the plane in focus, beyond the focal length.
         required focus_distance_m: FocusDistance = focus_distance();
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
         /// Distortion.
         optional distortion: Distortion = record();
         /// Image size by wavelength. Default: equal.
@@ -34,9 +34,9 @@ record! {
         /// Pupil whose area is constant over the field.
         required constant_pupil: Placed<Pupil> = choice();
         /// Aperture in front of the pupil.
-        optional front_aperture: Rim = record();
+        optional front_aperture: ClearAperture = record();
         /// Aperture behind the pupil.
-        optional rear_aperture: Rim = record();
+        optional rear_aperture: ClearAperture = record();
     }
 }
 
@@ -52,7 +52,7 @@ words! {
 
 record! {
     /// A round clear aperture.
-    pub struct Rim {
+    pub struct ClearAperture {
         /// Position from the front principal plane.
         required position_mm: Placed<f64> = number("mm");
         /// Radius.

@@ -3,7 +3,7 @@
 use super::distortion::Distortion;
 use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
-use super::numbers::{f_number, focal_length, share};
+use super::numbers::{f_number, focal_length, fraction};
 use crate::place::Placed;
 use crate::reader::record;
 
@@ -17,7 +17,7 @@ record! {
         /// Distance from the entrance pupil to the plane in focus, beyond the focal length.
         required focus_distance_m: FocusDistance = focus_distance();
         /// Transmittance. Default: 1.
-        optional transmittance: Placed<f64> = share();
+        optional transmittance: Placed<f64> = fraction();
         /// Distortion.
         optional distortion: Distortion = record();
         /// Image size by wavelength. Default: equal.

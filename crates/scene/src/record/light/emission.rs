@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::{AssetKind, Values};
-use crate::fault::{ErrorCode, Faults};
+use crate::asset::request::{AssetKind, SpectrumValues};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
-use crate::reader::{Known, keyed, known, number, record, vector};
+use crate::reader::{KnownNameRule, keyed, known, number, record, vector};
 use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::illuminant;
 
@@ -51,7 +51,7 @@ keyed! {
 }
 
 /// The name of an illuminant.
-pub(crate) fn illuminants() -> Known {
+pub(crate) fn illuminants() -> KnownNameRule {
     known("an illuminant", &[&["solar"], illuminant::names()].concat())
 }
 
@@ -69,7 +69,7 @@ impl NamesFiles for Emission {
     fn name_files(&self, files: &mut FileList) {
         let Self { place: _, level, colour } = self;
         if let Level::Radiance(curve) = level {
-            curve.name_file(Values::Light, files);
+            curve.name_file(SpectrumValues::Light, files);
         }
         colour.name_files(files);
     }
@@ -78,14 +78,14 @@ impl NamesFiles for Emission {
 impl NamesFiles for LightColour {
     fn name_files(&self, files: &mut FileList) {
         if let Self::Spectrum(file) = self {
-            files.add(AssetKind::Spectrum(Values::Light), file);
+            files.add(AssetKind::Spectrum(SpectrumValues::Light), file);
         }
     }
 }
 
 impl Level {
     /// Returns the key that needs a colour, and its place.
-    fn of_a_colour(&self) -> Option<(&'static str, &Place)> {
+    fn colour_level(&self) -> Option<(&'static str, &Place)> {
         match self {
             Self::Luminance(v) => Some(("luminance_cd_m2", &v.place)),
             Self::LuminousFlux(v) => Some(("luminous_flux_lm", &v.place)),
@@ -98,21 +98,21 @@ impl Level {
     #[must_use]
     pub fn flux(&self) -> Option<(&'static str, &Place)> {
         match self {
-            Self::LuminousFlux(_) | Self::RadiantFlux(_) => self.of_a_colour(),
+            Self::LuminousFlux(_) | Self::RadiantFlux(_) => self.colour_level(),
             Self::Luminance(_) | Self::Radiance(_) => None,
         }
     }
 }
 
-fn check_emission(emission: &Emission, faults: &mut Faults) {
-    match (emission.level.of_a_colour(), &emission.colour) {
-        (Some((key, place)), None) => faults.add(
+fn check_emission(emission: &Emission, errors: &mut DescriptionErrors) {
+    match (emission.level.colour_level(), &emission.colour) {
+        (Some((key, place)), None) => errors.add(
             ErrorCode::MissingKey,
             place,
             format!("\"{key}\" does not state the colour of the light"),
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
         ),
-        (None, Some(colour)) => faults.add(
+        (None, Some(colour)) => errors.add(
             ErrorCode::Contradiction,
             colour.place(),
             "\"radiance_w_m2_sr_nm\" already states the spectrum; the colour contradicts it",
@@ -120,15 +120,15 @@ fn check_emission(emission: &Emission, faults: &mut Faults) {
         ),
         _ => {}
     }
-    emission.colour.iter().for_each(|c| check_colour(c, faults));
+    emission.colour.iter().for_each(|c| check_colour(c, errors));
 }
 
 /// Refuses a black colour, which has no chromaticity.
-pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
+pub(super) fn check_colour(colour: &LightColour, errors: &mut DescriptionErrors) {
     if let LightColour::Rgb(rgb) = colour
         && rgb.value == [0.0; 3]
     {
-        faults.add(
+        errors.add(
             ErrorCode::Degenerate,
             &rgb.place,
             "found the colour black, which has no chromaticity",

@@ -7,7 +7,7 @@ use super::modulation::{self, Modulation};
 use super::opening::{self, LampOpening};
 use super::placement::LampPlacement;
 use super::strength::{LampStrength, MeasuredStrength};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
@@ -136,49 +136,49 @@ record! {
 }
 
 /// Checks a lamp of equal intensity in all directions, which has no direction.
-fn check_point(lamp: &PointLamp, faults: &mut Faults) {
-    check_colour(&lamp.colour, faults);
-    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
-    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
+fn check_point(lamp: &PointLamp, errors: &mut DescriptionErrors) {
+    check_colour(&lamp.colour, errors);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, errors);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, errors);
     if lamp.mask.is_some() || lamp.opening.as_ref().is_some_and(LampOpening::turns) {
         return;
     }
     for aim in lamp.placement.aims() {
-        faults.add(ErrorCode::NoEffect, aim.place(), "an isotropic light has no direction", "remove it");
+        errors.add(ErrorCode::NoEffect, aim.place(), "an isotropic light has no direction", "remove it");
     }
 }
 
-fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
-    check_colour(&lamp.colour, faults);
-    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
-    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
+fn check_spot(lamp: &SpotLamp, errors: &mut DescriptionErrors) {
+    check_colour(&lamp.colour, errors);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, errors);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, errors);
     if let Some(inner) = &lamp.inner_angle_deg
         && inner.value > lamp.field_angle_deg.value
     {
         let problem = format!("found {}, but the field ends at {}", inner.value, lamp.field_angle_deg.value);
-        faults.add(ErrorCode::WrongOrder, &inner.place, problem, "give an inner angle of at most \"field_angle_deg\"");
+        errors.add(ErrorCode::WrongOrder, &inner.place, problem, "give an inner angle of at most \"field_angle_deg\"");
     }
 }
 
-fn check_measured(lamp: &MeasuredLamp, faults: &mut Faults) {
-    check_colour(&lamp.colour, faults);
-    opening::check(lamp.opening.as_ref(), &lamp.placement, true, faults);
-    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
+fn check_measured(lamp: &MeasuredLamp, errors: &mut DescriptionErrors) {
+    check_colour(&lamp.colour, errors);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, true, errors);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, errors);
 }
 
-fn check_head_lamp(lamp: &HeadLamp, faults: &mut Faults) {
-    check_colour(&lamp.colour, faults);
-    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
-    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
+fn check_head_lamp(lamp: &HeadLamp, errors: &mut DescriptionErrors) {
+    check_colour(&lamp.colour, errors);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, errors);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, errors);
     match (lamp.beam.value, &lamp.traffic) {
-        (Beam::Low, None) => faults.add(
+        (Beam::Low, None) => errors.add(
             ErrorCode::MissingKey,
             &lamp.beam.place,
             "the side of the road towards which the low beam rises is missing",
             "add traffic = \"right\" or \"left\"",
         ),
         (Beam::High, Some(traffic)) => {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &traffic.place,
                 "\"traffic\" has no effect here, it belongs to beam = \"low_beam\"",

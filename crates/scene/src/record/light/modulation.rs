@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use etendue_core::ExactTime;
-use etendue_core::waveform::{Between, MAX_LEVEL, Pulses, Waveform, WaveformError};
+use etendue_core::waveform::{TableInterpolation, MAX_LEVEL, Pulses, Waveform, WaveformError};
 
 use super::placement::LampPlacement;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
-use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
+use crate::reader::{NumberRule, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
 
 variants! {
     /// Modulation: variation of a light's strength over time. With "pwm" and "mains" the stated strength is the mean over time, as a photometer reads
@@ -43,7 +43,7 @@ record! {
         /// For a surface: panel rows pulsed in sequence, top (v = 1) to bottom. Default: all at once.
         optional multiplexed_rows: Placed<u64> = whole(2, 4096);
         /// Delay and phases.
-        inside timing: Recurring;
+        inside timing: ModulationTiming;
     }
 }
 
@@ -55,7 +55,7 @@ record! {
         /// Modulation depth m, (max − min)/(max + min): about 0.1 for filament lamps, 0.3 to 1 for discharge and simple LED lamps.
         required modulation_depth: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Delay and phases.
-        inside timing: Recurring;
+        inside timing: ModulationTiming;
     }
 }
 
@@ -71,7 +71,7 @@ record! {
         /// Fall time. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
         /// Delay and phases.
-        inside timing: Recurring;
+        inside timing: ModulationTiming;
     }
 }
 
@@ -85,7 +85,7 @@ record! {
         /// Period, at least the table's duration, more with steps. Default: no repetition, the end levels hold.
         optional period_s: Placed<f64> = number("s").above(0.0);
         /// Delay and phases.
-        inside timing: Recurring;
+        inside timing: ModulationTiming;
     }
 }
 
@@ -117,7 +117,7 @@ record! {
         /// Repeats after the last step; otherwise the end levels hold. Default: true.
         optional repeats: Placed<bool> = flag();
         /// Delay and phases.
-        inside timing: Recurring;
+        inside timing: ModulationTiming;
     }
 }
 
@@ -133,7 +133,7 @@ record! {
 
 record! {
     /// Delay and phases of a modulation.
-    pub struct Recurring {
+    pub struct ModulationTiming {
         /// Delay. Default: 0.
         optional delay_s: Placed<ExactTime> = time();
         /// Phases of the instances. Default: "common".
@@ -151,7 +151,7 @@ words! {
     }
 }
 
-const fn level() -> Number {
+const fn level() -> NumberRule {
     number("").at_least(0.0).at_most(MAX_LEVEL)
 }
 
@@ -170,7 +170,7 @@ impl Modulation {
 
     /// Delay and phases.
     #[must_use]
-    pub fn timing(&self) -> &Recurring {
+    pub fn timing(&self) -> &ModulationTiming {
         match self {
             Self::Pwm(record) => &record.timing,
             Self::Mains(record) => &record.timing,
@@ -235,8 +235,8 @@ fn edges_s(rise_s: &Option<Placed<f64>>, fall_s: &Option<Placed<f64>>) -> [f64; 
 impl TableModulation {
     fn waveform(&self, of_file: &[(f64, f64)]) -> Result<Waveform, WaveformError> {
         let between = match self.interpolation.as_ref().map(|word| word.value) {
-            None | Some(Interpolation::Linear) => Between::Linear,
-            Some(Interpolation::Steps) => Between::Steps,
+            None | Some(Interpolation::Linear) => TableInterpolation::Linear,
+            Some(Interpolation::Steps) => TableInterpolation::Steps,
         };
         let period_s = self.period_s.as_ref().map(|period| period.value);
         match &self.rows {
@@ -262,24 +262,24 @@ impl NamesFiles for Modulation {
     }
 }
 
-fn check_pwm(record: &PwmModulation, faults: &mut Faults) {
-    accept(record.waveform(), &record.place, faults);
+fn check_pwm(record: &PwmModulation, errors: &mut DescriptionErrors) {
+    accept(record.waveform(), &record.place, errors);
 }
 
-fn check_blink(record: &BlinkModulation, faults: &mut Faults) {
-    accept(record.waveform(), &record.place, faults);
+fn check_blink(record: &BlinkModulation, errors: &mut DescriptionErrors) {
+    accept(record.waveform(), &record.place, errors);
 }
 
-fn check_table(record: &TableModulation, faults: &mut Faults) {
+fn check_table(record: &TableModulation, errors: &mut DescriptionErrors) {
     if let TableRows::Points(_) = &record.rows {
-        accept(record.waveform(&[]), &record.place, faults);
+        accept(record.waveform(&[]), &record.place, errors);
     }
-    check_phases(&record.timing, record.period_s.is_some(), "add \"period_s\"", faults);
+    check_phases(&record.timing, record.period_s.is_some(), "add \"period_s\"", errors);
 }
 
-fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
+fn check_programme(record: &ProgrammeModulation, errors: &mut DescriptionErrors) {
     if record.steps.is_empty() {
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             &record.place,
             "the programme has no steps",
@@ -287,29 +287,29 @@ fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
         );
         return;
     }
-    accept(record.waveform(), &record.place, faults);
+    accept(record.waveform(), &record.place, errors);
     let repeats = record.repeats.as_ref().is_none_or(|repeats| repeats.value);
-    check_phases(&record.timing, repeats, "let it repeat", faults);
+    check_phases(&record.timing, repeats, "let it repeat", errors);
 }
 
-fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Faults) {
-    if let Err(error) = made {
-        faults.add(ErrorCode::OutOfRange, place, error.to_string(), "");
+fn accept(waveform: Result<Waveform, WaveformError>, place: &Place, errors: &mut DescriptionErrors) {
+    if let Err(error) = waveform {
+        errors.add(ErrorCode::OutOfRange, place, error.to_string(), "");
     }
 }
 
 /// Refuses phases of a modulation that does not recur.
-fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut Faults) {
+fn check_phases(timing: &ModulationTiming, recurs: bool, otherwise: &str, errors: &mut DescriptionErrors) {
     if let (Some(phases), false) = (&timing.phases, recurs) {
         let problem = "\"phases\" has no effect on a modulation that does not repeat";
-        faults.add(ErrorCode::NoEffect, &phases.place, problem, format!("remove it, or {otherwise}"));
+        errors.add(ErrorCode::NoEffect, &phases.place, problem, format!("remove it, or {otherwise}"));
     }
 }
 
 /// Reports contradictions of a lamp's modulation.
-pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, faults: &mut Faults) {
+pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, errors: &mut DescriptionErrors) {
     if let Some(rows) = modulation.and_then(Modulation::multiplexed_rows) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &rows.place,
             "this light has no rows to light one after the other",
@@ -320,7 +320,7 @@ pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, 
         let delays = placement.instances.iter().filter_map(|instance| instance.modulation_delay_s.as_ref());
         for delay in delays {
             let problem = "\"modulation_delay_s\" has no effect on an unmodulated light";
-            faults.add(ErrorCode::NoEffect, &delay.place, problem, "remove it, or add \"modulation\" to the light");
+            errors.add(ErrorCode::NoEffect, &delay.place, problem, "remove it, or add \"modulation\" to the light");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The luminous opening of a lamp: the surface that emits its light.
 
 use super::placement::LampPlacement;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
-use crate::reader::{Number, number, record, variants};
+use crate::reader::{NumberRule, number, record, variants};
 
 variants! {
     /// Surface about the lamp's position that emits its light. It is visible directly and in mirrors, and turns with the lamp. Flat openings are
@@ -64,11 +64,11 @@ record! {
     pub struct FileOpening {}
 }
 
-const fn radius() -> Number {
+const fn radius() -> NumberRule {
     number("m").at_least(1e-4).at_most(50.0)
 }
 
-const fn side() -> Number {
+const fn side() -> NumberRule {
     number("m").at_least(1e-4).at_most(100.0)
 }
 
@@ -92,10 +92,10 @@ impl LampOpening {
 }
 
 /// Reports contradictions of an opening.
-pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is_measured: bool, faults: &mut Faults) {
+pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is_measured: bool, errors: &mut DescriptionErrors) {
     let Some(opening) = opening else { return };
     if let (LampOpening::File(file), false) = (opening, is_measured) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &file.place,
             "shape = \"file\" has no effect here, it belongs to type = \"measured\"",
@@ -103,7 +103,7 @@ pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is
         );
     }
     if let Some(attenuation) = &placement.attenuation_per_m {
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             &attenuation.place,
             "\"attenuation_per_m\" contradicts \"opening\": the radiance of a surface does not depend on distance",

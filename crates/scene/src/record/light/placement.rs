@@ -4,10 +4,10 @@ use etendue_core::ExactTime;
 
 use glam::{DMat3, DVec3};
 
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, text, time, vector};
-use crate::record::motion::{Course, check_course, check_ways, trajectory_way};
+use crate::record::motion::{MotionKeys, check_motion, check_placements, trajectory_placement};
 use crate::record::transform::yaw_pitch_roll;
 
 record! {
@@ -22,9 +22,9 @@ record! {
         /// Positions over time.
         many keys: LampKey = list(record(), 1);
         /// Motion.
-        group course: Course;
+        group course: MotionKeys;
         /// Frame of its positions and targets. Default: the world.
-        optional frame: Placed<String> = name_of(Named::Frame);
+        optional frame: Placed<String> = name_of(NameKind::Frame);
         /// Coefficient a of a factor 1/(1 + a·distance). Default: 0.
         optional attenuation_per_m: Placed<f64> = number("1/m").at_least(0.0);
     }
@@ -36,7 +36,7 @@ record! {
         /// Name of the instance. Default: the lamp's name and a number.
         optional name: Placed<String> = text("the name of the instance");
         /// Frame. Default: the lamp's.
-        optional frame: Placed<String> = name_of(Named::Frame);
+        optional frame: Placed<String> = name_of(NameKind::Frame);
         /// Position in the world.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Direction. Default: no rotation.
@@ -84,8 +84,8 @@ impl LampAim {
         match self {
             Self::Rotation(degrees) => Some(yaw_pitch_roll(degrees.value)),
             Self::Target(target) => {
-                let way = DVec3::from_array(target.value) - DVec3::from_array(position_m);
-                towards(way.try_normalize()?, main)
+                let direction = DVec3::from_array(target.value) - DVec3::from_array(position_m);
+                towards(direction.try_normalize()?, main)
             }
         }
     }
@@ -116,18 +116,18 @@ impl LampPlacement {
     }
 }
 
-fn check(placement: &LampPlacement, faults: &mut Faults) {
+fn check(placement: &LampPlacement, errors: &mut DescriptionErrors) {
     let own = placement.position_m.as_ref().map(|p| ("\"position_m\"", p.place.clone()));
     let own = own.or(placement.aim.as_ref().map(|a| ("the light's own aim", a.place().clone())));
     let keys = placement.keys.first().map(|key| ("\"keys\"", key.place.clone()));
     let instances = placement.instances.first().map(|first| ("\"instances\"", first.place.clone()));
-    let stands = placement.position_m.is_some()
-        || [&keys, &instances].iter().any(|way| way.is_some())
-        || trajectory_way(placement.course.as_ref()).is_some();
-    check_ways([own, keys, trajectory_way(placement.course.as_ref()), instances], "the light", faults);
-    check_course(placement.course.as_ref(), placement.keys.iter().map(|key| &key.time_s), faults);
-    if !stands {
-        faults.add(
+    let has_position = placement.position_m.is_some()
+        || [&keys, &instances].iter().any(|item| item.is_some())
+        || trajectory_placement(placement.course.as_ref()).is_some();
+    check_placements([own, keys, trajectory_placement(placement.course.as_ref()), instances], "the light", errors);
+    check_motion(placement.course.as_ref(), placement.keys.iter().map(|key| &key.time_s), errors);
+    if !has_position {
+        errors.add(
             ErrorCode::MissingKey,
             &placement.place,
             "the light has no position",
@@ -135,21 +135,21 @@ fn check(placement: &LampPlacement, faults: &mut Faults) {
         );
     }
     if let (Some(position), Some(aim)) = (&placement.position_m, &placement.aim) {
-        check_aim(position, aim, faults);
+        check_aim(position, aim, errors);
     }
 }
 
-fn check_instance(instance: &LampInstance, faults: &mut Faults) {
-    instance.aim.iter().for_each(|aim| check_aim(&instance.position_m, aim, faults));
+fn check_instance(instance: &LampInstance, errors: &mut DescriptionErrors) {
+    instance.aim.iter().for_each(|aim| check_aim(&instance.position_m, aim, errors));
 }
 
-fn check_key(key: &LampKey, faults: &mut Faults) {
-    key.aim.iter().for_each(|aim| check_aim(&key.position_m, aim, faults));
+fn check_key(key: &LampKey, errors: &mut DescriptionErrors) {
+    key.aim.iter().for_each(|aim| check_aim(&key.position_m, aim, errors));
 }
 
-fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, faults: &mut Faults) {
+fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, errors: &mut DescriptionErrors) {
     if aim.axes(position.value, MainAxis::Forward).is_none() {
-        faults.add(ErrorCode::Degenerate, aim.place(), "the light points at its own position", "move \"target_m\"");
+        errors.add(ErrorCode::Degenerate, aim.place(), "the light points at its own position", "move \"target_m\"");
     }
 }
 
@@ -159,11 +159,11 @@ mod tests {
 
     #[test]
     fn main_axes_meet_their_target_and_left_stays_level() {
-        for way in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(1.0, -2.0, -0.5).normalize()] {
-            let forward = towards(way, MainAxis::Forward).expect("axes");
-            let downward = towards(way, MainAxis::Downward).expect("axes");
+        for direction in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(1.0, -2.0, -0.5).normalize()] {
+            let forward = towards(direction, MainAxis::Forward).expect("axes");
+            let downward = towards(direction, MainAxis::Downward).expect("axes");
             // Products of unit vectors, with a few roundings each.
-            assert!((forward * DVec3::X - way).length() < 1e-15 && (downward * DVec3::NEG_Z - way).length() < 1e-15);
+            assert!((forward * DVec3::X - direction).length() < 1e-15 && (downward * DVec3::NEG_Z - direction).length() < 1e-15);
             for axes in [forward, downward] {
                 assert!((axes.determinant() - 1.0).abs() < 1e-15 && (axes * DVec3::Y).z.abs() < 1e-15);
             }

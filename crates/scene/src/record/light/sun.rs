@@ -1,7 +1,7 @@
 //! The sun.
 
 use super::emission::{LightColour, check_colour};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, text};
 
@@ -37,15 +37,15 @@ keyed! {
     }
 }
 
-fn check(sun: &Sun, faults: &mut Faults) {
+fn check(sun: &Sun, errors: &mut DescriptionErrors) {
     match (&sun.level, &sun.colour) {
-        (SunLevel::Turbidity(_), Some(colour)) => faults.add(
+        (SunLevel::Turbidity(_), Some(colour)) => errors.add(
             ErrorCode::Contradiction,
             colour.place(),
             "\"turbidity\" already determines the sun's spectrum; the colour contradicts it",
             "remove the colour, or give \"illuminance_lx\" instead of the turbidity",
         ),
-        (SunLevel::Irradiance(v) | SunLevel::Illuminance(v), None) => faults.add(
+        (SunLevel::Irradiance(v) | SunLevel::Illuminance(v), None) => errors.add(
             ErrorCode::MissingKey,
             &v.place,
             "the level does not state the colour of the sun",
@@ -54,12 +54,12 @@ fn check(sun: &Sun, faults: &mut Faults) {
         _ => {}
     }
     if let (SunLevel::Turbidity(_), true) = (&sun.level, sun.elevation_deg.value <= 0.0) {
-        faults.add(
+        errors.add(
             ErrorCode::OutOfRange,
             &sun.elevation_deg.place,
             format!("found {}; the solar model has no sun at or below the horizon", sun.elevation_deg.value),
             "give an elevation above 0, or state \"illuminance_lx\" instead of \"turbidity\"",
         );
     }
-    sun.colour.iter().for_each(|c| check_colour(c, faults));
+    sun.colour.iter().for_each(|c| check_colour(c, errors));
 }

@@ -1,6 +1,6 @@
 //! Factors over a surface, and normal maps.
 
-use crate::fault::Named;
+use crate::fault::NameKind;
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, name_of, number, record, variant, words};
 
@@ -18,7 +18,7 @@ record! {
     /// A number from an image.
     pub struct FactorTexture {
         /// Name of a texture.
-        required texture: Placed<String> = name_of(Named::Texture);
+        required texture: Placed<String> = name_of(NameKind::Texture);
         /// Channel. Default: "luminance".
         optional channel: Placed<Channel> = choice();
         /// Factor on the values. Default: 1.
@@ -46,7 +46,7 @@ record! {
     /// Normals from an image: (r, g, b) = 0 … 1 is the vector (2r − 1, 2g − 1, 2b − 1) along u, v and the normal.
     pub struct NormalMap {
         /// Texture with encoding = "data".
-        required texture: Placed<String> = name_of(Named::Texture);
+        required texture: Placed<String> = name_of(NameKind::Texture);
         /// Factor on the slopes. Default: 1.
         optional strength: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// Direction of green: up (OpenGL) or down (DirectX). Default: "up".
@@ -66,6 +66,6 @@ words! {
 
 /// A number, or a texture.
 pub(crate) fn any_factor() -> impl Rule<Out = Factor> {
-    let share = number("").at_least(0.0).at_most(1.0);
-    either(variant!(share, Factor::Number), variant!(record::<FactorTexture>(), Factor::Texture))
+    let fraction = number("").at_least(0.0).at_most(1.0);
+    either(variant!(fraction, Factor::Number), variant!(record::<FactorTexture>(), Factor::Texture))
 }

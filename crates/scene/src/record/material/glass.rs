@@ -2,10 +2,10 @@
 
 use super::factor::{Factor, any_factor};
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::Values;
-use crate::fault::{ErrorCode, Faults};
+use crate::asset::request::SpectrumValues;
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
-use crate::reader::{Number, keyed, number, record};
+use crate::reader::{NumberRule, keyed, number, record};
 use crate::record::curve::{Curve, curve};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
 
@@ -62,7 +62,7 @@ keyed! {
 impl NamesFiles for Absorption {
     fn name_files(&self, files: &mut FileList) {
         match self {
-            Self::Coefficient(curve) => curve.name_file(Values::Light, files),
+            Self::Coefficient(curve) => curve.name_file(SpectrumValues::Light, files),
             Self::Transmittance(share) => share.name_files(files),
         }
     }
@@ -87,19 +87,19 @@ impl NamesFiles for Leaf {
 }
 
 /// Indices from a nearly invisible substance to germanium; the tracer's `DIELECTRIC_INDICES`.
-fn any_index() -> Number {
+fn any_index() -> NumberRule {
     number("").at_least(1.0).at_most(4.0)
 }
 
-fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {
+fn check_dielectric(glass: &Dielectric, errors: &mut DescriptionErrors) {
     match (&glass.absorption, &glass.thickness_mm) {
-        (Some(Absorption::Transmittance(t)), None) => faults.add(
+        (Some(Absorption::Transmittance(t)), None) => errors.add(
             ErrorCode::MissingKey,
             t.place(),
             "\"internal_transmittance\" of a solid does not state its path length",
             "add \"thickness_mm\"",
         ),
-        (Some(Absorption::Coefficient(_)) | None, Some(thickness)) => faults.add(
+        (Some(Absorption::Coefficient(_)) | None, Some(thickness)) => errors.add(
             ErrorCode::NoEffect,
             &thickness.place,
             "\"thickness_mm\" has no effect here, the mesh determines the thickness of the solid",
@@ -109,9 +109,9 @@ fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {
     }
 }
 
-fn check_sheet(sheet: &ThinSheet, faults: &mut Faults) {
+fn check_sheet(sheet: &ThinSheet, errors: &mut DescriptionErrors) {
     match (&sheet.absorption, &sheet.thickness_mm) {
-        (Some(Absorption::Coefficient(_)), None) => faults.add(
+        (Some(Absorption::Coefficient(_)), None) => errors.add(
             ErrorCode::MissingKey,
             &sheet.place,
             "\"absorption_per_m\" of a thin sheet needs its thickness",
@@ -119,7 +119,7 @@ fn check_sheet(sheet: &ThinSheet, faults: &mut Faults) {
         ),
         (Some(Absorption::Transmittance(_)) | None, Some(thickness)) => {
             let problem = "\"thickness_mm\" has no effect here, it belongs to \"absorption_per_m\"";
-            faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
+            errors.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
         }
         _ => {}
     }

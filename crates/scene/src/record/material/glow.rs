@@ -1,20 +1,20 @@
 //! Emission of a surface.
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::{ErrorCode, Faults, Named};
+use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record, words};
 use crate::record::light::{Emission, Modulation};
 
 record! {
     /// Emission of a surface.
-    pub struct SurfaceEmission check(check_glow) {
+    pub struct SurfaceEmission check(check_emission) {
         /// Strength and colour.
         inside light: Emission;
         /// Sides that emit; the front is outwards, +z of a quad, or by triangle winding. Default: "front".
         optional sides: Placed<Sides> = choice();
         /// Texture of factors on the emission; the stated level holds at 1, 1, 1.
-        optional texture: Placed<String> = name_of(Named::Texture);
+        optional texture: Placed<String> = name_of(NameKind::Texture);
         /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
@@ -38,12 +38,12 @@ words! {
     }
 }
 
-fn check_glow(emission: &SurfaceEmission, faults: &mut Faults) {
+fn check_emission(emission: &SurfaceEmission, errors: &mut DescriptionErrors) {
     if let (Some((key, place)), Some(_)) = (emission.light.level.flux(), &emission.texture) {
         let problem = format!(
             "\"{key}\" cannot be used with an emission texture: the flux of a textured surface is not determined"
         );
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             place,
             problem,

@@ -2,7 +2,7 @@
 
 use super::factor::{Factor, any_factor};
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::Named;
+use crate::fault::NameKind;
 use crate::place::Placed;
 use crate::reader::{name_of, record};
 
@@ -10,9 +10,9 @@ record! {
     /// Two materials side by side. Neither may have emission or opacity; each may be a mix itself.
     pub struct Mix {
         /// Name of the first material.
-        required a: Placed<String> = name_of(Named::Material);
+        required a: Placed<String> = name_of(NameKind::Material);
         /// Name of the second material.
-        required b: Placed<String> = name_of(Named::Material);
+        required b: Placed<String> = name_of(NameKind::Material);
         /// Fraction of the second material.
         required weight: Factor = any_factor();
     }

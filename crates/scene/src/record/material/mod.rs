@@ -19,7 +19,7 @@ pub use surface::*;
 pub use wet::{Puddles, WetGround};
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::preset;
 use crate::reader::{Form, Reader, Record, record, text};
@@ -56,14 +56,14 @@ impl NamesFiles for Material {
 pub struct SurfaceSource(pub Surface);
 
 impl Record for SurfaceSource {
-    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
-        Surface::read_keys(reader, faults).map(Self)
+    fn read_keys(reader: &mut Reader<'_>, errors: &mut DescriptionErrors) -> Option<Self> {
+        Surface::read_keys(reader, errors).map(Self)
     }
 
     fn forms() -> Vec<Form> {
         let models = Surface::forms();
-        let about = "A preset of the list below; keys of its type replace its own.";
-        let mut preset = Form::only_with("preset", about, json!({ "enum": preset::names() }));
+        let description = "A preset of the list below; keys of its type replace its own.";
+        let mut preset = Form::only_with("preset", description, json!({ "enum": preset::names() }));
         for key in models.iter().flat_map(|form| &form.keys).filter(|key| key.name != "type") {
             preset = preset.or_with(key);
         }
@@ -81,9 +81,9 @@ impl From<Surface> for SurfaceSource {
     }
 }
 
-fn check(material: &Material, faults: &mut Faults) {
+fn check(material: &Material, errors: &mut DescriptionErrors) {
     if matches!(material.surface.0, Surface::Emitter(_)) && material.emission.is_none() {
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             &material.place,
             "an \"emitter\" without \"emission\" is black",
@@ -93,6 +93,6 @@ fn check(material: &Material, faults: &mut Faults) {
     let bent = matches!(material.surface.0, Surface::Emitter(_) | Surface::Mix(_));
     if let (Some(map), true) = (&material.normal_map, bent) {
         let problem = "\"normal_map\" has no effect on a surface that does not reflect by itself";
-        faults.add(ErrorCode::NoEffect, &map.place, problem, "remove it; of a mix, give it to the parts");
+        errors.add(ErrorCode::NoEffect, &map.place, problem, "remove it; of a mix, give it to the parts");
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, keyed, number, path, record, words};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
@@ -155,18 +155,18 @@ words! {
     }
 }
 
-fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
+fn check_sheeting(sheeting: &Sheeting, errors: &mut DescriptionErrors) {
     match &sheeting.table {
         SheetingTable::Class(_) => {
             let of_table = [("reflectance", &sheeting.reflectance), ("retro_colour", &sheeting.retro_colour)];
-            for (key, given) in of_table {
-                given.iter().for_each(|given| refuse(key, "\"r_a_table\"", given.place(), faults));
+            for (key, value) in of_table {
+                value.iter().for_each(|item| refuse(key, "\"r_a_table\"", item.place(), errors));
             }
         }
         SheetingTable::File(file) => {
-            sheeting.colour.iter().for_each(|colour| refuse("colour", "\"class\"", &colour.place, faults));
+            sheeting.colour.iter().for_each(|colour| refuse("colour", "\"class\"", &colour.place, errors));
             if sheeting.reflectance.is_none() {
-                faults.add(
+                errors.add(
                     ErrorCode::MissingKey,
                     &file.place,
                     "the table does not state the diffuse (daytime) reflectance of the sheeting",
@@ -176,18 +176,18 @@ fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
         }
     }
     if sheeting.print.is_some() {
-        check_print(sheeting, faults);
+        check_print(sheeting, errors);
     }
 }
 
 /// Refuses a print on sheeting that is not white.
-fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
+fn check_print(sheeting: &Sheeting, errors: &mut DescriptionErrors) {
     let coloured = sheeting.colour.iter().filter(|c| c.value != SheetingColour::White).map(|c| &c.place);
     let tinted = sheeting.retro_colour.iter().map(Colour::place);
     let grey = |colour: &&Colour| !matches!(colour, Colour::Grey(_));
     let base = sheeting.reflectance.iter().filter(grey).map(Colour::place);
     for place in coloured.chain(tinted).chain(base) {
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             place,
             "\"print\" needs white sheeting; this key colours it",
@@ -196,6 +196,6 @@ fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
     }
 }
 
-fn refuse(key: &str, owner: &str, place: &Place, faults: &mut Faults) {
-    faults.add(ErrorCode::NoEffect, place, format!("\"{key}\" has no effect here, it belongs to {owner}"), "remove it");
+fn refuse(key: &str, owner: &str, place: &Place, errors: &mut DescriptionErrors) {
+    errors.add(ErrorCode::NoEffect, place, format!("\"{key}\" has no effect here, it belongs to {owner}"), "remove it");
 }

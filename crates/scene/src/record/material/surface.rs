@@ -9,8 +9,8 @@ use super::road::{RoadMarking, Sheeting};
 use super::wet::WetGround;
 use crate::asset::COAT_INDICES;
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::{AssetKind, Values};
-use crate::fault::{ErrorCode, Faults};
+use crate::asset::request::{AssetKind, SpectrumValues};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector, words};
 use crate::record::curve::{Curve, curve};
@@ -165,7 +165,7 @@ impl NamesFiles for Interface {
         match self {
             Self::Named(_) => {}
             Self::File(file) => files.add(AssetKind::ComplexIndex, file),
-            Self::Index(curve) => curve.name_file(Values::Index, files),
+            Self::Index(curve) => curve.name_file(SpectrumValues::Index, files),
         }
     }
 }
@@ -260,7 +260,7 @@ impl NamesFiles for LobeStrength {
     fn name_files(&self, files: &mut FileList) {
         match self {
             Self::Albedo(colour) => colour.name_files(files),
-            Self::Weight(curve) => curve.name_file(Values::Light, files),
+            Self::Weight(curve) => curve.name_file(SpectrumValues::Light, files),
         }
     }
 }
@@ -295,13 +295,13 @@ impl NamesFiles for BlinnPhong {
     }
 }
 
-fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
+fn check_lobe(lobe: &Lobe, errors: &mut DescriptionErrors) {
     if let (LobeDirection::Factors(factors), LobeStrength::Albedo(albedo)) = (&lobe.direction, &lobe.strength)
         && factors[1] <= 0.0
     {
         let problem =
             "a lobe with C_n = 0 reflects nothing at normal incidence, so \"albedo\" cannot determine its strength";
-        faults.add(ErrorCode::Degenerate, albedo.place(), problem, "give \"weight_per_sr\" instead");
+        errors.add(ErrorCode::Degenerate, albedo.place(), problem, "give \"weight_per_sr\" instead");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Corrections before colours are computed.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;
@@ -48,9 +48,9 @@ record! {
     }
 }
 
-fn check_shading(shading: &Shading, faults: &mut Faults) {
+fn check_shading(shading: &Shading, errors: &mut DescriptionErrors) {
     if let (ShadingTable::Grid(_), Some(centre)) = (&shading.table, &shading.centre_px) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &centre.place,
             "\"centre_px\" has no effect here, it belongs to \"radial_gains\"",

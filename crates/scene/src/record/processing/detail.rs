@@ -1,6 +1,6 @@
 //! Noise reduction and sharpening.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{keyed, number, record, whole};
 
@@ -24,10 +24,10 @@ record! {
     }
 }
 
-fn check(reduction: &NoiseReduction, faults: &mut Faults) {
+fn check(reduction: &NoiseReduction, errors: &mut DescriptionErrors) {
     match (&reduction.kind, &reduction.range) {
         (NoiseReductionKind::Bilateral(_), None) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &reduction.place,
                 "\"bilateral_px\" needs \"range\"",
@@ -35,7 +35,7 @@ fn check(reduction: &NoiseReduction, faults: &mut Faults) {
             );
         }
         (NoiseReductionKind::Median(_), Some(range)) => {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &range.place,
                 "\"range\" has no effect here, it belongs to \"bilateral_px\"",

@@ -1,7 +1,7 @@
 //! `[[isp.image_filters]]`: the filters of Gruyer, Grapinet, De Souza (2012), "the paper".
 
 use super::tone::{ToneCurve, tone_curve};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{
     RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole, words,
@@ -9,13 +9,13 @@ use crate::reader::{
 
 variants! {
     /// A filter of the paper.
-    pub enum PaperFilter by "type" {
+    pub enum GruyerFilter by "type" {
         /// Histogram gain control and blooming, on linear light.
         "glow" => Glow(Glow),
         /// Tone mapping to the sensor's range, on linear light.
         "tone_map" => ToneMap(ToneMap),
         /// Raindrops: inverted images in discs, on linear light.
-        "drops" => Drops(PaperDrops),
+        "drops" => Drops(PaintedDrops),
         /// A 4 × 4 affine matrix on colours.
         "colour" => Colour(ColourChange),
         /// Pulse noise: brighter and darker pixels.
@@ -57,7 +57,7 @@ record! {
 
 record! {
     /// Raindrops painted on the image: each disc shows its surroundings upside down. Drops on a windscreen are traced instead.
-    pub struct PaperDrops check(check_drops) {
+    pub struct PaintedDrops check(check_drops) {
         /// Number of drops.
         required count: Placed<u64> = whole(1, 100_000);
         /// Smallest radius.
@@ -75,21 +75,21 @@ record! {
     }
 }
 
-fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
-    let (least, greatest) = (&drops.min_radius_px, drops.max_radius_px.value);
-    if least.value > greatest {
-        let problem = format!("{} px is above max_radius_px = {greatest} px", least.value);
-        faults.add(ErrorCode::WrongOrder, &least.place, problem, "give a minimum of at most the maximum");
+fn check_drops(drops: &PaintedDrops, errors: &mut DescriptionErrors) {
+    let (min, greatest) = (&drops.min_radius_px, drops.max_radius_px.value);
+    if min.value > greatest {
+        let problem = format!("{} px is above max_radius_px = {greatest} px", min.value);
+        errors.add(ErrorCode::WrongOrder, &min.place, problem, "give a minimum of at most the maximum");
     }
-    let of_picture = drops.blur_px.value * drops.scale.value;
-    if of_picture > 500.0 {
-        let problem = format!("times scale = {} it is {of_picture} px in the image", drops.scale.value);
-        faults.add(ErrorCode::OutOfRange, &drops.blur_px.place, problem, "choose both so that it is at most 500 px");
+    let in_image_px = drops.blur_px.value * drops.scale.value;
+    if in_image_px > 500.0 {
+        let problem = format!("times scale = {} it is {in_image_px} px in the image", drops.scale.value);
+        errors.add(ErrorCode::OutOfRange, &drops.blur_px.place, problem, "choose both so that it is at most 500 px");
     }
     if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
         let problem =
             "\"flow_px_per_frame\" has no effect without \"fade_frames\": permanent drops would flow out of the image";
-        faults.add(ErrorCode::NoEffect, &flow.place, problem, "add \"fade_frames\", or remove it");
+        errors.add(ErrorCode::NoEffect, &flow.place, problem, "add \"fade_frames\", or remove it");
     }
 }
 
@@ -179,7 +179,7 @@ record! {
     }
 }
 
-impl PaperFilter {
+impl GruyerFilter {
     /// Place of its table.
     #[must_use]
     pub fn place(&self) -> &Place {

@@ -7,7 +7,7 @@ pub mod filter;
 pub mod output;
 pub mod tone;
 
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::place::Placed;
 use crate::reader::{among, choice, list, number, path, record, whole};
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 pub use colour::{ColourMatrix, Demosaic, WhiteBalance};
 pub use correction::{BlackLevel, Shading};
 pub use detail::{NoiseReduction, Sharpening};
-pub use filter::PaperFilter;
+pub use filter::GruyerFilter;
 pub use output::PictureFormat;
 pub use tone::ToneCurve;
 
@@ -45,7 +45,7 @@ record! {
         /// Unsharp mask.
         optional sharpening: Sharpening = record();
         /// Filters of Gruyer, Grapinet, De Souza (2012), in order, those on linear light first.
-        many image_filters: PaperFilter = list(record(), 1);
+        many image_filters: GruyerFilter = list(record(), 1);
         /// Bits per channel; above 8 in 16-bit PNG, scaled to its range. Default: 8.
         optional picture_bits: Placed<u64> = among(&[8, 10, 12, 16]);
         /// Image format; "jpeg" with 8 bits. Default: "png".
@@ -55,16 +55,16 @@ record! {
     }
 }
 
-fn check(processing: &Processing, faults: &mut Faults) {
+fn check(processing: &Processing, errors: &mut DescriptionErrors) {
     let (bits, quality) = (processing.picture_bits.as_ref(), processing.jpeg_quality.as_ref());
-    output::check(processing.picture_format.as_ref(), bits, quality, faults);
+    output::check(processing.picture_format.as_ref(), bits, quality, errors);
 }
 
 impl Processing {
     /// Files that the record names.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Placed<PathBuf>> {
         let grid = self.shading.as_ref().and_then(Shading::file);
-        let mapped = self.image_filters.iter().filter_map(PaperFilter::curve);
+        let mapped = self.image_filters.iter().filter_map(GruyerFilter::curve);
         let curves = self.tone_curve.iter().chain(mapped).filter_map(ToneCurve::file);
         self.defect_map.iter().chain(grid).chain(curves)
     }

@@ -1,6 +1,6 @@
 //! File formats of images.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::words;
 
@@ -19,11 +19,11 @@ pub(super) fn check(
     format: Option<&Placed<PictureFormat>>,
     bits: Option<&Placed<u64>>,
     quality: Option<&Placed<u64>>,
-    faults: &mut Faults,
+    errors: &mut DescriptionErrors,
 ) {
     let jpeg = format.is_some_and(|f| f.value == PictureFormat::Jpeg);
     if let Some(bits) = bits.filter(|bits| jpeg && bits.value != 8) {
-        faults.add(
+        errors.add(
             ErrorCode::UnsupportedOutput,
             &bits.place,
             format!("a JPEG cannot store {} bits", bits.value),
@@ -31,7 +31,7 @@ pub(super) fn check(
         );
     }
     if let Some(quality) = quality.filter(|_| !jpeg) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &quality.place,
             "\"jpeg_quality\" has no effect on PNG",

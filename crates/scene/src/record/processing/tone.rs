@@ -1,6 +1,6 @@
 //! Tone curves.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, number, path, record, variant, words};
 use std::path::PathBuf;
@@ -50,14 +50,14 @@ record! {
     }
 }
 
-fn check(curve: &CurveTable, faults: &mut Faults) {
+fn check(curve: &CurveTable, errors: &mut DescriptionErrors) {
     let is_s = matches!(curve.kind, CurveKind::Contrast(_));
     let is_oecf = matches!(curve.kind, CurveKind::Oecf(_));
     for (key, owner, value, fits) in
         [("midpoint", "contrast", &curve.midpoint, is_s), ("largest_output", "oecf", &curve.largest_output, is_oecf)]
     {
         if let Some(value) = value.as_ref().filter(|_| !fits) {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &value.place,
                 format!("\"{key}\" has no effect here, it belongs to \"{owner}\""),

@@ -83,11 +83,11 @@ impl CfaSource {
     /// Names of the channels, each once; red, green and blue first where present.
     #[must_use]
     pub fn channels(&self) -> Vec<&str> {
-        let mut found = self.tile().1;
+        let mut names = self.tile().1;
         let order = |name: &str| ["red", "green", "blue"].iter().position(|n| *n == name).unwrap_or(3);
-        found.sort_by_key(|name| (order(name), (*name).to_owned()));
-        found.dedup();
-        found
+        names.sort_by_key(|name| (order(name), (*name).to_owned()));
+        names.dedup();
+        names
     }
 }
 

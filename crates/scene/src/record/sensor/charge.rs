@@ -1,6 +1,6 @@
 //! Charge in the pixels, and non-uniformity.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{choice, number, record, variants, whole, words};
 
@@ -26,7 +26,7 @@ record! {
     }
 }
 
-fn spread() -> crate::reader::Number {
+fn spread() -> crate::reader::NumberRule {
     number("").at_least(0.0).at_most(1.0)
 }
 
@@ -88,12 +88,12 @@ record! {
     }
 }
 
-fn check_dark(dark: &Dark, faults: &mut Faults) {
+fn check_dark(dark: &Dark, errors: &mut DescriptionErrors) {
     let law = [&dark.reference_c, &dark.doubling_k, &dark.diffusion_fraction];
     match (&dark.temperature_c, &dark.reference_c) {
         (None, _) => {
             for key in law.into_iter().flatten() {
-                faults.add(
+                errors.add(
                     ErrorCode::NoEffect,
                     &key.place,
                     "this key has no effect without \"temperature_c\"",
@@ -102,7 +102,7 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
             }
         }
         (Some(temperature), None) => {
-            faults.add(
+            errors.add(
                 ErrorCode::MissingKey,
                 &temperature.place,
                 "the temperature of the stated current is missing",
@@ -111,16 +111,16 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
         }
         (Some(_), Some(_)) => {}
     }
-    if let (Some(_), Some(share)) = (&dark.doubling_k, &dark.diffusion_fraction) {
-        faults.add(
+    if let (Some(_), Some(fraction)) = (&dark.doubling_k, &dark.diffusion_fraction) {
+        errors.add(
             ErrorCode::NoEffect,
-            &share.place,
+            &fraction.place,
             "\"diffusion_fraction\" has no effect with \"doubling_k\"",
             "remove one of the two",
         );
     }
     if let (Some(distribution), None) = (&dark.distribution, &dark.spread) {
-        faults.add(
+        errors.add(
             ErrorCode::NoEffect,
             &distribution.place,
             "\"distribution\" has no effect without \"spread\"",

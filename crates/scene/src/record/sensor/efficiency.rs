@@ -1,6 +1,6 @@
 //! `quantum_efficiency`: electrons per photon.
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record, variant};
 use crate::record::curve::{Curve, curve, spectrum_file};
@@ -32,7 +32,7 @@ keyed! {
         /// A camera with measured relative sensitivities; needs "peak".
         camera => Camera(Placed<String>) = known("a measured camera", camera::names());
         /// Efficiency of each channel of the filter array.
-        channels => Channels(Vec<(Placed<String>, Curve)>) = keyed_by_name(curve(share()));
+        channels => Channels(Vec<(Placed<String>, Curve)>) = keyed_by_name(curve(fraction()));
     }
 }
 
@@ -46,19 +46,19 @@ record! {
     }
 }
 
-fn share() -> crate::reader::Number {
+fn fraction() -> crate::reader::NumberRule {
     number("").at_least(0.0).at_most(1.0)
 }
 
 pub(super) fn quantum_efficiency() -> impl Rule<Out = QuantumEfficiency> {
-    let same = variant!(variant!(share(), Curve::Constant), QuantumEfficiency::Same);
-    let source = record().map(QuantumEfficiencySource::resolve, QuantumEfficiencySource::of);
-    either(same, either(source, variant!(exactly(curve(share())), QuantumEfficiency::PerChannel)))
+    let same = variant!(variant!(fraction(), Curve::Constant), QuantumEfficiency::Same);
+    let source = record().map(QuantumEfficiencySource::resolve, QuantumEfficiencySource::from_record);
+    either(same, either(source, variant!(exactly(curve(fraction())), QuantumEfficiency::PerChannel)))
 }
 
 impl QuantumEfficiencySource {
     /// Returns the table form of an efficiency, or `None` for forms that are no table.
-    fn of(efficiency: &QuantumEfficiency) -> Option<Self> {
+    fn from_record(efficiency: &QuantumEfficiency) -> Option<Self> {
         let (table, peak) = match efficiency {
             QuantumEfficiency::Same(Curve::File(file)) => (QuantumEfficiencyTable::Spectrum(file.clone()), None),
             QuantumEfficiency::Named(list) => (QuantumEfficiencyTable::Channels(list.clone()), None),
@@ -82,17 +82,17 @@ impl QuantumEfficiencySource {
     }
 }
 
-fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
+fn check_source(source: &QuantumEfficiencySource, errors: &mut DescriptionErrors) {
     match (&source.table, &source.peak) {
         (QuantumEfficiencyTable::Spectrum(_) | QuantumEfficiencyTable::Channels(_), Some(peak)) => {
-            faults.add(
+            errors.add(
                 ErrorCode::NoEffect,
                 &peak.place,
                 "\"peak\" has no effect here, it belongs to \"camera\"",
                 "remove it",
             );
         }
-        (QuantumEfficiencyTable::Camera(camera), None) => faults.add(
+        (QuantumEfficiencyTable::Camera(camera), None) => errors.add(
             ErrorCode::MissingKey,
             &camera.place,
             "measured sensitivities are relative and need \"peak\"",
@@ -103,19 +103,19 @@ fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
 }
 
 /// Checks that the quantum efficiencies are those of the filter array's channels. Errors of an empty list are reported at `table`.
-pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], table: &Place, faults: &mut Faults) {
+pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], table: &Place, errors: &mut DescriptionErrors) {
     match efficiency {
         QuantumEfficiency::Same(_) => {}
-        QuantumEfficiency::PerChannel(list) => check_colours(&list.place, channels, faults),
-        QuantumEfficiency::Measured { camera, .. } => check_colours(&camera.place, channels, faults),
-        QuantumEfficiency::Named(list) => check_names(table, list, channels, faults),
+        QuantumEfficiency::PerChannel(list) => check_colours(&list.place, channels, errors),
+        QuantumEfficiency::Measured { camera, .. } => check_colours(&camera.place, channels, errors),
+        QuantumEfficiency::Named(list) => check_names(table, list, channels, errors),
     }
 }
 
-fn check_colours(place: &Place, channels: &[&str], faults: &mut Faults) {
+fn check_colours(place: &Place, channels: &[&str], errors: &mut DescriptionErrors) {
     if channels == ["mono"] {
         let remedy = "give one number or one spectrum, or a \"cfa\" with colours";
-        faults.add(
+        errors.add(
             ErrorCode::Contradiction,
             place,
             "a quantum efficiency of three channels contradicts cfa = \"mono\"",
@@ -124,18 +124,18 @@ fn check_colours(place: &Place, channels: &[&str], faults: &mut Faults) {
     } else if channels != ["red", "green", "blue"] {
         let problem =
             format!("a quantum efficiency of red, green and blue does not fit the channels {}", channels.join(", "));
-        faults.add(ErrorCode::WrongCount, place, problem, "give { channels = { … } } with one for each channel");
+        errors.add(ErrorCode::WrongCount, place, problem, "give { channels = { … } } with one for each channel");
     }
 }
 
-fn check_names(table: &Place, list: &[(Placed<String>, Curve)], channels: &[&str], faults: &mut Faults) {
+fn check_names(table: &Place, list: &[(Placed<String>, Curve)], channels: &[&str], errors: &mut DescriptionErrors) {
     for (name, _) in list.iter().filter(|(name, _)| !channels.contains(&name.value.as_str())) {
         let problem = format!("the filter array has no channel \"{}\"", name.value);
-        faults.add(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", channels.join(", ")));
+        errors.add(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", channels.join(", ")));
     }
     for channel in channels.iter().filter(|c| !list.iter().any(|(name, _)| name.value == **c)) {
         let place = list.first().map_or(table, |(name, _)| &name.place);
-        faults.add(
+        errors.add(
             ErrorCode::MissingKey,
             place,
             format!("the channel \"{channel}\" has no quantum efficiency"),

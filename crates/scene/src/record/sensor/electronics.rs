@@ -6,7 +6,7 @@ use super::efficiency::{QuantumEfficiency, check_channels, quantum_efficiency};
 use super::exposure::{AngleResponse, AutoExposure, Exchange};
 use super::hdr::{Companding, Hdr};
 use super::read_out::{Binning, OpticalBlack, Response, RtsNoise, Skipping};
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record, vector, whole};
 
@@ -82,25 +82,25 @@ record! {
     }
 }
 
-pub(super) fn check(electronics: &Electronics, faults: &mut Faults) {
-    check_black_level(electronics, faults);
-    check_channels(&electronics.quantum_efficiency, &electronics.cfa.channels(), &electronics.place, faults);
-    check_region(electronics, faults);
+pub(super) fn check(electronics: &Electronics, errors: &mut DescriptionErrors) {
+    check_black_level(electronics, errors);
+    check_channels(&electronics.quantum_efficiency, &electronics.cfa.channels(), &electronics.place, errors);
+    check_region(electronics, errors);
 }
 
-fn check_black_level(electronics: &Electronics, faults: &mut Faults) {
+fn check_black_level(electronics: &Electronics, errors: &mut DescriptionErrors) {
     let (black, bits) = (&electronics.black_level_dn, electronics.bits.value);
     let largest = ((1_u32 << bits) - 1).into();
     if black.value >= largest {
         let problem = format!("found {}, but an ADC of {bits} bits ends at {largest} DN", black.value);
-        faults.add(ErrorCode::OutOfRange, &black.place, problem, format!("give a number below {largest}"));
+        errors.add(ErrorCode::OutOfRange, &black.place, problem, format!("give a number below {largest}"));
     }
 }
 
-fn check_region(electronics: &Electronics, faults: &mut Faults) {
+fn check_region(electronics: &Electronics, errors: &mut DescriptionErrors) {
     let Some(region) = &electronics.roi_px else { return };
     if region.value.iter().any(|v| v.fract() != 0.0) {
-        faults.add(
+        errors.add(
             ErrorCode::WrongType,
             &region.place,
             format!("{:?} contains a fraction of a pixel", region.value),

@@ -19,13 +19,13 @@ record! {
     /// A capture, relative to the first.
     pub struct Capture {
         /// Exposure over that of the first. Default: 1.
-        optional exposure_ratio: Placed<f64> = share();
+        optional exposure_ratio: Placed<f64> = fraction();
         /// Start after that of the first. Default: the end of the photodiode's previous exposure, or the first's start.
         optional start_s: Placed<f64> = number("s").at_least(0.0);
         /// Photodiode sensitivity over that of the first (split pixel). Default: 1.
-        optional sensitivity_ratio: Placed<f64> = share();
+        optional sensitivity_ratio: Placed<f64> = fraction();
         /// Conversion gain over that of the first. Default: 1.
-        optional gain_ratio: Placed<f64> = share();
+        optional gain_ratio: Placed<f64> = fraction();
         /// Full well. Default: the first's.
         optional full_well_e: Placed<f64> = number("e⁻").above(0.0);
         /// Read noise. Default: the first's.
@@ -35,7 +35,7 @@ record! {
     }
 }
 
-fn share() -> crate::reader::Number {
+fn fraction() -> crate::reader::NumberRule {
     number("").above(0.0).at_most(1.0)
 }
 

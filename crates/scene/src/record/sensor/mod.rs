@@ -10,7 +10,7 @@ pub mod read_out;
 mod scale;
 pub mod shutter;
 
-use crate::fault::{ErrorCode, Faults};
+use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
 use crate::reader::{number, record, vector, whole};
 
@@ -41,17 +41,17 @@ record! {
     }
 }
 
-fn check(sensor: &Sensor, faults: &mut Faults) {
+fn check(sensor: &Sensor, errors: &mut DescriptionErrors) {
     if let Some(electronics) = &sensor.electronics {
         if let Some(exposure) = sensor.shutter.as_ref().and_then(Shutter::exposure_s) {
             let problem = "\"exposure_s\" of the shutter contradicts that of the sensor's electronics";
-            faults.add(
+            errors.add(
                 ErrorCode::Contradiction,
                 &exposure.place,
                 problem,
                 "remove it here: the sensor's \"exposure_s\" is the exposure time",
             );
         }
-        electronics::check(electronics, faults);
+        electronics::check(electronics, errors);
     }
 }

@@ -3,9 +3,9 @@
 use serde_json::{Value as Json, json};
 
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::DescriptionErrors;
 use crate::place::Placed;
-use crate::reader::{Kind, Rule};
+use crate::reader::{ValueKind, Rule};
 use crate::written::{Item, Value as Said};
 
 /// Largest divisor: no image is wider.
@@ -53,8 +53,8 @@ pub(super) struct ScaleRule;
 
 impl Rule for ScaleRule {
     type Out = Placed<Scale>;
-    fn takes(&self, kind: Kind) -> bool {
-        matches!(kind, Kind::Number | Kind::Text)
+    fn accepts(&self, kind: ValueKind) -> bool {
+        matches!(kind, ValueKind::Number | ValueKind::Text)
     }
     fn expected(&self) -> String {
         format!(
@@ -65,7 +65,7 @@ impl Rule for ScaleRule {
         // The form that is written; decimal fractions are also read.
         json!({ "type": "string", "pattern": "^1/[1-9][0-9]*$", "examples": ["1/4"] })
     }
-    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<Scale>> {
+    fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Placed<Scale>> {
         let scale = match &node.value {
             Value::Text(text) => Scale::from_text(text),
             Value::Whole(number) => Scale::from_number(*number as f64),
@@ -74,7 +74,7 @@ impl Rule for ScaleRule {
         };
         match scale {
             Some(scale) => Some(Placed::new(scale, node.place.clone())),
-            None => self.refuse(node, faults),
+            None => self.refuse(node, errors),
         }
     }
     fn write(&self, scale: &Placed<Scale>) -> Option<Item> {

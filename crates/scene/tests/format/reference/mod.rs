@@ -30,8 +30,8 @@ fn presets() -> String {
     let mut text =
         "## Presets of `[[materials]]`\n\n| preset | is | says | source |\n| --- | --- | --- | --- |\n".to_owned();
     for preset in etendue_scene::preset::all() {
-        let says: Vec<_> = preset.said().map(|said| format!("`{said}`")).collect();
-        text += &format!("| `{}` | {} | {} | {} |\n", preset.name, preset.about, says.join(", "), preset.source);
+        let says: Vec<_> = preset.keys_and_values().map(|preset_keys| format!("`{preset_keys}`")).collect();
+        text += &format!("| `{}` | {} | {} | {} |\n", preset.name, preset.description, says.join(", "), preset.source);
     }
     text + "\n"
 }
@@ -40,7 +40,7 @@ fn presets() -> String {
 static PAGES: LazyLock<Pages> = LazyLock::new(Pages::new);
 
 /// The reference of a page, generated from the schema.
-fn made(file: Option<File>) -> String {
+fn generated_reference(file: Option<File>) -> String {
     let presets = if file == Some(File::Scene) { presets() } else { String::new() };
     format!("{HEAD}\n{}{presets}{END}", PAGES.write(file))
 }
@@ -48,19 +48,19 @@ fn made(file: Option<File>) -> String {
 #[test]
 fn the_reference_is_in_step_with_the_schema() {
     for file in all() {
-        let made = made(file);
+        let generated = generated_reference(file);
         let mut page_text = page(&name(file));
         let start = page_text.find(HEAD).expect("the reference begins");
         let end = page_text.find(END).expect("the reference ends") + END.len();
         if std::env::var_os("ETENDUE_BLESS").is_some() {
-            page_text.replace_range(start..end, &made);
+            page_text.replace_range(start..end, &generated);
             std::fs::write(page_path(&name(file)), page_text).expect("the page is writable");
             continue;
         }
-        let stands = &page_text[start..end];
-        let differs = stands.lines().zip(made.lines()).find(|(old, new)| old != new);
+        let current = &page_text[start..end];
+        let differs = current.lines().zip(generated.lines()).find(|(old, new)| old != new);
         let message = "run the tests with ETENDUE_BLESS=1; the first line that differs";
-        assert!(stands == made, "{}: {message}: {differs:?}", name(file));
+        assert!(current == generated, "{}: {message}: {differs:?}", name(file));
     }
 }
 
@@ -72,14 +72,14 @@ fn anchors(text: &str) -> Vec<&str> {
 #[test]
 fn every_key_has_an_anchor_of_its_own() {
     for file in all() {
-        let text = made(file);
+        let text = generated_reference(file);
         let anchors = anchors(&text);
-        let mut met = HashSet::new();
-        let twice: Vec<_> = anchors.iter().filter(|anchor| !met.insert(**anchor)).collect();
+        let mut unique = HashSet::new();
+        let twice: Vec<_> = anchors.iter().filter(|anchor| !unique.insert(**anchor)).collect();
         assert!(twice.is_empty(), "{}: {twice:?}", name(file));
         assert!(text.lines().any(|line| line.starts_with("| <a id=")), "{} has no key", name(file));
     }
-    let camera = made(Some(File::Camera));
+    let camera = generated_reference(Some(File::Camera));
     for known in ["lens-thin.f_number", "lens-rear_aperture", "sensor-dark", "sensor.bits", "isp-image_filters-glow"] {
         assert!(anchors(&camera).contains(&known), "{known}: others may link to it");
     }
@@ -87,10 +87,10 @@ fn every_key_has_an_anchor_of_its_own() {
 
 #[test]
 fn a_record_of_several_places_names_them_all() {
-    let camera = made(Some(File::Camera));
+    let camera = generated_reference(Some(File::Camera));
     assert!(camera.contains("Rim: `[lens.front_aperture]`, `[lens.rear_aperture]`\n"));
     assert!(camera.contains("Coupling of neighbours: `[sensor.crosstalk]`, `[sensor.inter_pixel_capacitance]`\n"));
-    let overview = made(None);
+    let overview = generated_reference(None);
     let spectrum = overview.split("</a>Spectrum\n\n").nth(1).and_then(|rest| rest.lines().next()).expect("its places");
     for place in ["scene `[environment.radiance_w_m2_sr_nm]`", "camera `", "`sensor.quantum_efficiency = [{ … }]`"] {
         assert!(spectrum.contains(place), "{spectrum}");

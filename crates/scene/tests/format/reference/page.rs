@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use super::keys::{groups, keys_of, mark, must};
-use super::section::{File, Place, Section, plain, sections};
+use super::section::{File, TableLocation, Section, plain, sections};
 use super::value::value;
 
 /// Names of records that may occur in several places, by the first of them.
@@ -30,7 +30,7 @@ const NAMES: [(&str, &str); 19] = [
 ];
 
 /// With more places than this, a heading has only the name, and the places follow.
-const IN_HEADING: usize = 3;
+const MAX_PLACES_IN_HEADING: usize = 3;
 
 /// All sections, on the pages of their files; those of several kinds of file on the overview.
 pub(super) struct Pages {
@@ -80,10 +80,10 @@ impl Pages {
             let links = words.iter().map(|(_, word, _)| format!("[`\"{word}\"`](#{}-{word})", anchor(section)));
             text += &format!("Keys by `{key}`: {}.\n\n", links.collect::<Vec<_>>().join(", "));
         }
-        for (form, (key, word, about)) in marked.into_iter().zip(&words) {
+        for (form, (key, word, description)) in marked.into_iter().zip(&words) {
             let anchor = format!("{}-{word}", anchor(section));
             let marks = "#".repeat(level(section) + 1);
-            text += &format!("{marks} <a id=\"{anchor}\"></a>{}, `{key} = \"{word}\"`\n\n{about}\n\n", label(section));
+            text += &format!("{marks} <a id=\"{anchor}\"></a>{}, `{key} = \"{word}\"`\n\n{description}\n\n", label(section));
             text += &self.keys(form, section, &anchor);
         }
         text
@@ -98,9 +98,9 @@ impl Pages {
         let mut text = "| key | must | value | meaning |\n| --- | --- | --- | --- |\n".to_owned();
         for (key, schema) in keys {
             let value = value(&schema, self, section.file());
-            let about = schema["description"].as_str().unwrap_or("");
-            let must = must(&key, forms);
-            text += &format!("| <a id=\"{anchor}.{key}\"></a>`{key}` | {must} | {value} | {about} |\n");
+            let description = schema["description"].as_str().unwrap_or("");
+            let is_required = must(&key, forms);
+            text += &format!("| <a id=\"{anchor}.{key}\"></a>`{key}` | {is_required} | {value} | {description} |\n");
         }
         text + "\n"
     }
@@ -110,7 +110,7 @@ impl Pages {
 fn name(section: &Section) -> Option<&'static str> {
     let first = section.places[0].anchor();
     let name = NAMES.iter().find(|(place, _)| *place == first).map(|(_, name)| *name);
-    let places = || section.places.iter().map(Place::header).collect::<Vec<_>>();
+    let places = || section.places.iter().map(TableLocation::header).collect::<Vec<_>>();
     assert_eq!(name.is_some(), section.places.len() > 1, "{first} has a name where it may stand at {:?}", places());
     name
 }
@@ -147,14 +147,14 @@ fn heading(section: &Section) -> String {
     let marks = "#".repeat(level(section));
     let mut anchors: Vec<_> = match section.file() {
         None => Vec::new(),
-        Some(_) => section.places.iter().map(Place::anchor).collect(),
+        Some(_) => section.places.iter().map(TableLocation::anchor).collect(),
     };
     let named = name(section).map(slug).filter(|slug| !anchors.contains(slug));
     anchors.extend(named);
     let anchors: String = anchors.iter().map(|id| format!("<a id=\"{id}\"></a>")).collect();
     match name(section) {
         None => format!("{marks} {anchors}{}\n\n", label(section)),
-        Some(name) if section.places.len() > IN_HEADING => {
+        Some(name) if section.places.len() > MAX_PLACES_IN_HEADING => {
             format!("{marks} {anchors}{name}\n\nIts places: {}.\n\n", places(section))
         }
         Some(name) => format!("{marks} {anchors}{name}: {}\n\n", places(section)),
@@ -164,12 +164,12 @@ fn heading(section: &Section) -> String {
 /// The headers of all places; with the file's word if several kinds of file contain them.
 fn places(section: &Section) -> String {
     let files = File::ALL.into_iter().map(|file| {
-        let headers: Vec<_> = section.places.iter().filter(|p| p.file == file).map(Place::header).collect();
+        let headers: Vec<_> = section.places.iter().filter(|p| p.file == file).map(TableLocation::header).collect();
         (file, headers.join(", "))
     });
-    let told = files.filter(|(_, headers)| !headers.is_empty());
+    let sources = files.filter(|(_, headers)| !headers.is_empty());
     match section.file() {
-        Some(_) => told.map(|(_, headers)| headers).collect(),
-        None => told.map(|(file, headers)| format!("{} {headers}", file.word())).collect::<Vec<_>>().join("; "),
+        Some(_) => sources.map(|(_, headers)| headers).collect(),
+        None => sources.map(|(file, headers)| format!("{} {headers}", file.word())).collect::<Vec<_>>().join("; "),
     }
 }

@@ -51,7 +51,7 @@ impl File {
 
 /// Notation of a table at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Brackets {
+enum TableNotation {
     /// `[x]`
     Table,
     /// `[[x]]`
@@ -62,23 +62,23 @@ enum Brackets {
 
 /// Place of a table: the file and the keys that lead to it, none for the file itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct TableLocation {
     pub(super) file: File,
     keys: Vec<String>,
-    brackets: Brackets,
+    brackets: TableNotation,
 }
 
-impl Place {
+impl TableLocation {
     fn head(file: File) -> Self {
-        Self { file, keys: Vec::new(), brackets: Brackets::Table }
+        Self { file, keys: Vec::new(), brackets: TableNotation::Table }
     }
 
     fn child(&self, key: &str) -> Self {
         let keys = self.keys.iter().map(String::as_str).chain([key]).map(str::to_owned).collect();
-        Self { file: self.file, keys, brackets: Brackets::Table }
+        Self { file: self.file, keys, brackets: TableNotation::Table }
     }
 
-    fn with(&self, brackets: Brackets) -> Self {
+    fn with(&self, brackets: TableNotation) -> Self {
         Self { brackets, ..self.clone() }
     }
 
@@ -90,9 +90,9 @@ impl Place {
     pub(super) fn header(&self) -> String {
         let keys = self.keys.join(".");
         match self.brackets {
-            Brackets::Table => format!("`[{keys}]`"),
-            Brackets::List => format!("`[[{keys}]]`"),
-            Brackets::Entry => format!("`{keys} = [{{ … }}]`"),
+            TableNotation::Table => format!("`[{keys}]`"),
+            TableNotation::List => format!("`[[{keys}]]`"),
+            TableNotation::Entry => format!("`{keys} = [{{ … }}]`"),
         }
     }
 
@@ -109,7 +109,7 @@ impl Place {
 #[derive(Debug)]
 pub(super) struct Section {
     pub(super) schema: Json,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<TableLocation>,
 }
 
 impl Section {
@@ -124,19 +124,19 @@ impl Section {
 pub(super) fn sections() -> Vec<Section> {
     let mut sections = Vec::new();
     for file in File::ALL {
-        meet_table(&mut sections, &file.schema(), &Place::head(file));
+        meet_table(&mut sections, &file.schema(), &TableLocation::head(file));
     }
-    sections.iter_mut().for_each(|section| section.places.sort_by_key(Place::depth));
+    sections.iter_mut().for_each(|section| section.places.sort_by_key(TableLocation::depth));
     sections
 }
 
-fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
+fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &TableLocation) {
     let schema = plain(schema);
     let known = sections.iter_mut().find(|section| section.schema == schema);
     // A job may contain tables from the top level of other files; their rules describe them completely.
-    let held = |section: &Section| section.places.iter().any(|p| p.file != place.file && p.depth() <= 1);
+    let holds = |section: &Section| section.places.iter().any(|p| p.file != place.file && p.depth() <= 1);
     match known {
-        Some(section) if section.places.contains(place) || held(section) => return,
+        Some(section) if section.places.contains(place) || holds(section) => return,
         Some(section) => section.places.push(place.clone()),
         None => sections.push(Section { schema: schema.clone(), places: vec![place.clone()] }),
     }
@@ -147,16 +147,16 @@ fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
 }
 
 /// Collects the tables that a value may be or contain.
-fn meet_value(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
+fn meet_value(sections: &mut Vec<Section>, schema: &Json, place: &TableLocation) {
     let items = &schema["items"];
     if is_table(schema) {
         meet_table(sections, schema, place);
     } else if let Some(options) = schema["anyOf"].as_array() {
         options.iter().for_each(|option| meet_value(sections, option, place));
     } else if is_table(items) {
-        meet_table(sections, items, &place.with(Brackets::List));
+        meet_table(sections, items, &place.with(TableNotation::List));
     } else if let Some(options) = items["anyOf"].as_array() {
-        options.iter().filter(|o| is_table(o)).for_each(|o| meet_table(sections, o, &place.with(Brackets::Entry)));
+        options.iter().filter(|o| is_table(o)).for_each(|o| meet_table(sections, o, &place.with(TableNotation::Entry)));
     } else if schema["additionalProperties"].is_object() {
         meet_value(sections, &schema["additionalProperties"], &place.child("<name>"));
     }

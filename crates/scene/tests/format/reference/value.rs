@@ -7,9 +7,9 @@ use super::section::{File, is_table};
 
 /// Describes the value by its schema; tables are links from a page to their sections.
 pub(super) fn value(schema: &Json, pages: &Pages, from: Option<File>) -> String {
-    let told = |schema: &Json| value(schema, pages, from);
+    let describe = |schema: &Json| value(schema, pages, from);
     if let Some(options) = schema["anyOf"].as_array() {
-        return options.iter().map(told).collect::<Vec<_>>().join(", or ");
+        return options.iter().map(describe).collect::<Vec<_>>().join(", or ");
     }
     if let Some(words) = schema["enum"].as_array() {
         return words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ");
@@ -18,13 +18,13 @@ pub(super) fn value(schema: &Json, pages: &Pages, from: Option<File>) -> String 
         Some("array") if is_table(&schema["items"]) => {
             format!("list of tables: {}", pages.link(&schema["items"], from))
         }
-        Some("array") => list(schema, &told(&schema["items"])),
+        Some("array") => list(schema, &describe(&schema["items"])),
         Some("boolean") => "`true`, `false`".to_owned(),
         Some("string") => string(schema),
         Some("integer") => format!("integer {}", bounds(schema)),
         Some("number") => number(schema),
         _ if schema["additionalProperties"].is_object() => {
-            format!("table of {}", told(&schema["additionalProperties"]))
+            format!("table of {}", describe(&schema["additionalProperties"]))
         }
         _ if is_table(schema) => format!("table: {}", pages.link(schema, from)),
         _ => format!("`{}`", schema["const"]),

@@ -9,21 +9,21 @@ use glam::Vec4;
 use super::reference::{Extent, Reference};
 
 /// Ranges of fewer references are split between 8 bins per axis, others between 32.
-const FEW: usize = 64;
+const MIN_FINE_REFERENCES: usize = 64;
 /// Longer ranges are binned in pieces, by as many threads as there are.
-const PIECE: usize = 1 << 15;
+const PIECE_LENGTH: usize = 1 << 15;
 
 /// Bounds of a range of references.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range {
+pub(super) struct ReferenceRange {
     /// The box of all of them.
     pub(super) extent: Extent,
     /// The box of their centres.
     centres: Extent,
 }
 
-impl Range {
-    const NOTHING: Self = Self { extent: Extent::NOTHING, centres: Extent::NOTHING };
+impl ReferenceRange {
+    const EMPTY: Self = Self { extent: Extent::EMPTY, centres: Extent::EMPTY };
 
     #[inline(always)]
     fn union(self, other: Self) -> Self {
@@ -31,9 +31,9 @@ impl Range {
     }
 
     /// The range of these references.
-    pub(super) fn of(references: &[Reference]) -> Self {
+    pub(super) fn from_references(references: &[Reference]) -> Self {
         let of = |piece: &[Reference]| {
-            let mut range = Self::NOTHING;
+            let mut range = Self::EMPTY;
             piece.iter().for_each(|r| {
                 range.extent.add(r);
                 range.centres.add_point(r.centre());
@@ -51,16 +51,16 @@ impl Range {
 }
 
 /// Two ranges split from one: number of references in the first, and the bounds of both.
-pub(super) struct Cut {
+pub(super) struct SplitRanges {
     pub(super) at: usize,
-    pub(super) ranges: [Range; 2],
+    pub(super) ranges: [ReferenceRange; 2],
 }
 
 /// Splits two references or more so that each side has at least one.
-pub(super) fn cut(references: &mut [Reference], range: &Range) -> Cut {
+pub(super) fn cut(references: &mut [Reference], range: &ReferenceRange) -> SplitRanges {
     let best = match references.len() {
         ..=2 => None,
-        3..FEW => best_plane::<8>(references, range),
+        3..MIN_FINE_REFERENCES => best_plane::<8>(references, range),
         _ => best_plane::<32>(references, range),
     };
     match best {
@@ -70,7 +70,7 @@ pub(super) fn cut(references: &mut [Reference], range: &Range) -> Cut {
 }
 
 /// Splits references into halves by count, along the axis on which their centres spread most.
-pub(super) fn halve(references: &mut [Reference], range: &Range) -> Cut {
+pub(super) fn halve(references: &mut [Reference], range: &ReferenceRange) -> SplitRanges {
     let axis = range.longest_axis();
     let along = |r: &Reference| r.centre()[axis];
     references.select_nth_unstable_by(references.len() / 2, |a, b| {
@@ -80,9 +80,9 @@ pub(super) fn halve(references: &mut [Reference], range: &Range) -> Cut {
 }
 
 /// The first half and the second.
-fn cut_anywhere(references: &[Reference]) -> Cut {
+fn cut_anywhere(references: &[Reference]) -> SplitRanges {
     let at = references.len() / 2;
-    Cut { at, ranges: [Range::of(&references[..at]), Range::of(&references[at..])] }
+    SplitRanges { at, ranges: [ReferenceRange::from_references(&references[..at]), ReferenceRange::from_references(&references[at..])] }
 }
 
 /// Applies `of` to pieces of a long range and combines the results from the first to the last; applies it to a short range as a whole.
@@ -93,16 +93,16 @@ fn in_pieces<T: Send>(
     join: fn(T, T) -> T,
 ) -> T {
     use rayon::prelude::*;
-    if references.len() <= PIECE {
+    if references.len() <= PIECE_LENGTH {
         return of(references);
     }
-    let pieces: Vec<T> = references.par_chunks(PIECE).map(of).collect();
+    let pieces: Vec<T> = references.par_chunks(PIECE_LENGTH).map(of).collect();
     pieces.into_iter().reduce(join).expect("a long range has pieces")
 }
 
 /// Bins of a range on each axis: from a centre to its bin.
 #[derive(Clone, Copy, Debug)]
-struct Grid {
+struct BinGrid {
     low: Vec4,
     /// Bins per unit of length; 0 on an axis without extent.
     scale: Vec4,
@@ -110,7 +110,7 @@ struct Grid {
     last: u32,
 }
 
-impl Grid {
+impl BinGrid {
     #[inline(always)]
     fn new(centres: &Extent, bins: usize) -> Self {
         let scale = (bins as f32 * (1.0 - 1e-6)) / centres.size();
@@ -134,13 +134,13 @@ impl Grid {
 
 /// Contents of a range of bins.
 #[derive(Clone, Copy, Debug)]
-struct Share {
+struct BinRange {
     extent: Extent,
     count: u32,
 }
 
-impl Share {
-    const NONE: Self = Self { extent: Extent::NOTHING, count: 0 };
+impl BinRange {
+    const EMPTY: Self = Self { extent: Extent::EMPTY, count: 0 };
 
     #[inline(always)]
     fn add(&mut self, extent: &Extent, count: u32) {
@@ -164,8 +164,8 @@ struct Bins<const B: usize> {
 
 impl<const B: usize> Bins<B> {
     #[inline(always)]
-    fn of(references: &[Reference], grid: &Grid) -> Self {
-        let mut bins = Self { extents: [[Extent::NOTHING; B]; 3], counts: [[0; B]; 3] };
+    fn from_references(references: &[Reference], grid: &BinGrid) -> Self {
+        let mut bins = Self { extents: [[Extent::EMPTY; B]; 3], counts: [[0; B]; 3] };
         for reference in references {
             let [x, y, z] = grid.bins(reference.centre()).map(|bin| bin % B);
             bins.extents[0][x].add(reference);
@@ -190,15 +190,15 @@ impl<const B: usize> Bins<B> {
 
     /// The best plane of an axis; `None` if all are in one bin.
     #[inline(always)]
-    fn plane(&self, axis: usize) -> Option<Plane> {
+    fn plane(&self, axis: usize) -> Option<SplitPlane> {
         let (extents, counts) = (&self.extents[axis], &self.counts[axis]);
-        let mut after = [Share::NONE; B];
-        let mut sum = Share::NONE;
+        let mut after = [BinRange::EMPTY; B];
+        let mut sum = BinRange::EMPTY;
         for i in (1..B).rev() {
             sum.add(&extents[i], counts[i]);
             after[i] = sum;
         }
-        let (mut before, mut best) = (Share::NONE, None::<Plane>);
+        let (mut before, mut best) = (BinRange::EMPTY, None::<SplitPlane>);
         for i in 1..B {
             before.add(&extents[i - 1], counts[i - 1]);
             if before.count == 0 || after[i].count == 0 {
@@ -206,7 +206,7 @@ impl<const B: usize> Bins<B> {
             }
             let cost = before.cost() + after[i].cost();
             if best.is_none_or(|b| cost < b.cost) {
-                best = Some(Plane { cost, axis, bin: i, extents: [before.extent, after[i].extent] });
+                best = Some(SplitPlane { cost, axis, bin: i, extents: [before.extent, after[i].extent] });
             }
         }
         best
@@ -215,7 +215,7 @@ impl<const B: usize> Bins<B> {
 
 /// A plane before a bin of an axis, and both of its sides.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
+struct SplitPlane {
     cost: f32,
     axis: usize,
     bin: usize,
@@ -224,19 +224,19 @@ struct Plane {
 
 /// The best of all planes between the bins of each axis; `None` if all centres coincide.
 #[inline(never)]
-fn best_plane<const B: usize>(references: &[Reference], range: &Range) -> Option<(Grid, Plane)> {
-    let grid = Grid::new(&range.centres, B);
-    let bins = in_pieces(references, |piece| Bins::<B>::of(piece, &grid), Bins::union);
+fn best_plane<const B: usize>(references: &[Reference], range: &ReferenceRange) -> Option<(BinGrid, SplitPlane)> {
+    let grid = BinGrid::new(&range.centres, B);
+    let bins = in_pieces(references, |piece| Bins::<B>::from_references(piece, &grid), Bins::union);
     let planes = (0..3).filter_map(|axis| bins.plane(axis));
     let best = planes.reduce(|a, b| if b.cost < a.cost { b } else { a })?;
     Some((grid, best))
 }
 
 /// Moves those before the plane to the front.
-fn partition(references: &mut [Reference], grid: &Grid, plane: &Plane) -> Cut {
+fn partition(references: &mut [Reference], grid: &BinGrid, plane: &SplitPlane) -> SplitRanges {
     let is_before = |centre| grid.bin(centre, plane.axis) < plane.bin;
     let (mut begin, mut end) = (0, references.len());
-    let [mut before, mut after] = [Extent::NOTHING; 2];
+    let [mut before, mut after] = [Extent::EMPTY; 2];
     loop {
         while begin < end {
             let centre = references[begin].centre();
@@ -260,5 +260,5 @@ fn partition(references: &mut [Reference], grid: &Grid, plane: &Plane) -> Cut {
         references.swap(begin, end - 1);
     }
     let [first, second] = plane.extents;
-    Cut { at: begin, ranges: [Range { extent: first, centres: before }, Range { extent: second, centres: after }] }
+    SplitRanges { at: begin, ranges: [ReferenceRange { extent: first, centres: before }, ReferenceRange { extent: second, centres: after }] }
 }

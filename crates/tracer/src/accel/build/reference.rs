@@ -8,7 +8,7 @@ use crate::accel::boxes::Box3;
 
 /// Turns the bits of any primitive's number (below 2³⁰) into those of a normal f32. Small integers as bits are subnormal numbers, whose
 /// arithmetic takes a hundred times as long even in an unused lane.
-const PLAIN: u32 = 0x4000_0000;
+const NORMAL_BIAS: u32 = 0x4000_0000;
 
 /// The box of a primitive or of a piece of it, and the primitive's number: 32 bytes, in two registers of four lanes.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +21,11 @@ pub(super) struct Reference {
 
 impl Reference {
     pub(super) fn new(bounds: &Box3, primitive: u32) -> Self {
-        Self { low: bounds.low.extend(f32::from_bits(primitive | PLAIN)), high: bounds.high.extend(0.0) }
+        Self { low: bounds.low.extend(f32::from_bits(primitive | NORMAL_BIAS)), high: bounds.high.extend(0.0) }
     }
 
     pub(super) fn primitive(&self) -> u32 {
-        self.low.w.to_bits() & !PLAIN
+        self.low.w.to_bits() & !NORMAL_BIAS
     }
 
     pub(super) fn bounds(&self) -> Box3 {
@@ -47,7 +47,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    pub(super) const NOTHING: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
+    pub(super) const EMPTY: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
 
     #[inline(always)]
     pub(super) fn add(&mut self, reference: &Reference) {
@@ -92,20 +92,20 @@ impl Extent {
 // "Early split clipping for bounding volume hierarchies") costs little. The box of a piece has the padding of the whole triangle's box.
 
 /// Ratio of a box's area to the mean from which it is worth splitting.
-const LARGE: f32 = 3.0;
+const MIN_AREA_RATIO: f32 = 3.0;
 /// Minimum factor by which a split must reduce the sum of areas.
-const GAIN: f32 = 1.8;
+const MIN_GAIN: f32 = 1.8;
 /// The same if the box is not much larger than the mean.
-const GAIN_OF_SMALL: f32 = 1.6;
+const MIN_SMALL_GAIN: f32 = 1.6;
 /// Places tried along the longest axis, and one more.
-const PLACES: u32 = 12;
+const SPLIT_POSITIONS: u32 = 12;
 /// A quarter more than the padding, 1.5e-7 of the coordinates, for the rounding of moving vertices.
-const ROUNDED: f32 = 1.25;
+const MOTION_PADDING: f32 = 1.25;
 /// Maximum depth of splits: at most 2¹² pieces.
-const DEEPEST: u32 = 12;
+const MAX_SPLIT_DEPTH: u32 = 12;
 
 /// A reference to each of `count` triangles with the given corners.
-pub(super) fn whole(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
+pub(super) fn unsplit_references(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
     let reference = |triangle| {
         let bounds = Box3::about(&corners(triangle));
         Reference::new(&bounds.grown(bounds.padding_by_axis()), triangle)
@@ -117,15 +117,15 @@ pub(super) fn whole(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) 
 pub(super) fn swept(count: usize, bounds: &(impl Fn(u32) -> Box3 + Sync)) -> Vec<Reference> {
     let reference = |triangle| {
         let bounds = bounds(triangle);
-        Reference::new(&bounds.grown(bounds.padding_by_axis() * ROUNDED), triangle)
+        Reference::new(&bounds.grown(bounds.padding_by_axis() * MOTION_PADDING), triangle)
     };
     (0..count as u32).into_par_iter().map(reference).collect()
 }
 
 /// As [`whole`], with several references to a triangle that is large compared with the others.
-pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
-    let mut references = whole(count, corners);
-    let limits = Limits::new(&references);
+pub(super) fn split_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
+    let mut references = unsplit_references(count, corners);
+    let limits = SplitLimits::new(&references);
     for triangle in 0..count {
         // The padded box is no smaller.
         if references[triangle].bounds().half_area() <= limits.large {
@@ -133,7 +133,7 @@ pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Syn
         }
         let corners = corners(triangle as u32);
         let (mut pieces, bounds) = (Vec::new(), Box3::about(&corners));
-        cut(&corners, bounds, &limits, DEEPEST, &mut pieces);
+        cut(&corners, bounds, &limits, MAX_SPLIT_DEPTH, &mut pieces);
         let padding = bounds.padding_by_axis();
         let mut pieces = pieces.into_iter().map(|piece| Reference::new(&piece.grown(padding), triangle as u32));
         references[triangle] = pieces.next().expect("a piece at least");
@@ -143,13 +143,13 @@ pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Syn
 }
 
 /// Areas (half of the surface) from which boxes are split.
-struct Limits {
+struct SplitLimits {
     large: f32,
     /// Below this a smaller gain is enough.
     small: f32,
 }
 
-impl Limits {
+impl SplitLimits {
     fn new(references: &[Reference]) -> Self {
         let (mut sum, mut largest) = (0.0_f64, 0.0_f32);
         for reference in references {
@@ -158,15 +158,15 @@ impl Limits {
             largest = largest.max(area);
         }
         let mean = (sum / references.len().max(1) as f64) as f32;
-        Self { large: LARGE * mean, small: (4.0 * mean).max(0.9 * mean + 0.1 * largest) }
+        Self { large: MIN_AREA_RATIO * mean, small: (4.0 * mean).max(0.9 * mean + 0.1 * largest) }
     }
 }
 
 /// Adds the pieces of a box about a triangle, or the box itself.
-fn cut(corners: &[Vec3; 3], bounds: Box3, limits: &Limits, depth: u32, pieces: &mut Vec<Box3>) {
+fn cut(corners: &[Vec3; 3], bounds: Box3, limits: &SplitLimits, depth: u32, pieces: &mut Vec<Box3>) {
     let area = bounds.half_area();
     let parted = if depth > 0 && area > limits.large { best_cut(corners, &bounds) } else { None };
-    let pays = |sum: f32| sum * GAIN < area || limits.small > area && sum * GAIN_OF_SMALL < area;
+    let pays = |sum: f32| sum * MIN_GAIN < area || limits.small > area && sum * MIN_SMALL_GAIN < area;
     match parted {
         Some((sum, [low, high])) if pays(sum) => {
             cut(corners, low, limits, depth - 1, pieces);
@@ -182,8 +182,8 @@ fn best_cut(corners: &[Vec3; 3], bounds: &Box3) -> Option<(f32, [Box3; 2])> {
     let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
     let [a, b, c] = corners.map(Vec3A::from);
     let at = |place: u32| {
-        let share = place as f32 / PLACES as f32;
-        let plane = bounds.low[axis] * share + bounds.high[axis] * (1.0 - share);
+        let fraction = place as f32 / SPLIT_POSITIONS as f32;
+        let plane = bounds.low[axis] * fraction + bounds.high[axis] * (1.0 - fraction);
         let (low, high) = split_triangle(axis as u32, plane, [a, b, c, a]);
         let (mut below, mut above) = (*bounds, *bounds);
         (below.high[axis], above.low[axis]) = (plane, plane);
@@ -193,7 +193,7 @@ fn best_cut(corners: &[Vec3; 3], bounds: &Box3) -> Option<(f32, [Box3; 2])> {
         });
         (parts[0].half_area() + parts[1].half_area(), parts)
     };
-    (1..PLACES)
+    (1..SPLIT_POSITIONS)
         .map(at)
         .filter(|(_, parts)| parts.iter().all(Box3::is_valid))
         .reduce(|a, b| if b.0 < a.0 { b } else { a })

@@ -3,9 +3,9 @@
 use etendue_core::{Ray, TimeInterval};
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::shapes::{Random, medley, soup, world_of};
+use super::shapes::{Random, mixed_world, soup, world_of};
 use crate::accel::lanes::Plain;
-use crate::accel::packet::{Half, Packet, RayLanes};
+use crate::accel::packet::{HalfPacket, Packet, RayLanes};
 use crate::accel::ray::LocalRay;
 use crate::accel::{Simd, World};
 use crate::geometry::{Hit, Shape, sphere};
@@ -44,10 +44,10 @@ fn alone(view: &RenderSpace<'_>, ray: &Ray, instance: u32, primitive: u32) -> Op
         }
         Shape::Mesh(id) => {
             let pose = world.mesh(id).at(view.interval().moment(ray.time_s));
-            let halves: Vec<_> = Half::of(&[primitive], |p| pose.corners(p)).collect();
+            let halves: Vec<_> = HalfPacket::from_primitives(&[primitive], |p| pose.corners(p)).collect();
             let packet = Packet::new(&halves, 0, 0);
             let local = LocalRay::new(origin.as_vec3(), direction.as_vec3());
-            let hit = packet.meet(Plain, &RayLanes::new(Plain, &local), &local, f32::INFINITY)?.next()?;
+            let hit = packet.intersect(Plain, &RayLanes::new(Plain, &local), &local, f32::INFINITY)?.next()?;
             Some(Hit { t: hit.t, instance, primitive, u: hit.u, v: hit.v })
         }
     }
@@ -67,7 +67,7 @@ fn check_against_brute_force(world: &World, count: u32, reach: f64) {
 #[test]
 fn the_tree_finds_what_brute_force_finds() {
     check_against_brute_force(&world_of(soup(150, 4), DAffine3::IDENTITY), 4000, 3.0);
-    check_against_brute_force(&medley(), 2000, 8.0);
+    check_against_brute_force(&mixed_world(), 2000, 8.0);
 }
 
 /// An independent oracle: the f64 intersection by Cramer's rule. Where it and the accelerator differ, the ray must pass an edge within 1e-4
@@ -105,7 +105,7 @@ fn cramer(corners: [Vec3; 3], ray: &Ray) -> Option<f64> {
 #[test]
 fn instruction_sets_give_the_same_bits() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
-    for (world, reach) in [(world_of(soup(3000, 4), DAffine3::IDENTITY), 3.0), (medley(), 8.0)] {
+    for (world, reach) in [(world_of(soup(3000, 4), DAffine3::IDENTITY), 3.0), (mixed_world(), 8.0)] {
         let [auto, scalar] =
             [Simd::Auto, Simd::Scalar].map(|simd| world.render_space_with(DVec3::ZERO, TimeInterval::default(), simd));
         for ray in rays(50_000, reach, 31) {
@@ -118,7 +118,7 @@ fn instruction_sets_give_the_same_bits() {
 
 #[test]
 fn a_ray_is_occluded_where_it_meets_something_before_its_end() {
-    let world = medley();
+    let world = mixed_world();
     let view = world.render_space(DVec3::ZERO);
     for ray in rays(20_000, 8.0, 41) {
         let hit = view.closest(&ray);
@@ -134,8 +134,8 @@ fn a_ray_is_occluded_where_it_meets_something_before_its_end() {
 /// Merged corners in the render frame are rounded by 6e-8 of 10 m: of 20 000 rays some pass an edge this closely, and distances differ by
 /// that over the sine at which they hit the surface.
 #[test]
-fn instances_written_out_are_met_as_instances_are() {
-    let world = medley();
+fn instances_written_out_are_hit_as_instances_are() {
+    let world = mixed_world();
     let (merged, apart) =
         (world.render_space(DVec3::ZERO), world.render_space_for_few(DVec3::ZERO, TimeInterval::default()));
     assert!((0..5).any(|instance| merged.placed(instance).is_merged()));

@@ -39,7 +39,7 @@ fn flight(random: &mut Random) -> Track {
 }
 
 /// Soups and spheres that deform; some are static, some move, one has no animation.
-fn medley(seed: u32) -> World {
+fn mixed_world(seed: u32) -> World {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
     let [hold, turns] = [(vec![-0.2, 0.4, 0.9, 1.3], Repeat::Hold), (vec![0.1, 0.35, 0.5, 0.8], Repeat::Loop)];
@@ -81,7 +81,7 @@ fn oracle(world: &World, interval: TimeInterval, ray: &Ray) -> Option<(f64, u32,
         for (primitive, triangle) in (0..).zip(mesh.triangles()) {
             let corners = triangle.map(|v| to_world.transform_point3(vertex(mesh, v as usize, time_s)));
             let Some(t) = cramer(corners, o, d).filter(|t| *t > 0.0) else { continue };
-            if best.is_none_or(|(least, ..)| t < least) {
+            if best.is_none_or(|(minimum, ..)| t < minimum) {
                 best = Some((t, index, primitive));
             }
         }
@@ -111,10 +111,10 @@ fn cramer([a, b, c]: [DVec3; 3], o: DVec3, d: DVec3) -> Option<f64> {
 
 /// As for rigid motion: f32 and f64 differ for few rays in ten thousand, which pass an edge or hit two surfaces at once.
 #[test]
-fn vertices_are_met_where_they_are_at_the_ray_s_time() {
+fn vertices_are_hit_where_they_are_at_the_ray_s_time() {
     let (mut differences, mut hits) = (0, 0);
     for seed in 0..4 {
-        let world = medley(10 * seed);
+        let world = mixed_world(10 * seed);
         let interval = interval(0.3 * f64::from(seed), 0.1 + 0.6 * f64::from(seed));
         let view = world.render_space_with(DVec3::ZERO, interval, Simd::Auto);
         for ray in rays(1000, 100 + seed, interval) {
@@ -137,7 +137,7 @@ fn vertices_are_met_where_they_are_at_the_ray_s_time() {
 #[test]
 fn boxes_about_moving_vertices_lose_nothing() {
     for (seed, end_s) in [(10, -0.5), (11, 0.0), (12, 0.7), (13, 4.0)] {
-        let (world, interval) = (medley(seed), interval(-0.5, end_s));
+        let (world, interval) = (mixed_world(seed), interval(-0.5, end_s));
         let view = world.render_space_for_few(DVec3::ZERO, interval);
         for ray in rays(400, seed, interval) {
             let hit = view.closest(&ray);
@@ -153,7 +153,7 @@ fn boxes_about_moving_vertices_lose_nothing() {
 #[test]
 fn instruction_sets_give_the_same_bits_of_moving_vertices() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
-    let (world, interval) = (medley(20), interval(0.0, 1.5));
+    let (world, interval) = (mixed_world(20), interval(0.0, 1.5));
     let [auto, scalar] = [Simd::Auto, Simd::Scalar].map(|simd| world.render_space_with(DVec3::ZERO, interval, simd));
     for ray in rays(10_000, 31, interval) {
         assert_eq!(auto.closest(&ray).map(bits), scalar.closest(&ray).map(bits), "{ray:?}");
@@ -196,7 +196,7 @@ fn a_moment_of_deformation_is_a_still_mesh() {
 }
 
 /// Rays from inside a closed mesh that deforms, at its edges and corners as they are at the ray's time.
-fn escapes(mesh: &Mesh, reach: f64, inside: &[DVec3], seed: u32) -> usize {
+fn count_escapes(mesh: &Mesh, reach: f64, inside: &[DVec3], seed: u32) -> usize {
     let mut random = Random::new(seed);
     let animated = deformed(mesh, reach, &[0.1, 0.3, 0.5, 0.6], Repeat::Loop, seed);
     let mut builder = WorldBuilder::new();
@@ -234,9 +234,9 @@ fn nothing_escapes_from_closed_bodies_that_deform() {
         .map(|_| DVec3::new(random.between(1.0, 15.0), random.between(1.0, 15.0), random.between(-0.7, -0.3)))
         .collect();
     for seed in 0..6 {
-        assert_eq!(escapes(&icosphere(3), 0.05, &inside, seed), 0);
-        assert_eq!(escapes(&bumpy(16), 0.2, &within, 50 + seed), 0);
-        assert_eq!(escapes(&spindle(), 0.0, &[DVec3::ZERO], 90 + seed), 0);
+        assert_eq!(count_escapes(&icosphere(3), 0.05, &inside, seed), 0);
+        assert_eq!(count_escapes(&bumpy(16), 0.2, &within, 50 + seed), 0);
+        assert_eq!(count_escapes(&spindle(), 0.0, &[DVec3::ZERO], 90 + seed), 0);
     }
 }
 

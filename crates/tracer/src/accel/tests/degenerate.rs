@@ -8,7 +8,7 @@ use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 #[test]
-fn an_empty_world_is_met_by_nothing() {
+fn an_empty_world_is_hit_by_nothing() {
     let mut builder = WorldBuilder::new();
     let (empty, _) = Mesh::new(vec![], vec![], vec![], vec![], vec![]).expect("legal");
     let id = builder.add_mesh(empty);
@@ -79,7 +79,7 @@ fn a_hundred_thousand_instances_are_found() {
 
 #[test]
 fn rays_that_are_none_meet_nothing() {
-    let world = super::shapes::medley();
+    let world = super::shapes::mixed_world();
     let view = world.render_space(DVec3::ZERO);
     let bad = [Vec3::NAN, Vec3::INFINITY, Vec3::new(0.0, f32::NAN, 1.0)];
     let rays = bad.iter().flat_map(|b| [Ray::new(*b, Vec3::X, 0.0), Ray::new(Vec3::ZERO, *b, 0.0)]);
@@ -98,7 +98,7 @@ fn worlds_that_are_none_are_refused() {
         assert_eq!(id, MeshId(0));
         let mut one = instance(shape, to_world);
         one.materials = vec![MaterialId(0); materials];
-        one.to_world = Motion::still(to_world);
+        one.to_world = Motion::constant(to_world);
         builder.add_instance(one);
         builder.build().err()
     };

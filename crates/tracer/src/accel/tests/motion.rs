@@ -30,12 +30,12 @@ fn track(random: &mut Random, reach: f64) -> Track {
         Key { time_s, position_m: centre + random.cube() * 2.0, rotation, scale }
     };
     let keys: Vec<Key> = (0..count).map(key).collect();
-    let how = if random.unit() < 0.5 { Interpolation::Linear } else { Interpolation::Smooth };
-    Track::new(&keys, how).expect("a legal track")
+    let interpolation = if random.unit() < 0.5 { Interpolation::Linear } else { Interpolation::Smooth };
+    Track::new(&keys, interpolation).expect("a legal track")
 }
 
 /// Soups and spheres, most of which rotate, grow and move; every fifth is static.
-fn medley(seed: u32) -> World {
+fn mixed_world(seed: u32) -> World {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
     let meshes = [soup(120, 1), soup(40, 2), icosphere(2), soup(1, 3)].map(|m| builder.add_mesh(m));
@@ -44,12 +44,12 @@ fn medley(seed: u32) -> World {
             k @ 0..4 => Shape::Mesh(meshes[k]),
             _ => Shape::Sphere { radius_m: random.between(0.1, 1.0) },
         };
-        let made = if i % 5 == 0 {
+        let placed = if i % 5 == 0 {
             instance(shape, DAffine3::from_mat3_translation(random.rotation(), random.cube() * 4.0))
         } else {
             tracked(shape, track(&mut random, 4.0))
         };
-        builder.add_instance(made);
+        builder.add_instance(placed);
     }
     builder.build().expect("a legal world")
 }
@@ -71,7 +71,7 @@ fn oracle(world: &World, interval: TimeInterval, origin_m: DVec3, ray: &Ray) -> 
     for (index, instance) in (0..).zip(world.instances()) {
         let to_world = instance.to_world.at(interval.moment(ray.time_s));
         let mut offer = |t: f64, primitive: u32| {
-            if t > 0.0 && best.is_none_or(|(least, ..)| t < least) {
+            if t > 0.0 && best.is_none_or(|(minimum, ..)| t < minimum) {
                 best = Some((t, index, primitive));
             }
         };
@@ -100,25 +100,25 @@ fn cramer([a, b, c]: [DVec3; 3], o: DVec3, d: DVec3) -> Option<f64> {
 /// The accelerator and f64 differ where a ray passes an edge within 1e-4 of a triangle's size, or hits two surfaces within 1e-4 of its
 /// length: of some 800 triangles, a few rays in ten thousand.
 #[test]
-fn what_moves_is_met_where_it_is_at_the_ray_s_time() {
+fn what_moves_is_hit_where_it_is_at_the_ray_s_time() {
     let (mut differences, mut hits) = (0, 0);
     for seed in 0..4 {
-        let world = medley(seed);
+        let world = mixed_world(seed);
         let origin_m = DVec3::new(0.3, -0.2, 0.1);
         let interval = interval(0.1 * f64::from(seed), 0.1 + 0.5 * f64::from(seed));
         let view = world.render_space_with(origin_m, interval, Simd::Auto);
         for ray in rays(1500, 8.0, 100 + seed, interval) {
             let expected = oracle(&world, interval, origin_m, &ray);
-            let found = view.closest(&ray);
-            let same = match (expected, found) {
+            let actual = view.closest(&ray);
+            let same = match (expected, actual) {
                 (Some((t, instance, primitive)), Some(hit)) => {
                     (instance, primitive) == (hit.instance, hit.primitive) && (t - f64::from(hit.t)).abs() < 1e-4 * t
                 }
                 (a, b) => a.is_none() && b.is_none(),
             };
-            assert_eq!(view.occluded(&ray), found.is_some());
+            assert_eq!(view.occluded(&ray), actual.is_some());
             differences += u32::from(!same);
-            hits += u32::from(found.is_some());
+            hits += u32::from(actual.is_some());
         }
     }
     assert!(differences <= 6 && hits > 1500 && hits < 6000, "{differences} of 6000 rays differ, {hits} hit");
@@ -128,7 +128,7 @@ fn what_moves_is_met_where_it_is_at_the_ray_s_time() {
 #[test]
 fn boxes_of_the_interval_lose_nothing() {
     for seed in 10..14 {
-        let world = medley(seed);
+        let world = mixed_world(seed);
         let interval = interval(-0.5, [-0.5, 0.0, 0.7, 4.0][seed as usize - 10]);
         let view = world.render_space_for_few(DVec3::ZERO, interval);
         for ray in rays(500, 8.0, seed, interval) {
@@ -145,7 +145,7 @@ fn boxes_of_the_interval_lose_nothing() {
 #[test]
 fn instruction_sets_give_the_same_bits_in_motion() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
-    let (world, interval) = (medley(20), interval(0.0, 1.5));
+    let (world, interval) = (mixed_world(20), interval(0.0, 1.5));
     let [auto, scalar] = [Simd::Auto, Simd::Scalar].map(|simd| world.render_space_with(DVec3::ZERO, interval, simd));
     for ray in rays(20_000, 8.0, 31, interval) {
         assert_eq!(auto.closest(&ray).map(bits), scalar.closest(&ray).map(bits), "{ray:?}");
@@ -157,12 +157,12 @@ fn instruction_sets_give_the_same_bits_in_motion() {
 /// At a single time, before the first key and after the last, moving instances are hit as static ones at the same place.
 #[test]
 fn a_moment_of_motion_is_a_still_world() {
-    let world = medley(30);
+    let world = mixed_world(30);
     for (start_s, end_s) in [(0.4, 0.4), (-9.0, -2.0), (50.0, 60.0)] {
         let mut frozen = WorldBuilder::new();
         world.meshes().iter().for_each(|mesh| _ = frozen.add_mesh(mesh.clone()));
         for instance in world.instances() {
-            let to_world = Motion::still(instance.to_world.at(end_s));
+            let to_world = Motion::constant(instance.to_world.at(end_s));
             frozen.add_instance(crate::geometry::Instance { to_world, ..instance.clone() });
         }
         let frozen = frozen.build().expect("legal");
@@ -177,7 +177,7 @@ fn a_moment_of_motion_is_a_still_world() {
 /// A ray of a time outside the view's interval sees the world at the nearer end.
 #[test]
 fn times_outside_the_interval_are_its_ends() {
-    let (world, interval) = (medley(31), interval(0.2, 0.9));
+    let (world, interval) = (mixed_world(31), interval(0.2, 0.9));
     let view = world.render_space_with(DVec3::ZERO, interval, Simd::Auto);
     for ray in rays(2000, 8.0, 34, interval) {
         let at = |time_s| view.closest(&Ray { time_s, ..ray });
@@ -188,7 +188,7 @@ fn times_outside_the_interval_are_its_ends() {
 
 #[test]
 fn a_still_world_does_not_look_at_time() {
-    let world = super::shapes::medley();
+    let world = super::shapes::mixed_world();
     let view = world.render_space(DVec3::ZERO);
     let later = world.render_space_with(DVec3::ZERO, interval(3.0, 5.0), Simd::Auto);
     for ray in rays(5000, 8.0, 35, interval(0.0, 2.0)) {
@@ -200,7 +200,7 @@ fn a_still_world_does_not_look_at_time() {
 /// A ball that moves past at 30 m/s, 10 m ahead: hit at 10 m − √(r² − y²), y its height at that time. f32 rounds 10 m to 1e-6, and the root
 /// near the ball's edge amplifies the rounding of the ray's height.
 #[test]
-fn a_flying_ball_is_met_where_it_is() {
+fn a_flying_ball_is_hit_where_it_is() {
     let keys = [key(0.0, DVec3::new(10.0, -30.0, 0.0)), key(2.0, DVec3::new(10.0, 30.0, 0.0))];
     let mut builder = WorldBuilder::new();
     let fly = Track::new(&keys, Interpolation::Smooth).expect("legal");
@@ -219,7 +219,7 @@ fn a_flying_ball_is_met_where_it_is() {
 }
 
 /// Rays from inside a closed mesh in motion, at its edges and corners as they are at the ray's time.
-fn escapes(mesh: &Mesh, inside: &[DVec3], seed: u32) -> usize {
+fn count_escapes(mesh: &Mesh, inside: &[DVec3], seed: u32) -> usize {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
     let id = builder.add_mesh(mesh.clone());
@@ -256,9 +256,9 @@ fn nothing_escapes_from_closed_bodies_in_motion() {
         .map(|_| DVec3::new(random.between(0.5, 15.5), random.between(0.5, 15.5), random.between(-0.9, -0.1)))
         .collect();
     for seed in 0..8 {
-        assert_eq!(escapes(&icosphere(3), &inside, seed), 0);
-        assert_eq!(escapes(&bumpy(16), &within, 50 + seed), 0);
-        assert_eq!(escapes(&spindle(), &[DVec3::ZERO], 90 + seed), 0);
+        assert_eq!(count_escapes(&icosphere(3), &inside, seed), 0);
+        assert_eq!(count_escapes(&bumpy(16), &within, 50 + seed), 0);
+        assert_eq!(count_escapes(&spindle(), &[DVec3::ZERO], 90 + seed), 0);
     }
 }
 

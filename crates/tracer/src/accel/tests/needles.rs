@@ -7,7 +7,7 @@ use super::shapes::{Random, instance, soup};
 use crate::accel::WorldBuilder;
 use crate::accel::blas::Blas;
 use crate::accel::lanes::Plain;
-use crate::accel::packet::{Half, Packet, RayLanes};
+use crate::accel::packet::{HalfPacket, Packet, RayLanes};
 use crate::accel::ray::LocalRay;
 use crate::geometry::{Mesh, Shape};
 use etendue_core::Accelerator;
@@ -23,9 +23,9 @@ fn needles(count: u32, seed: u32) -> Mesh {
         let (tip, along) = (random.cube() * 10.0, random.direction());
         let across = along.cross(random.direction()).normalize_or(along.any_orthonormal_vector());
         // Slivers have their third corner anywhere along the long side.
-        let share = random.unit();
+        let fraction = random.unit();
         positions
-            .extend([tip, tip + along * length, tip + along * (share * length) + across * width].map(DVec3::as_vec3));
+            .extend([tip, tip + along * length, tip + along * (fraction * length) + across * width].map(DVec3::as_vec3));
     }
     let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     // Some are too thin for f32.
@@ -46,11 +46,11 @@ fn rays(mesh: &Mesh, count: u32) -> Vec<Ray> {
 }
 
 /// The least t at which a ray hits any triangle, and the least number of those it hits there.
-fn brute_force(halves: &[Half], ray: &Ray) -> Option<(u32, u32)> {
+fn brute_force(halves: &[HalfPacket], ray: &Ray) -> Option<(u32, u32)> {
     let local = LocalRay::new(ray.origin, ray.direction);
     let spread = RayLanes::new(Plain, &local);
     let packets = (0..halves.len()).step_by(2).map(|i| Packet::new(halves, i, (i + 1).min(halves.len() - 1)));
-    let hits = packets.filter_map(|packet| packet.meet(Plain, &spread, &local, f32::INFINITY)).flatten();
+    let hits = packets.filter_map(|packet| packet.intersect(Plain, &spread, &local, f32::INFINITY)).flatten();
     hits.map(|hit| (hit.t.to_bits(), hit.primitive)).min()
 }
 
@@ -61,8 +61,8 @@ fn check(mesh: &Mesh, quality: Accelerator, rays: &[Ray], expected: &[Option<(u3
     let world = builder.build().expect("legal");
     let view = world.render_space(DVec3::ZERO);
     for (ray, expected) in rays.iter().zip(expected) {
-        let found = view.closest(ray).map(|hit| (hit.t.to_bits(), hit.primitive));
-        assert_eq!(found, *expected, "{quality:?} {ray:?}");
+        let actual = view.closest(ray).map(|hit| (hit.t.to_bits(), hit.primitive));
+        assert_eq!(actual, *expected, "{quality:?} {ray:?}");
         assert_eq!(view.occluded(ray), expected.is_some());
     }
 }
@@ -71,11 +71,11 @@ fn agree(count: u32, ray_count: u32, qualities: &[Accelerator]) {
     let mesh = needles(count, 3);
     assert!(mesh.triangles().len() > count as usize * 9 / 10, "most needles have an area");
     let numbers: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
-    let halves: Vec<_> = Half::of(&numbers, |p| mesh.corners(p)).collect();
+    let halves: Vec<_> = HalfPacket::from_primitives(&numbers, |p| mesh.corners(p)).collect();
     let rays = rays(&mesh, ray_count);
     let expected: Vec<_> = rays.iter().map(|ray| brute_force(&halves, ray)).collect();
-    let met = expected.iter().flatten().count();
-    assert!(met > ray_count as usize / 4, "{met} of {ray_count} rays meet something: the test looks at too little");
+    let hits = expected.iter().flatten().count();
+    assert!(hits > ray_count as usize / 4, "{hits} of {ray_count} rays meet something: the test looks at too little");
     qualities.iter().for_each(|quality| check(&mesh, *quality, &rays, &expected));
 }
 

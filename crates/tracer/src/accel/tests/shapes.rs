@@ -140,11 +140,11 @@ pub(crate) fn bumpy(cells: u32) -> Mesh {
 /// A closed double cone along x, 100 long and 0.001 thick, of needles.
 pub(crate) fn spindle() -> Mesh {
     let sides = 24_u32;
-    let rim = |i: u32| {
+    let ring = |i: u32| {
         let (s, c) = etendue_core::maths::f32::sin_cos(i as f32 / sides as f32 * core::f32::consts::TAU);
         Vec3::new(0.0, c * 5e-4, s * 5e-4)
     };
-    let mut positions: Vec<_> = (0..sides).map(rim).collect();
+    let mut positions: Vec<_> = (0..sides).map(ring).collect();
     positions.extend([Vec3::X * 50.0, Vec3::X * -50.0]);
     let around = |i: u32| [[i, (i + 1) % sides, sides], [(i + 1) % sides, i, sides + 1]];
     mesh(positions, (0..sides).flat_map(around).collect())
@@ -152,7 +152,7 @@ pub(crate) fn spindle() -> Mesh {
 
 /// An instance of one material.
 pub(crate) fn instance(shape: Shape, to_world: DAffine3) -> Instance {
-    tracked(shape, Motion::still(to_world))
+    tracked(shape, Motion::constant(to_world))
 }
 
 /// As [`instance`], on a track.
@@ -191,7 +191,7 @@ pub(crate) fn soup(count: u32, seed: u32) -> Mesh {
 }
 
 /// A world of soups and spheres, rotated, stretched and mirrored.
-pub(crate) fn medley() -> World {
+pub(crate) fn mixed_world() -> World {
     let mut random = Random::new(77);
     let mut builder = WorldBuilder::new();
     let meshes = [soup(300, 1), soup(40, 2), icosphere(2), soup(1, 3)].map(|m| builder.add_mesh(m));

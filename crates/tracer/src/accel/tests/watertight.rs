@@ -28,7 +28,7 @@ fn placements(random: &mut Random) -> Vec<DAffine3> {
 }
 
 /// Counts the rays from inside a closed mesh that hit nothing.
-fn escapes(view: &RenderSpace<'_>, to_render: &DAffine3, inside: &[DVec3], targets: &[Vec3]) -> usize {
+fn count_escapes(view: &RenderSpace<'_>, to_render: &DAffine3, inside: &[DVec3], targets: &[Vec3]) -> usize {
     let from = |o: &DVec3| to_render.transform_point3(*o).as_vec3();
     let at = |t: &Vec3| to_render.transform_point3(t.as_dvec3()).as_vec3();
     let rays = inside.iter().flat_map(|o| targets.iter().map(move |t| Ray::new(from(o), at(t) - from(o), 0.0)));
@@ -48,7 +48,7 @@ fn check_from_inside(mesh: &Mesh, inside: &[DVec3]) {
             let mut to_render = placement;
             to_render.translation -= camera;
             for simd in [Simd::Auto, Simd::Scalar] {
-                let lost = escapes(
+                let lost = count_escapes(
                     &world.render_space_with(camera, TimeInterval::default(), simd),
                     &to_render,
                     inside,
@@ -83,7 +83,7 @@ fn nothing_escapes_from_a_spindle_of_needles() {
     let mesh = spindle();
     let targets = targets(&mesh, &mut Random::new(4));
     let world = world_of(mesh, DAffine3::IDENTITY);
-    assert_eq!(escapes(&world.render_space(DVec3::ZERO), &DAffine3::IDENTITY, &inside, &targets), 0);
+    assert_eq!(count_escapes(&world.render_space(DVec3::ZERO), &DAffine3::IDENTITY, &inside, &targets), 0);
 }
 
 /// Grid points and edges are at integers, so these rays go exactly through corners and along edges.

@@ -1,12 +1,12 @@
 //! Paths that branch at their first surface against paths that do not.
 
-use super::guided::learnt;
+use super::guided::trained_guide;
 use super::media::fog;
 use super::sharing::{TARGETS, corner, estimates};
 use super::*;
 use crate::lights::LightSampleContext;
 use crate::materials::Leaf;
-use crate::media::{Media, Phase, Shape as Region};
+use crate::media::{Media, Phase, MediumRegion as Region};
 use glam::Vec2;
 
 fn settings(branches: u32, strategies: Strategies) -> PathSettings {
@@ -14,7 +14,7 @@ fn settings(branches: u32, strategies: Strategies) -> PathSettings {
 }
 
 /// Means of 32 replicates towards each target.
-fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, settings: PathSettings) -> Vec<ReplicateEstimate> {
+fn measure_all(ready: &BuiltScene, targets: &[[f32; 3]], samples: u32, settings: PathSettings) -> Vec<ReplicateEstimate> {
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     estimates(&PathTracer::new(&view, &ready.material_table, &lights, settings), targets, samples, false)
@@ -26,12 +26,12 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, settings: PathSettin
 fn branches_leave_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
     let leaf = || Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
-    let floors = [(matt(0.7), true), (matt(0.7), false), (paint(0.6, 0.2), true), (paint(0.6, 0.0), true)];
+    let floors = [(diffuse_surface(0.7), true), (diffuse_surface(0.7), false), (paint(0.6, 0.2), true), (paint(0.6, 0.0), true)];
     for (floor, glows) in floors.into_iter().chain([(leaf(), true), (aluminium(0.0), true)]) {
         let ready = corner(floor, glows);
         for strategies in [Strategies::Both, Strategies::Lights] {
-            let one = looks(&ready, &TARGETS, 256, settings(1, strategies));
-            let three = looks(&ready, &TARGETS, 128, settings(3, strategies));
+            let one = measure_all(&ready, &TARGETS, 256, settings(1, strategies));
+            let three = measure_all(&ready, &TARGETS, 128, settings(3, strategies));
             three.iter().zip(&one).for_each(|(a, b)| agree(a, b));
         }
     }
@@ -43,7 +43,7 @@ fn branches_leave_what_is_left_out() {
     for floor in [paint(0.6, 0.2), paint(0.6, 0.0), aluminium(0.1)] {
         let ready = corner(floor, true);
         let of = |branches| PathSettings { caustics: false, regularize: true, ..settings(branches, Strategies::Both) };
-        let (one, three) = (looks(&ready, &TARGETS, 256, of(1)), looks(&ready, &TARGETS, 128, of(3)));
+        let (one, three) = (measure_all(&ready, &TARGETS, 256, of(1)), measure_all(&ready, &TARGETS, 128, of(3)));
         three.iter().zip(&one).for_each(|(a, b)| agree(a, b));
     }
 }
@@ -51,12 +51,12 @@ fn branches_leave_what_is_left_out() {
 /// Without a sun, which few samples hit by chance, light that is only hit has the mean of light that is sampled, too.
 #[test]
 fn light_that_branches_meet_is_weighed_by_all_of_them() {
-    let mut ready = corner(matt(0.7), true);
+    let mut ready = corner(diffuse_surface(0.7), true);
     ready.sources.suns.clear();
     let close: Vec<_> = (0..4).map(|i| [0.9 + 0.05 * i as f32, 0.5, 0.0]).collect();
-    let one = looks(&ready, &close, 512, settings(1, Strategies::Both));
+    let one = measure_all(&ready, &close, 512, settings(1, Strategies::Both));
     for strategies in [Strategies::Both, Strategies::Scattering] {
-        let four = looks(&ready, &close, 256, settings(4, strategies));
+        let four = measure_all(&ready, &close, 256, settings(4, strategies));
         four.iter().zip(&one).for_each(|(a, b)| agree(a, b));
         four.iter().for_each(|e| assert!(e.standard_error() < 0.01 * e.mean, "{strategies:?} {e:?}"));
     }
@@ -64,13 +64,13 @@ fn light_that_branches_meet_is_weighed_by_all_of_them() {
 
 #[test]
 fn branches_leave_every_mean_in_fog_and_under_a_guide() {
-    let ready = corner(matt(0.7), false);
+    let ready = corner(diffuse_surface(0.7), false);
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let fog = [fog(0.1, 0.9, Phase::Isotropic, Region::Ball { radius_m: 6.0 })];
     let media = Media::new(&fog, DVec3::ZERO, TimeInterval::default());
     let of = |branches| PathTracer::new(&view, &ready.material_table, &lights, settings(branches, Strategies::Both));
-    let guide = learnt(&of(4), &TARGETS, 0..1 << 12);
+    let guide = trained_guide(&of(4), &TARGETS, 0..1 << 12);
     assert!(guide.places() > 8, "paths that would branch teach the guide as well");
     let alone = |tracer: PathTracer<'_>| estimates(&tracer, &TARGETS, 256, false);
     for [one, four] in [[1, 4].map(|n| of(n).with_media(&media)), [1, 4].map(|n| of(n).with_guide(Some(&guide)))] {
@@ -81,12 +81,12 @@ fn branches_leave_every_mean_in_fog_and_under_a_guide() {
 /// In the sun, away from all shadows, a pixel's error comes from the second surface on.
 #[test]
 fn branches_lower_the_error_as_more_samples_do() {
-    let ready = corner(matt(0.7), false);
+    let ready = corner(diffuse_surface(0.7), false);
     let close: Vec<_> = (0..16).map(|i| [1.6 + 0.01 * (i % 4) as f32, -1.4 + 0.01 * (i / 4) as f32, 0.0]).collect();
     let relative = |e: &ReplicateEstimate| e.variance_of_mean / (e.mean * e.mean);
     let error = |samples, branches| {
-        let looks = looks(&ready, &close, samples, settings(branches, Strategies::Both));
-        looks.iter().map(relative).sum::<f64>()
+        let estimates = measure_all(&ready, &close, samples, settings(branches, Strategies::Both));
+        estimates.iter().map(relative).sum::<f64>()
     };
     let (few, branched, many) = (error(16, 1), error(16, 4), error(64, 1));
     // Variances of 16 rays by 32 replicates are good to 6 % (√(2/(16·31))); their ratio, to 9 %: three times that.
@@ -95,12 +95,12 @@ fn branches_lower_the_error_as_more_samples_do() {
 
 /// The density of a light with n samples is n times the density with one.
 #[test]
-fn densities_are_those_of_all_draws() {
-    let ready = corner(matt(0.7), true);
+fn densities_are_those_of_all_samples() {
+    let ready = corner(diffuse_surface(0.7), true);
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
-    let one = LightSampleContext { in_view: true, ..LightSampleContext::matt(Vec3::new(0.2, -0.5, 0.0), Vec3::Z) };
-    let five = LightSampleContext { draws: 5, ..one };
+    let one = LightSampleContext { in_view: true, ..LightSampleContext::diffuse(Vec3::new(0.2, -0.5, 0.0), Vec3::Z) };
+    let five = LightSampleContext { samples: 5, ..one };
     let interval = TimeInterval::default();
     for k in 0..64 {
         let (choice, u) = ((k as f32 + 0.5) / 64.0, Vec2::new(0.3, 0.6));
@@ -108,9 +108,9 @@ fn densities_are_those_of_all_draws() {
             .map(|receiver| lights.sample(receiver, choice, u, 0.0, &ready.material_table, query(&interval)));
         let (Some(a), Some(b)) = (a, b) else { panic!("the floor sees every light") };
         assert!((b.pdf / a.pdf - 5.0).abs() < 1e-5 && b.direction == a.direction && b.radiance == a.radiance);
-        let met =
+        let hit_light =
             |receiver| lights.distant(a.direction, Some(receiver), &WAVELENGTHS).map(|light| light.pdf).sum::<f32>();
-        assert!((met(&five) - 5.0 * met(&one)).abs() <= 1e-5 * met(&five), "{k}");
+        assert!((hit_light(&five) - 5.0 * hit_light(&one)).abs() <= 1e-5 * hit_light(&five), "{k}");
     }
 }
 
@@ -119,12 +119,12 @@ fn densities_are_those_of_all_draws() {
 fn one_branch_is_the_path_itself() {
     let ready = corner(paint(0.6, 0.2), true);
     let values = |branches| {
-        looks(&ready, &TARGETS, 16, settings(branches, Strategies::Both))
+        measure_all(&ready, &TARGETS, 16, settings(branches, Strategies::Both))
             .iter()
             .map(|e| e.mean.to_bits())
             .collect::<Vec<_>>()
     };
-    let plain = looks(&ready, &TARGETS, 16, PathSettings { max_bounces: 6, ..PathSettings::default() });
+    let plain = measure_all(&ready, &TARGETS, 16, PathSettings { max_bounces: 6, ..PathSettings::default() });
     assert_eq!(values(1), plain.iter().map(|e| e.mean.to_bits()).collect::<Vec<_>>());
     assert!(values(4) == values(4) && values(4) != values(1));
 }

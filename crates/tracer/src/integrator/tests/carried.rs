@@ -1,6 +1,6 @@
 //! Moving lamps: every ray is lit by the lamp of its own time.
 
-use super::motion::{look, shutter};
+use super::motion::{measure, shutter};
 use super::*;
 use crate::lights::{Cone, Lamp, LightHit, LightSampleContext, Opening, OpeningBody, Profile, head_lamp};
 use etendue_core::TimeInterval;
@@ -26,7 +26,7 @@ fn carried(place: DVec3, sway: f64) -> Motion {
     let arm = [-0.5, 0.2, 0.5].map(|part| key(part, place, turn(sway * part, DVec3::X)));
     let car = Track::new(&car, Interpolation::Linear).expect("legal");
     let arm = Track::new(&arm, Interpolation::Smooth).expect("legal");
-    Motion::from(car).carrying(&arm.into()).carrying(&Motion::still(DAffine3::from_mat3(DOWN)))
+    Motion::from(car).carrying(&arm.into()).carrying(&Motion::constant(DAffine3::from_mat3(DOWN)))
 }
 
 /// Points and openings of every kind of surface.
@@ -43,7 +43,7 @@ fn openings() -> [Option<Opening>; 6] {
 }
 
 /// A floor under those lamps.
-fn scene(floor: Surface, openings: &[Option<Opening>]) -> Ready {
+fn scene(floor: Surface, openings: &[Option<Opening>]) -> BuiltScene {
     let mut scene = Scene::default();
     let floor = scene.material(floor, None);
     let black = scene.material(Surface::Absorber, None);
@@ -77,19 +77,19 @@ fn scene(floor: Surface, openings: &[Option<Opening>]) -> Ready {
 /// Floors in the light of all of them, by every strategy of finding it.
 #[test]
 fn lamps_in_motion_are_those_of_the_frozen_world() {
-    for (floor, open) in [(matt(0.8), &openings()[..]), (paint(0.6, 0.3), &openings()[1..])] {
+    for (floor, open) in [(diffuse_surface(0.8), &openings()[..]), (paint(0.6, 0.3), &openings()[1..])] {
         let ready = scene(floor, open);
-        assert!(ready.sources.lamps.iter().all(|lamp| lamp.to_world().as_still().is_none()));
+        assert!(ready.sources.lamps.iter().all(|lamp| lamp.to_world().as_constant().is_none()));
         for time_s in [0.0, 0.15, 0.4] {
             let mut ray = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
             let frozen = TimeInterval::at(shutter().start_s() + f64::from(time_s)).expect("finite");
             let settings = |strategies| PathSettings { max_bounces: 2, strategies, ..PathSettings::default() };
-            let expected = look(&ready, frozen, &ray, settings(Strategies::Both), 256);
+            let expected = measure(&ready, frozen, &ray, settings(Strategies::Both), 256);
             ray.time_s = time_s;
-            agree(&look(&ready, shutter(), &ray, settings(Strategies::Both), 256), &expected);
-            agree(&look(&ready, shutter(), &ray, settings(Strategies::Lights), 512), &expected);
+            agree(&measure(&ready, shutter(), &ray, settings(Strategies::Both), 256), &expected);
+            agree(&measure(&ready, shutter(), &ray, settings(Strategies::Lights), 512), &expected);
             if open.iter().all(Option::is_some) {
-                agree(&look(&ready, shutter(), &ray, settings(Strategies::Scattering), 2048), &expected);
+                agree(&measure(&ready, shutter(), &ray, settings(Strategies::Scattering), 2048), &expected);
             }
             assert!(expected.mean > 0.0 && expected.standard_error() < 0.03 * expected.mean, "{expected:?}");
         }
@@ -101,12 +101,12 @@ fn lamps_in_motion_are_those_of_the_frozen_world() {
 #[test]
 fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
     for opening in openings() {
-        let ready = scene(matt(0.5), &[opening]);
+        let ready = scene(diffuse_surface(0.5), &[opening]);
         let view = ready.world.render_space_for_few(DVec3::ZERO, shutter());
         let lights = ready.lights(&view);
         let counts = lights.light_counts();
         assert_eq!((counts.lamps, counts.openings), if opening.is_some() { (0, 1) } else { (1, 0) });
-        let mut drawn = 0;
+        let mut sampled = 0;
         for i in 0..400_u32 {
             let time_s = 0.001 * i as f32;
             let moment = TimeInterval::at(shutter().moment(time_s)).expect("finite");
@@ -114,7 +114,7 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             let frozen = ready.lights(&frozen_view);
             let at = |k: u32| ((i * 37 + k * 61) % 101) as f32 / 101.0;
             let place = Vec3::new(8.0 * at(1) - 6.0, 4.0 * at(2) - 2.0, 0.3 * at(3));
-            let still = LightSampleContext::matt(place, Vec3::ZERO);
+            let still = LightSampleContext::diffuse(place, Vec3::ZERO);
             let receiver = LightSampleContext { time_s, ..still };
             let ask = |lights: &Lights, receiver| {
                 lights.sample(
@@ -134,24 +134,24 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
                 assert!((value - other).abs() <= 1e-2 * other, "{value} {other}");
             }
             let Some(target) = sample.target.filter(|_| opening.is_some()) else {
-                drawn += 1;
+                sampled += 1;
                 continue;
             };
-            let way = target - place;
-            let blocked = Ray { t_max: way.length(), ..Ray::new(place, way.normalize(), time_s) };
+            let to_target = target - place;
+            let blocked = Ray { t_max: to_target.length(), ..Ray::new(place, to_target.normalize(), time_s) };
             assert!(!view.occluded(&blocked), "the opening hides its own point");
             let ray = Ray::new(place, sample.direction, time_s);
             let Some(hit) = view.closest(&ray) else { continue };
-            drawn += 1;
+            sampled += 1;
             let point = view.surface(&ray, &hit);
-            let met = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
-            let seen = lights.of_opening(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
-            assert!((seen[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{seen:?} {sample:?}");
+            let light_hit = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
+            let actual = lights.opening_radiance(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
+            assert!((actual[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{actual:?} {sample:?}");
             // A ray to the far side of a stretched ball hits the near one.
-            let relative = lights.light_pdf(&met) / sample.pdf;
+            let relative = lights.light_pdf(&light_hit) / sample.pdf;
             let stretched = opening.is_some_and(|opening| opening == openings()[5].expect("an opening"));
             assert!((relative - 1.0).abs() < 0.02 || stretched, "{relative}");
         }
-        assert!(drawn > 200, "{drawn}");
+        assert!(sampled > 200, "{sampled}");
     }
 }

@@ -6,8 +6,8 @@ use crate::materials::MaterialTable;
 #[test]
 fn a_white_sphere_vanishes_in_a_uniform_environment() {
     for (surface, environment, expected) in [
-        (matt(1.0), Environment::Uniform(Spectrum::constant(1.0)), 1.0),
-        (matt(1.0), white_picture(), f64::from(upsample::emission([1.0; 3], &WAVELENGTHS)[1])),
+        (diffuse_surface(1.0), Environment::Uniform(Spectrum::constant(1.0)), 1.0),
+        (diffuse_surface(1.0), white_picture(), f64::from(upsample::emission([1.0; 3], &WAVELENGTHS)[1])),
         (paint(1.0, 0.0), Environment::Uniform(Spectrum::constant(1.0)), 1.0),
     ] {
         let mut scene =
@@ -16,27 +16,27 @@ fn a_white_sphere_vanishes_in_a_uniform_environment() {
         scene.sphere(DVec3::new(5.0, 0.0, 0.0), 1.0, material);
         let ready = scene.ready();
         for towards in [[5.0, 0.0, 0.0], [5.0, 0.7, 0.3], [5.0, 0.9, 0.0], [5.0, 5.0, 0.0]] {
-            agrees(&ready.look(&ray([0.0; 3], towards), 256, bounces(8)), expected);
+            agrees(&ready.measure(&ray([0.0; 3], towards), 256, bounces(8)), expected);
         }
     }
 }
 
 #[test]
-fn a_glowing_cavity_has_its_geometric_sum() {
+fn an_emitting_cavity_has_its_geometric_sum() {
     for albedo in [0.5, 0.9, 0.98] {
         let mut sphere = Scene::default();
-        let glowing = sphere.material(matt(albedo), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing = sphere.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         sphere.sphere(DVec3::new(0.3, 0.0, 0.1), 2.0, glowing);
-        let estimate = sphere.ready().look(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
+        let estimate = sphere.ready().measure(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
         agrees(&estimate, 1.0 / (1.0 - albedo));
 
         let mut cube = Scene::default();
-        let glowing = cube.material(matt(albedo), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing = cube.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         let corner = |i: u32| Vec3::new((i & 1) as f32 - 0.4, (i >> 1 & 1) as f32 - 0.5, (i >> 2) as f32 - 0.6);
         let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let triangles = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
         cube.mesh((0..8).map(corner).collect(), triangles, glowing);
-        let estimate = cube.ready().look(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
+        let estimate = cube.ready().measure(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
         agrees(&estimate, 1.0 / (1.0 - albedo));
     }
 }
@@ -49,12 +49,12 @@ fn branched(max_bounces: u32) -> [PathSettings; 2] {
 #[test]
 fn a_bounce_more_adds_its_term() {
     let mut scene = Scene::default();
-    let glowing = scene.material(matt(0.5), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
+    let glowing = scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
     scene.sphere(DVec3::ZERO, 1.0, glowing);
     let ready = scene.ready();
     for (max_bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (3, 1.875)] {
         for settings in branched(max_bounces) {
-            agrees(&ready.look(&ray([0.1, 0.0, 0.0], [1.0, 0.2, 0.3]), 128, settings), expected);
+            agrees(&ready.measure(&ray([0.1, 0.0, 0.0], [1.0, 0.2, 0.3]), 128, settings), expected);
         }
     }
 }
@@ -67,8 +67,8 @@ fn a_sphere_lights_a_plane_by_its_closed_form() {
     {
         let mut scene = Scene::default();
         let (floor, lamp) = (
-            scene.material(matt(0.6), None),
-            scene.material(Surface::Absorber, Some(Glow { radiance: 7.0, sides: EmissionSides::Front })),
+            scene.material(diffuse_surface(0.6), None),
+            scene.material(Surface::Absorber, Some(TestEmission { radiance: 7.0, sides: EmissionSides::Front })),
         );
         scene.square(Vec3::ZERO, 10.0, floor);
         scene.sphere(centre, radius, lamp);
@@ -76,7 +76,7 @@ fn a_sphere_lights_a_plane_by_its_closed_form() {
         let irradiance = PI * 7.0 * (radius / d) * (radius / d) * centre.z / d;
         let ready = scene.ready();
         for settings in branched(1) {
-            agrees(&ready.look(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 256, settings), 0.6 / PI * irradiance);
+            agrees(&ready.measure(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 256, settings), 0.6 / PI * irradiance);
         }
     }
 }
@@ -84,18 +84,18 @@ fn a_sphere_lights_a_plane_by_its_closed_form() {
 #[test]
 fn a_sun_lights_a_plane_by_its_irradiance() {
     let direction = DVec3::new(1.0, 0.5, 1.0);
-    let sun = Sun::of_irradiance(direction, 0.5338, &Spectrum::constant(1.4)).expect("a sun");
+    let sun = Sun::from_irradiance(direction, 0.5338, &Spectrum::constant(1.4)).expect("a sun");
     let towards = sun.direction().to_array();
-    let seen = f64::from(sun.radiance().at(520.0));
+    let actual = f64::from(sun.radiance().at(520.0));
     let mut scene = Scene { sources: Sources { suns: vec![sun], ..Sources::default() }, ..Scene::default() };
-    let floor = scene.material(matt(0.3), None);
+    let floor = scene.material(diffuse_surface(0.3), None);
     scene.square(Vec3::new(0.0, 0.0, -1.0), 10.0, floor);
     let ready = scene.ready();
     let expected = 0.3 / PI * 1.4 * direction.normalize().z;
     for settings in branched(1) {
-        agrees(&ready.look(&ray([0.0; 3], [0.3, 0.1, -1.0]), 64, settings), expected);
+        agrees(&ready.measure(&ray([0.0; 3], [0.3, 0.1, -1.0]), 64, settings), expected);
     }
-    agrees(&ready.look(&ray([0.0; 3], towards), 1, bounces(1)), seen);
+    agrees(&ready.measure(&ray([0.0; 3], towards), 1, bounces(1)), actual);
 }
 
 #[test]
@@ -103,12 +103,12 @@ fn a_mirror_shows_the_lamp_by_fresnel() {
     let mut scene = Scene::default();
     let (mirror, lamp) = (
         scene.material(aluminium(0.0), None),
-        scene.material(Surface::Absorber, Some(Glow { radiance: 5.0, sides: EmissionSides::Both })),
+        scene.material(Surface::Absorber, Some(TestEmission { radiance: 5.0, sides: EmissionSides::Both })),
     );
     scene.square(Vec3::ZERO, 1.0, mirror);
     scene.square(Vec3::new(0.0, 0.0, 10.0), 1.0, lamp);
-    let estimate = scene.ready().look(&ray([0.0, 0.0, 5.0], [0.0; 3]), 4, bounces(1));
-    let al = metal::named("Al").expect("aluminium");
+    let estimate = scene.ready().measure(&ray([0.0, 0.0, 5.0], [0.0; 3]), 4, bounces(1));
+    let al = metal::by_name("Al").expect("aluminium");
     let (n, k) = (f64::from(al.n.at(520.0)), f64::from(al.k.at(520.0)));
     agrees(&estimate, 5.0 * ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k));
 }
@@ -118,12 +118,12 @@ fn radiance_keeps_its_digits_over_the_whole_range() {
     for scale in [1e-9, 1e12] {
         let mut scene = Scene::default();
         let (floor, lamp) = (
-            scene.material(matt(0.6), None),
-            scene.material(matt(0.5), Some(Glow { radiance: scale, sides: EmissionSides::Front })),
+            scene.material(diffuse_surface(0.6), None),
+            scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: scale, sides: EmissionSides::Front })),
         );
         scene.square(Vec3::ZERO, 10.0, floor);
         scene.sphere(DVec3::new(0.0, 0.0, 2.0), 0.5, lamp);
-        let estimate = scene.ready().look(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 64, bounces(1));
+        let estimate = scene.ready().measure(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 64, bounces(1));
         agrees(&estimate, 0.6 * scale / 16.0);
     }
 }
@@ -140,11 +140,11 @@ fn a_texture_is_read_in_its_place() {
     let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
     let (mesh, _) = Mesh::new(positions, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("a mesh");
     let shape = Shape::Mesh(builder.add_mesh(mesh));
-    let to_world = Motion::still(DAffine3::IDENTITY);
+    let to_world = Motion::constant(DAffine3::IDENTITY);
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 1 });
     let world = builder.build().expect("a world");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
-    let ready = Ready { world, material_table, sources: Sources { environment, ..Sources::default() } };
-    agrees(&ready.look(&ray([-0.5, 0.3, 1.0], [-0.5, 0.3, 0.0]), 4, bounces(1)), 0.2);
-    agrees(&ready.look(&ray([0.5, 0.3, 1.0], [0.5, 0.3, 0.0]), 4, bounces(1)), 0.8);
+    let ready = BuiltScene { world, material_table, sources: Sources { environment, ..Sources::default() } };
+    agrees(&ready.measure(&ray([-0.5, 0.3, 1.0], [-0.5, 0.3, 0.0]), 4, bounces(1)), 0.2);
+    agrees(&ready.measure(&ray([0.5, 0.3, 1.0], [0.5, 0.3, 0.0]), 4, bounces(1)), 0.8);
 }

@@ -22,9 +22,9 @@ fn middle(t: f64) -> f64 {
     2.25 * (1.0 - r) * t / (1.0 - r * t * t)
 }
 
-fn look(scene: Scene, max_bounces: u32, integrator: Integrator) -> ReplicateEstimate {
+fn measure(scene: Scene, max_bounces: u32, integrator: Integrator) -> ReplicateEstimate {
     let settings = PathSettings { max_bounces, integrator, roulette_start: 64, ..PathSettings::default() };
-    scene.ready().look(&ray([0.0; 3], [0.3, -0.5, 0.8]), 1024, settings)
+    scene.ready().measure(&ray([0.0; 3], [0.3, -0.5, 0.8]), 1024, settings)
 }
 
 /// Corners of a cube about the origin.
@@ -49,7 +49,7 @@ fn light_is_absorbed_on_its_way_to_a_camera_inside_a_ball() {
         let mut scene = even_light();
         let ball = scene.material(glass(absorption), None);
         scene.sphere(DVec3::ZERO, 1.0, ball);
-        agrees(&look(scene, 64, Integrator::Path), middle(t));
+        agrees(&measure(scene, 64, Integrator::Path), middle(t));
     }
 }
 
@@ -62,7 +62,7 @@ fn the_other_levels_absorb_as_well() {
         scene.sphere(DVec3::ZERO, 1.0, ball);
         let r = 0.04;
         let once = 2.25 * (1.0 - r) * maths::f64::exp(-ABSORPTION);
-        let estimate = look(scene, 1, level);
+        let estimate = measure(scene, 1, level);
         // The flat level uses light of the surroundings for reflections too.
         let mirrored = if level == Integrator::Flat { r * maths::f64::exp(-ABSORPTION) } else { 0.0 };
         agrees(&estimate, once + mirrored);
@@ -78,49 +78,49 @@ fn the_innermost_of_nested_solids_surrounds_the_camera() {
         cube(&mut scene, 3.0, b, 6);
         scene.sphere(DVec3::new(1.9, 0.0, 0.0), 0.5, b);
         let ready = scene.ready();
-        Surroundings::of(&ready.world.render_space(DVec3::ZERO), &ready.material_table)
+        Surroundings::from_view(&ready.world.render_space(DVec3::ZERO), &ready.material_table)
     };
-    assert_eq!(solid(Some(1.0), None), Surroundings { solid: Some(MaterialId(0)), open: None });
+    assert_eq!(solid(Some(1.0), None), Surroundings { solid: Some(MaterialId(0)), open_solid: None });
 }
 
 #[test]
 fn a_hollow_holds_air() {
     let mut scene = Scene::default();
     let water = scene.material(glass(Some(1.0)), None);
-    let other = scene.material(matt(0.5), None);
+    let other = scene.material(diffuse_surface(0.5), None);
     cube(&mut scene, 0.5, other, 6);
     // One body: its outside and the wall of the hollow are one mesh.
     let inwards = sides(6).map(|[a, b, c]| [a + 8, c + 8, b + 8]);
     scene.mesh(corners(2.0).chain(corners(1.0)).collect(), sides(6).chain(inwards).collect(), water);
     let ready = scene.ready();
-    let around = |at: DVec3| Surroundings::of(&ready.world.render_space(at), &ready.material_table).solid;
+    let around = |at: DVec3| Surroundings::from_view(&ready.world.render_space(at), &ready.material_table).solid;
     assert_eq!((around(DVec3::new(0.7, 0.0, 0.0)), around(DVec3::new(1.5, 0.1, 0.0))), (None, Some(water)));
     assert_eq!(around(DVec3::new(2.5, 0.1, 0.0)), None);
 }
 
 #[test]
-fn a_body_with_a_hole_is_told() {
+fn a_body_with_a_hole_is_reported() {
     let mut scene = Scene::default();
     let water = scene.material(glass(Some(1.0)), None);
     cube(&mut scene, 1.0, water, 5);
     let ready = scene.ready();
-    let around = |at: DVec3| Surroundings::of(&ready.world.render_space(at), &ready.material_table);
-    assert_eq!(around(DVec3::ZERO), Surroundings { solid: Some(water), open: Some(water) });
+    let around = |at: DVec3| Surroundings::from_view(&ready.world.render_space(at), &ready.material_table);
+    assert_eq!(around(DVec3::ZERO), Surroundings { solid: Some(water), open_solid: Some(water) });
     assert_eq!(around(DVec3::X * 5.0).solid, None);
 }
 
 /// A thin body of glass about the camera, and a ball of light in it.
 #[test]
 fn a_lamp_in_the_same_water_is_dimmed_on_its_way() {
-    let seen = |absorption: Option<f64>| {
+    let actual = |absorption: Option<f64>| {
         let mut scene = Scene::default();
         let water = scene.material(glass(absorption), None);
         cube(&mut scene, 2.0, water, 6);
-        let glow = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Front }));
-        scene.sphere(DVec3::new(0.9, -1.5, 0.0), 0.2, glow);
+        let emission = scene.material(Surface::Absorber, Some(TestEmission { radiance: 1.0, sides: EmissionSides::Front }));
+        scene.sphere(DVec3::new(0.9, -1.5, 0.0), 0.2, emission);
         let towards = [0.9, -1.5, 0.0];
-        scene.ready().look(&ray([0.0; 3], towards), 64, bounces(4)).mean
+        scene.ready().measure(&ray([0.0; 3], towards), 64, bounces(4)).mean
     };
-    let way = (0.81_f64 + 2.25).sqrt() - 0.2;
-    assert!((seen(Some(1.0)) / seen(None) / maths::f64::exp(-way) - 1.0).abs() < 1e-5);
+    let length_m = (0.81_f64 + 2.25).sqrt() - 0.2;
+    assert!((actual(Some(1.0)) / actual(None) / maths::f64::exp(-length_m) - 1.0).abs() < 1e-5);
 }

@@ -11,11 +11,11 @@ fn floor(integrator: Integrator, x: f32) -> ReplicateEstimate {
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
     let mut scene =
         Scene { sources: Sources { lamps: vec![lamp], environment, ..Sources::default() }, ..Scene::default() };
-    let (white, black) = (scene.material(matt(1.0), None), scene.material(Surface::Absorber, None));
+    let (white, black) = (scene.material(diffuse_surface(1.0), None), scene.material(Surface::Absorber, None));
     scene.square(Vec3::ZERO, 50.0, white);
     scene.square(Vec3::new(0.0, 0.0, 1.0), 0.5, black);
     let settings = PathSettings { integrator, max_bounces: 7, ..PathSettings::default() };
-    scene.ready().look(&ray([x, 2.0, 0.9], [x, 0.0, 0.0]), 1024, settings)
+    scene.ready().measure(&ray([x, 2.0, 0.9], [x, 0.0, 0.0]), 1024, settings)
 }
 
 /// Fraction of the sky that a square of half side 0.5 at height 1 hides from the point below its centre, weighted by the cosine: 4/π ·
@@ -36,37 +36,37 @@ fn flat_is_unshadowed_and_direct_is_shadowed() {
 /// A white wall of a white box of radiance 1: its own emission, direct light, and all light.
 #[test]
 fn only_paths_gather_light_of_other_surfaces() {
-    let look = |integrator| {
+    let measure = |integrator| {
         let mut scene = Scene::default();
-        let glowing = scene.material(matt(0.5), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing = scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         scene.sphere(DVec3::ZERO, 1.0, glowing);
         let settings = PathSettings { integrator, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
-        scene.ready().look(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
+        scene.ready().measure(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
     };
-    agrees(&look(Integrator::Flat), 1.5);
-    agrees(&look(Integrator::Direct), 1.5);
-    agrees(&look(Integrator::Path), 2.0);
+    agrees(&measure(Integrator::Flat), 1.5);
+    agrees(&measure(Integrator::Direct), 1.5);
+    agrees(&measure(Integrator::Path), 2.0);
 }
 
 #[test]
-fn mirrors_show_the_surroundings_at_every_level_and_what_glows_from_direct_on() {
-    let look = |integrator, glows: bool| {
+fn mirrors_show_the_surroundings_at_every_level_and_what_emits_from_direct_on() {
+    let measure = |integrator, glows: bool| {
         let environment = Some(Environment::Uniform(Spectrum::constant(2.0)));
         let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
         let mirror = scene.material(aluminium(0.0), None);
         scene.square(Vec3::ZERO, 1.0, mirror);
         if glows {
-            let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 5.0, sides: EmissionSides::Both }));
+            let lamp = scene.material(Surface::Absorber, Some(TestEmission { radiance: 5.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 3.0), 1.0, lamp);
         }
         let settings = PathSettings { integrator, ..PathSettings::default() };
-        scene.ready().look(&ray([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]), 1, settings).mean
+        scene.ready().measure(&ray([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]), 1, settings).mean
     };
-    let sky = look(Integrator::Path, false);
+    let sky = measure(Integrator::Path, false);
     assert!(sky > 1.5, "aluminium reflects more than three quarters");
     for (level, expected) in [(Integrator::Flat, sky), (Integrator::Direct, 2.5 * sky), (Integrator::Path, 2.5 * sky)] {
         // Six roundings.
-        assert!((look(level, true) / expected - 1.0).abs() < 1e-6, "{level:?}");
-        assert!((look(level, false) / sky - 1.0).abs() < 1e-6, "{level:?}");
+        assert!((measure(level, true) / expected - 1.0).abs() < 1e-6, "{level:?}");
+        assert!((measure(level, false) / sky - 1.0).abs() < 1e-6, "{level:?}");
     }
 }

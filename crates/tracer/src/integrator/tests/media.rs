@@ -3,7 +3,7 @@
 use super::*;
 use crate::lights::{Lamp, Profile};
 use crate::media::{
-    ForwardPeak, Media, MediaRay, Medium, Noise, Phase, RandomCounter, Shape as Region, Solid, Unevenness, cuboid,
+    ForwardPeak, Media, MediaRay, Medium, Noise, Phase, RandomCounter, MediumRegion as Region, Solid, DensityVariation, cuboid,
 };
 use etendue_core::random::PixelAddress;
 use glam::DMat3;
@@ -13,22 +13,22 @@ const FORWARD: Phase = Phase::HenyeyGreenstein { g: 0.85 };
 
 pub(super) fn fog(extinction_per_m: f64, albedo: f64, phase: Phase, shape: Region) -> Medium {
     let of = |value| Spectrum::constant(value);
-    Medium::new(of(extinction_per_m), of(albedo), phase, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
+    Medium::new(of(extinction_per_m), of(albedo), phase, shape, Motion::constant(DAffine3::IDENTITY)).expect("legal")
 }
 
 fn uneven(medium: Medium, amplitude: f64) -> Medium {
     let noise = Noise { scale_m: 3.0, octaves: 3, gain: 0.5, seed: 5 };
-    medium.with_unevenness(Unevenness { noise, amplitude, wind_mps: DVec3::new(1.0, 0.0, 0.0) })
+    medium.with_unevenness(DensityVariation { noise, amplitude, wind_mps: DVec3::new(1.0, 0.0, 0.0) })
 }
 
 /// Radiance along a ray through media, from 32 replicates of `samples`.
-fn look(ready: &Ready, media: &[Medium], ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
+fn measure(ready: &BuiltScene, media: &[Medium], ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let media = Media::new(media, DVec3::ZERO, TimeInterval::default());
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings).with_media(&media);
     let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
-    ReplicateEstimate::of(&means).expect("replicates")
+    ReplicateEstimate::from_replicates(&means).expect("replicates")
 }
 
 fn even_surroundings() -> Scene {
@@ -46,11 +46,11 @@ fn up() -> Ray {
 fn fog_in_a_furnace_is_not_seen() {
     let ball = Region::Ball { radius_m: 4.0 };
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
-    for (what, phase) in [("even", Phase::Isotropic), ("forward", FORWARD), ("molecules", Phase::Rayleigh)] {
+    for (case, phase) in [("even", Phase::Isotropic), ("forward", FORWARD), ("molecules", Phase::Rayleigh)] {
         let even = fog(0.7, 1.0, phase.clone(), ball.clone());
-        for (how, medium) in [("flat", even.clone()), ("uneven", uneven(even, 0.9))] {
-            let seen = look(&even_surroundings().ready(), &[medium], &up(), 16, settings);
-            assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 2e-4, "{what}, {how}: {seen:?}");
+        for (variant, medium) in [("flat", even.clone()), ("uneven", uneven(even, 0.9))] {
+            let actual = measure(&even_surroundings().ready(), &[medium], &up(), 16, settings);
+            assert!((actual.mean - 1.0).abs() < 3.0 * actual.standard_error() + 2e-4, "{case}, {variant}: {actual:?}");
         }
     }
 }
@@ -82,8 +82,8 @@ fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
     let even = fog(0.7, 1.0, FORWARD, shape);
     for medium in [even.clone(), uneven(even, 0.9)] {
-        let seen = look(&even_surroundings().ready(), &[medium], &up(), 16, settings);
-        assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 2e-4, "{seen:?}");
+        let actual = measure(&even_surroundings().ready(), &[medium], &up(), 16, settings);
+        assert!((actual.mean - 1.0).abs() < 3.0 * actual.standard_error() + 2e-4, "{actual:?}");
     }
 }
 
@@ -92,12 +92,12 @@ fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
 #[test]
 fn fog_within_a_mesh_is_that_within_its_shape() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
+    let wall = scene.material(Surface::Absorber, Some(TestEmission { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let half_m = DVec3::new(30.0, 30.0, 8.0);
     let moved = |shape, z: f64| {
-        let place = Motion::still(DAffine3::from_translation(DVec3::Z * z));
+        let place = Motion::constant(DAffine3::from_translation(DVec3::Z * z));
         Medium::new(Spectrum::constant(0.05), Spectrum::constant(0.6), FORWARD, shape, place).expect("legal")
     };
     let boxes = [moved(Region::Box { half_m }, 0.0), moved(Region::Box { half_m }, 25.0)];
@@ -105,17 +105,17 @@ fn fog_within_a_mesh_is_that_within_its_shape() {
     let address = PixelAddress { frame: FrameAddress::default(), pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
     let stream = PathStream::new(&address, 0);
     let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
-    let mut way = up();
-    way.t_max = 40.0;
+    let mut segment = up();
+    segment.t_max = 40.0;
     let through = |media: &[Medium]| {
         let media = Media::new(media, DVec3::ZERO, TimeInterval::default());
         let random = RandomCounter { stream: &stream, counter: 0 };
-        media.transmittance(MediaRay { ray: &way, peak: ForwardPeak::Exact }, random, &wavelengths)
+        media.transmittance(MediaRay { ray: &segment, peak: ForwardPeak::Exact }, random, &wavelengths)
     };
     assert!((through(&boxes) - through(&mesh)).max_value().abs() < 1e-7, "{:?}", through(&mesh));
     assert!((f64::from(through(&mesh)[0]) - maths::f64::exp(-0.05 * 24.0)).abs() < 1e-6);
     let settings = PathSettings { max_bounces: 8, ..PathSettings::default() };
-    let [of_boxes, of_mesh] = [&boxes[..], &mesh[..]].map(|media| look(&ready, media, &up(), 1024, settings));
+    let [of_boxes, of_mesh] = [&boxes[..], &mesh[..]].map(|media| measure(&ready, media, &up(), 1024, settings));
     agree(&of_boxes, &of_mesh);
 }
 
@@ -123,22 +123,22 @@ fn fog_within_a_mesh_is_that_within_its_shape() {
 #[test]
 fn airlight_is_a_part_of_the_light() {
     let mut scene = even_surroundings();
-    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
+    let wall = scene.material(Surface::Absorber, Some(TestEmission { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 10.0), 30.0, wall);
     let ready = scene.ready();
     let shape = Region::Box { half_m: DVec3::new(9.0, 9.0, 6.0) };
     let media = [fog(0.1, 0.8, Phase::Isotropic, shape)];
     let settings = PathSettings { max_bounces: 64, ..PathSettings::default() };
     for (ray, behind) in [(up(), 2.0), (Ray::new(Vec3::ZERO, -Vec3::Z, 0.0), 1.0)] {
-        let whole = look(&ready, &media, &ray, 2048, settings);
-        let air = look(&ready, &media, &ray, 2048, PathSettings { only_airlight: true, ..settings });
+        let combined = measure(&ready, &media, &ray, 2048, settings);
+        let air = measure(&ready, &media, &ray, 2048, PathSettings { only_airlight: true, ..settings });
         // The same random numbers: the difference is the light from behind, with the transmittance exp(−0.6).
         let expected = behind * maths::f64::exp(-0.6);
-        let error = whole.standard_error().max(1e-4);
-        assert!((whole.mean - air.mean - expected).abs() < 4.0 * error, "{whole:?} {air:?} {expected}");
+        let error = combined.standard_error().max(1e-4);
+        assert!((combined.mean - air.mean - expected).abs() < 4.0 * error, "{combined:?} {air:?} {expected}");
         assert!(air.mean > 0.05);
     }
-    let clear = look(&ready, &[], &up(), 16, PathSettings { only_airlight: true, ..settings });
+    let clear = measure(&ready, &[], &up(), 16, PathSettings { only_airlight: true, ..settings });
     assert_eq!(clear.mean, 0.0);
 }
 
@@ -147,18 +147,18 @@ fn airlight_is_a_part_of_the_light() {
 #[test]
 fn the_law_of_beer_and_lambert_through_fog() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
+    let wall = scene.material(Surface::Absorber, Some(TestEmission { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let layer = Region::Box { half_m: DVec3::new(100.0, 100.0, 20.0) };
-    let seen = look(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer.clone())], &up(), 2048, PathSettings::default());
+    let actual = measure(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer.clone())], &up(), 2048, PathSettings::default());
     // 20 m of it.
-    agrees(&seen, 2.0 * maths::f64::exp(-1.0));
+    agrees(&actual, 2.0 * maths::f64::exp(-1.0));
     let twice =
         [fog(0.05, 0.0, Phase::Isotropic, layer), fog(0.03, 0.5, Phase::Isotropic, Region::Below { top_m: 10.0 })];
     let direct = PathSettings { max_bounces: 0, ..PathSettings::default() };
-    let seen = look(&ready, &twice, &up(), 2048, direct);
-    agrees(&seen, 2.0 * maths::f64::exp(-1.3));
+    let actual = measure(&ready, &twice, &up(), 2048, direct);
+    agrees(&actual, 2.0 * maths::f64::exp(-1.3));
 }
 
 /// Noise of amplitude 0 is the same as a uniform fog, by radiance, not by bits: 1 + 0 n.
@@ -172,11 +172,11 @@ fn noise_of_no_amplitude_is_even() {
 #[test]
 fn fog_about_the_whole_scene_is_that_everywhere() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
+    let wall = scene.material(Surface::Absorber, Some(TestEmission { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let settings = PathSettings { max_bounces: 8, ..PathSettings::default() };
-    let of = |shape| look(&ready, &[fog(0.05, 0.8, FORWARD, shape)], &up(), 1024, settings);
+    let of = |shape| measure(&ready, &[fog(0.05, 0.8, FORWARD, shape)], &up(), 1024, settings);
     let everywhere = of(Region::Everywhere);
     agree(&everywhere, &of(Region::Box { half_m: DVec3::splat(1000.0) }));
     agree(&everywhere, &of(Region::Ball { radius_m: 1000.0 }));
@@ -187,7 +187,7 @@ fn fog_about_the_whole_scene_is_that_everywhere() {
 fn light_of_a_lamp_scattered_once() {
     let (beta, lamp_at) = (0.04, DVec3::new(3.0, 0.0, 8.0));
     let lamp = Lamp::new(lamp_at, DMat3::IDENTITY, Spectrum::constant(5.0), Profile::Isotropic).expect("legal");
-    for (what, phase) in
+    for (case, phase) in
         [("isotropic", Phase::Isotropic), ("forward", FORWARD), ("backward", Phase::HenyeyGreenstein { g: -0.5 })]
     {
         let mut scene =
@@ -215,9 +215,9 @@ fn light_of_a_lamp_scattered_once() {
         let expected: f64 = (0..=n).map(|i| weight(i) * integrand(f64::from(i) * h)).sum::<f64>() * h / 3.0;
         let medium = [fog(beta, 1.0, phase, Region::Everywhere)];
         let settings = PathSettings { max_bounces: 1, ..PathSettings::default() };
-        let seen = look(&ready, &medium, &up(), 4096, settings);
-        agrees(&seen, expected);
-        assert!((seen.mean / expected - 1.0).abs() < 0.01, "{what}: {} {expected}", seen.mean);
+        let actual = measure(&ready, &medium, &up(), 4096, settings);
+        agrees(&actual, expected);
+        assert!((actual.mean / expected - 1.0).abs() < 0.01, "{case}: {} {expected}", actual.mean);
     }
 }
 
@@ -233,17 +233,17 @@ fn light_of_a_lamp_scattered_once_in_uneven_fog() {
     scene.square(Vec3::new(0.0, 0.0, 30.0), 30.0, wall);
     let ready = scene.ready();
     let ball = |z: f64| {
-        let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * z));
+        let to_world = Motion::constant(DAffine3::from_translation(DVec3::Z * z));
         let of = Spectrum::constant;
         Medium::new(of(0.2), of(1.0), Phase::Isotropic, Region::Ball { radius_m: 2.0 }, to_world).expect("legal")
     };
     let thick = |seed| {
         let noise = Noise { scale_m: 6.0, octaves: 2, gain: 0.5, seed };
-        let unevenness = Unevenness { noise, amplitude: 0.9, wind_mps: DVec3::ZERO };
+        let unevenness = DensityVariation { noise, amplitude: 0.9, wind_mps: DVec3::ZERO };
         fog(0.06, 1.0, Phase::Isotropic, Region::Everywhere).with_unevenness(unevenness)
     };
     let uneven = [thick(5), thick(6)];
-    for (what, media) in [("in one another", uneven), ("apart", [ball(4.0), ball(25.0)])] {
+    for (case, media) in [("in one another", uneven), ("apart", [ball(4.0), ball(25.0)])] {
         let placed = Media::new(&media, DVec3::ZERO, TimeInterval::default());
         // β of both, by the columns of a short ray.
         let extinctions: Vec<f64> = media.iter().map(|medium| f64::from(medium.extinction().at(550.0))).collect();
@@ -263,12 +263,12 @@ fn light_of_a_lamp_scattered_once_in_uneven_fog() {
         };
         let expected = (0..n).map(at).sum::<f64>() * step;
         let settings = PathSettings { max_bounces: 1, ..PathSettings::default() };
-        let seen = look(&ready, &media, &up(), 4096, settings);
+        let actual = measure(&ready, &media, &up(), 4096, settings);
         assert!(
-            (seen.mean - expected).abs() < 4.0 * seen.standard_error() + 2e-3 * expected,
-            "{what}: {seen:?} {expected}"
+            (actual.mean - expected).abs() < 4.0 * actual.standard_error() + 2e-3 * expected,
+            "{case}: {actual:?} {expected}"
         );
-        assert!(seen.standard_error() < 0.01 * expected, "{what}");
+        assert!(actual.standard_error() < 0.01 * expected, "{case}");
     }
 }
 
@@ -276,17 +276,17 @@ fn light_of_a_lamp_scattered_once_in_uneven_fog() {
 /// scatterings stays the same as far as directions within 20° are equal. Compared through thick fog on a diffuse floor under a sun.
 #[test]
 fn without_the_peak_a_floor_in_fog_is_as_bright() {
-    let seen = |caustics| {
+    let actual = |caustics| {
         let sun =
-            Sun::of_irradiance(DVec3::new(0.3, 0.1, 0.9).normalize(), 0.53, &Spectrum::constant(1.0)).expect("a sun");
+            Sun::from_irradiance(DVec3::new(0.3, 0.1, 0.9).normalize(), 0.53, &Spectrum::constant(1.0)).expect("a sun");
         let mut scene = Scene { sources: Sources { suns: vec![sun], ..Sources::default() }, ..Scene::default() };
-        let floor = scene.material(matt(0.5), None);
+        let floor = scene.material(diffuse_surface(0.5), None);
         scene.square(Vec3::new(0.0, 0.0, -3.0), 50.0, floor);
         let layer = [fog(0.1, 1.0, FORWARD, Region::Below { top_m: 20.0 })];
         let settings = PathSettings { max_bounces: 64, caustics, ..PathSettings::default() };
-        look(&scene.ready(), &layer, &Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0), 1024, settings)
+        measure(&scene.ready(), &layer, &Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0), 1024, settings)
     };
-    let (all, cut) = (seen(true), seen(false));
+    let (all, cut) = (actual(true), actual(false));
     // The peak's half-angle of 20° lowers the sun's mean cosine by at most 3 % (half of its square), and usually by far less.
     assert!((all.mean / cut.mean - 1.0).abs() < 0.02 + 4.0 * all.standard_error() / all.mean);
     assert!(cut.standard_error() < all.standard_error());
@@ -298,13 +298,13 @@ fn contrast(distance_m: f64, diameter_rad: f64, extinction_per_m: f64, samples: 
     let black = scene.material(Surface::Absorber, None);
     let (far, half) = (distance_m as f32, (0.5 * diameter_rad * distance_m) as f32);
     scene.square(Vec3::new(0.0, 0.0, far), half, black);
-    let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * 0.5 * distance_m));
+    let to_world = Motion::constant(DAffine3::from_translation(DVec3::Z * 0.5 * distance_m));
     // A ball around target and camera.
     let ball = Region::Ball { radius_m: 0.75 * distance_m };
     let (extinction, albedo) = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
     let medium = [Medium::new(extinction, albedo, FORWARD, ball, to_world).expect("legal")];
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
-    look(&scene.ready(), &medium, &up(), samples, settings)
+    measure(&scene.ready(), &medium, &up(), samples, settings)
 }
 
 /// A black target of 0.04° in fog of 100 m visibility at 2 %: |T − exp(−β d)| < 0.002 at any distance, and 2 % at 100 m. Fog in front of
@@ -314,11 +314,11 @@ fn contrast(distance_m: f64, diameter_rad: f64, extinction_per_m: f64, samples: 
 fn the_contrast_of_a_small_target_falls_as_koschmieder_says() {
     let beta = -maths::f64::ln(0.02) / 100.0;
     for distance_m in [10.0, 30.0, 60.0, 100.0] {
-        let seen = contrast(distance_m, 0.04_f64.to_radians(), beta, 2048);
-        let through = 1.0 - seen.mean;
+        let actual = contrast(distance_m, 0.04_f64.to_radians(), beta, 2048);
+        let through = 1.0 - actual.mean;
         let law = maths::f64::exp(-beta * distance_m);
-        assert!(seen.standard_error() < 0.0007, "{}", seen.standard_error());
-        assert!((through - law).abs() < 0.002, "{distance_m}: {through} {law} ± {}", seen.standard_error());
+        assert!(actual.standard_error() < 0.0007, "{}", actual.standard_error());
+        assert!((through - law).abs() < 0.002, "{distance_m}: {through} {law} ± {}", actual.standard_error());
     }
     // For a wide one this effect is noticeable.
     let wide = contrast(60.0, 20_f64.to_radians(), beta, 1024);

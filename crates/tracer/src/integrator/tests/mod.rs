@@ -51,7 +51,7 @@ fn query(interval: &TimeInterval) -> EmissionQuery<'_, 4> {
 
 /// An emission of one radiance at all wavelengths.
 #[derive(Clone, Copy)]
-struct Glow {
+struct TestEmission {
     radiance: f64,
     sides: EmissionSides,
 }
@@ -65,11 +65,11 @@ struct Scene {
 }
 
 impl Scene {
-    fn material(&mut self, surface: Surface, glow: Option<Glow>) -> MaterialId {
-        let emission = glow.map(|glow| Emission {
-            radiance: Spectrum::constant(glow.radiance),
+    fn material(&mut self, surface: Surface, emitted: Option<TestEmission>) -> MaterialId {
+        let emission = emitted.map(|emitted| Emission {
+            radiance: Spectrum::constant(emitted.radiance),
             factor: None,
-            sides: glow.sides,
+            sides: emitted.sides,
             modulation: None,
         });
         self.materials.push(Material { emission, ..Material::new(surface) });
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     fn place(&mut self, shape: Shape, to_world: DAffine3, material: MaterialId) {
-        let to_world = Motion::still(to_world);
+        let to_world = Motion::constant(to_world);
         self.builder.add_instance(Instance {
             shape,
             to_world,
@@ -108,31 +108,31 @@ impl Scene {
         self.mesh(positions, vec![[0, 1, 2], [0, 2, 3]], material);
     }
 
-    fn ready(self) -> Ready {
+    fn ready(self) -> BuiltScene {
         let material_table = MaterialTable::new(self.materials, vec![]).expect("materials");
         let world = self.builder.build().expect("a world");
-        Ready { world, material_table, sources: self.sources }
+        BuiltScene { world, material_table, sources: self.sources }
     }
 }
 
-struct Ready {
+struct BuiltScene {
     world: World,
     material_table: MaterialTable,
     sources: Sources,
 }
 
-impl Ready {
+impl BuiltScene {
     fn lights(&self, view: &RenderSpace<'_>) -> Lights {
         Lights::new(view, &self.material_table, self.sources.clone(), VISIBLE).expect("lights")
     }
 
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
-    fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
+    fn measure(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
         let view = self.world.render_space(DVec3::ZERO);
         let lights = self.lights(&view);
         let tracer = PathTracer::new(&view, &self.material_table, &lights, settings);
         let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
-        ReplicateEstimate::of(&means).expect("replicates")
+        ReplicateEstimate::from_replicates(&means).expect("replicates")
     }
 }
 
@@ -141,12 +141,12 @@ fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -
 }
 
 /// The same with lights averaged over an interval.
-fn replicate_over(tracer: &PathTracer<'_>, ray: &Ray, lit: TimeInterval, samples: u32, replicate: u32) -> f64 {
+fn replicate_over(tracer: &PathTracer<'_>, ray: &Ray, light_interval: TimeInterval, samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
     let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);
-    let asked = |s| FieldRay { ray: *ray, stream: stream.with_sample(s), lit };
-    let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(&asked(s), &WAVELENGTHS)[1])).sum();
+    let field_ray = |s| FieldRay { ray: *ray, stream: stream.with_sample(s), light_interval };
+    let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(&field_ray(s), &WAVELENGTHS)[1])).sum();
     sum / f64::from(samples)
 }
 
@@ -160,7 +160,7 @@ fn agree(a: &ReplicateEstimate, b: &ReplicateEstimate) {
     assert!((a.mean - b.mean).abs() <= allowed, "{} and {} differ by more than {allowed}", a.mean, b.mean);
 }
 
-fn matt(reflectance: f64) -> Surface {
+fn diffuse_surface(reflectance: f64) -> Surface {
     Surface::Diffuse(Reflectance::Spectrum(Spectrum::constant(reflectance)))
 }
 
@@ -170,7 +170,7 @@ fn paint(base: f64, alpha: f64) -> Surface {
 }
 
 fn aluminium(alpha: f64) -> Surface {
-    let index = metal::named("Al").expect("aluminium").clone();
+    let index = metal::by_name("Al").expect("aluminium").clone();
     Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
 }
 

@@ -29,22 +29,22 @@ fn track(centre: DVec3, velocity: DVec3) -> Track {
 fn moving(floor: Surface, sides: EmissionSides) -> Scene {
     let mut scene = Scene::default();
     let floor = scene.material(floor, None);
-    let lamp = scene.material(matt(0.2), Some(Glow { radiance: 0.05, sides }));
-    let block = scene.material(matt(0.7), None);
+    let lamp = scene.material(diffuse_surface(0.2), Some(TestEmission { radiance: 0.05, sides }));
+    let block = scene.material(diffuse_surface(0.7), None);
     scene.square(Vec3::ZERO, 5.0, floor);
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Vec3::new(x, y, 0.0));
     let square = shape(&mut scene, corners.to_vec(), vec![[0, 2, 1], [0, 3, 2]]);
     let triangle = shape(&mut scene, corners[..3].to_vec(), vec![[0, 2, 1]]);
     let ball = Shape::Sphere { radius_m: 0.4 };
     let stretch = DAffine3::from_scale(DVec3::new(0.5, 1.5, 1.0));
-    let ways = [
+    let objects = [
         (square, lamp, track(DVec3::new(1.0, 0.0, 1.5), DVec3::new(-3.0, 0.5, 0.3))),
         (triangle, lamp, track(DVec3::new(-1.0, 0.3, 1.2), DVec3::new(2.0, 1.5, 0.0))),
         (ball, lamp, track(DVec3::new(0.5, 1.0, 0.8), DVec3::new(0.0, -4.0, 0.5))),
         (ball, lamp, track(DVec3::new(0.0, -1.5, 0.9), DVec3::new(1.0, 1.0, 1.0)).after(&stretch)),
         (ball, block, track(DVec3::new(-0.8, 0.0, 0.6), DVec3::new(3.0, 0.0, 0.0))),
     ];
-    for (shape, material, to_world) in ways {
+    for (shape, material, to_world) in objects {
         let materials = vec![material];
         scene.builder.add_instance(Instance {
             shape,
@@ -63,8 +63,8 @@ fn shape(scene: &mut Scene, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> S
 }
 
 /// As [`Ready::look`], through the shutter.
-pub(super) fn look(
-    ready: &Ready,
+pub(super) fn measure(
+    ready: &BuiltScene,
     interval: TimeInterval,
     ray: &Ray,
     settings: PathSettings,
@@ -74,24 +74,24 @@ pub(super) fn look(
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings);
     let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
-    ReplicateEstimate::of(&means).expect("replicates")
+    ReplicateEstimate::from_replicates(&means).expect("replicates")
 }
 
 /// Rays of a time within the shutter see the same as in a world frozen at that time, by every strategy of finding light.
 #[test]
 fn light_in_motion_is_that_of_the_frozen_world() {
-    for (floor, sides) in [(matt(0.8), EmissionSides::Front), (paint(0.6, 0.3), EmissionSides::Both)] {
+    for (floor, sides) in [(diffuse_surface(0.8), EmissionSides::Front), (paint(0.6, 0.3), EmissionSides::Both)] {
         let ready = moving(floor, sides).ready();
         for time_s in [0.0, 0.15, 0.4] {
             let mut ray = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
             let frozen = TimeInterval::at(SHUTTER.0 + f64::from(time_s)).expect("finite");
             let settings = |strategies| PathSettings { max_bounces: 3, strategies, ..PathSettings::default() };
-            let expected = look(&ready, frozen, &ray, settings(Strategies::Both), 256);
+            let expected = measure(&ready, frozen, &ray, settings(Strategies::Both), 256);
             ray.time_s = time_s;
             for (strategies, samples) in
                 [(Strategies::Both, 256), (Strategies::Scattering, 1024), (Strategies::Lights, 512)]
             {
-                agree(&look(&ready, shutter(), &ray, settings(strategies), samples), &expected);
+                agree(&measure(&ready, shutter(), &ray, settings(strategies), samples), &expected);
             }
             assert!(expected.standard_error() < 0.05 * expected.mean, "{expected:?}");
         }
@@ -102,15 +102,15 @@ fn light_in_motion_is_that_of_the_frozen_world() {
 #[test]
 fn a_moving_light_is_the_frozen_light_of_its_moment() {
     for number in 0..4 {
-        let whole = moving(matt(0.5), EmissionSides::Both).ready();
+        let scene = moving(diffuse_surface(0.5), EmissionSides::Both).ready();
         let mut builder = crate::accel::WorldBuilder::new();
-        whole.world.meshes().iter().for_each(|mesh| _ = builder.add_mesh(mesh.clone()));
-        builder.add_instance(whole.world.instances()[1 + number].clone());
+        scene.world.meshes().iter().for_each(|mesh| _ = builder.add_mesh(mesh.clone()));
+        builder.add_instance(scene.world.instances()[1 + number].clone());
         let world = builder.build().expect("a world");
-        let ready = Ready { world, ..whole };
+        let ready = BuiltScene { world, ..scene };
         let view = ready.world.render_space_for_few(DVec3::ZERO, shutter());
         let lights = ready.lights(&view);
-        let mut drawn = 0;
+        let mut sampled = 0;
         for i in 0..200_u32 {
             let time_s = 0.002 * i as f32;
             let moment = TimeInterval::at(shutter().moment(time_s)).expect("finite");
@@ -118,7 +118,7 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
             let frozen = ready.lights(&frozen_view);
             let at = |k: u32| ((i * 37 + k * 61) % 101) as f32 / 101.0;
             let still =
-                LightSampleContext::matt(Vec3::new(4.0 * at(1) - 2.0, 4.0 * at(2) - 2.0, 0.3 * at(3)), Vec3::ZERO);
+                LightSampleContext::diffuse(Vec3::new(4.0 * at(1) - 2.0, 4.0 * at(2) - 2.0, 0.3 * at(3)), Vec3::ZERO);
             let receiver = LightSampleContext { time_s, ..still };
             let ask = |lights: &Lights, receiver| {
                 let (u, interval) = (Vec2::new(at(4), at(5)), TimeInterval::default());
@@ -127,7 +127,7 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
             let (sample, expected) = (ask(&lights, &receiver), ask(&frozen, &still));
             assert_eq!(sample, expected);
             let Some(sample) = sample else { continue };
-            drawn += 1;
+            sampled += 1;
             let ray = Ray::new(receiver.position, sample.direction, time_s);
             let Some(hit) = view.closest(&ray) else { continue };
             let point = view.surface(&ray, &hit);
@@ -140,42 +140,42 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
             let relative = density(&lights) / sample.pdf;
             assert!((relative - 1.0).abs() < 0.02 || number > 1, "{relative}");
         }
-        assert!(drawn > 100, "{drawn}");
+        assert!(sampled > 100, "{sampled}");
     }
 }
 
 /// No light is estimated as dark where it is not: each light that reaches a receiver at a time has a positive probability.
 #[test]
 fn the_choice_among_moving_lights_leaves_none_out() {
-    let ready = moving(matt(0.5), EmissionSides::Front).ready();
+    let ready = moving(diffuse_surface(0.5), EmissionSides::Front).ready();
     let view = ready.world.render_space_for_few(DVec3::ZERO, shutter());
     let lights = ready.lights(&view);
     let counts = lights.light_counts();
     assert_eq!((counts.triangles, counts.spheres), (3, 2));
-    let mut met = 0;
+    let mut hits = 0;
     for i in 0..20_000_u32 {
         let at = |k: u32| ((i * 97 + k * k * 61) % 1009) as f32 / 1009.0;
         let direction = DMat3::from_rotation_z(f64::from(at(4)) * 6.0) * DVec3::new(1.0, 0.0, f64::from(at(5)) * 2.0);
         let position = Vec3::new(4.0 * at(1) - 2.0, 4.0 * at(2) - 2.0, 0.01);
-        let receiver = LightSampleContext { time_s: 0.4 * at(3), ..LightSampleContext::matt(position, Vec3::Z) };
+        let receiver = LightSampleContext { time_s: 0.4 * at(3), ..LightSampleContext::diffuse(position, Vec3::Z) };
         let ray = Ray::new(position, direction.normalize().as_vec3(), receiver.time_s);
         let Some(hit) = view.closest(&ray) else { continue };
         let point = view.surface(&ray, &hit);
         let Some(emission) = ready.material_table.emission(point.material) else { continue };
-        if !emission.leaves(point.geometric_normal, -ray.direction) {
+        if !emission.emits_towards(point.geometric_normal, -ray.direction) {
             continue;
         }
-        met += 1;
+        hits += 1;
         let hit = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
         assert!(lights.light_pdf(&hit) > 0.0, "{point:?}");
     }
-    assert!(met > 300, "{met}");
+    assert!(hits > 300, "{hits}");
 }
 
 /// Four rays of a group, two at one time and two at others: sharing tails among all of them would mix their times.
 #[test]
 fn tails_are_shared_at_one_time_only() {
-    let ready = moving(matt(0.8), EmissionSides::Both).ready();
+    let ready = moving(diffuse_surface(0.8), EmissionSides::Both).ready();
     let view = ready.world.render_space_for_few(DVec3::ZERO, shutter());
     let lights = ready.lights(&view);
     let samples = 512;
@@ -193,7 +193,7 @@ fn tails_are_shared_at_one_time_only() {
             let of = |(x, time_s): (usize, &f32)| FieldRay {
                 ray: Ray { time_s: *time_s, ..ray([-2.0, -2.0, 2.0], [0.2, 0.1 + 0.05 * x as f32, 0.0]) },
                 stream: stream(x, replicate).with_sample(sample),
-                lit: TimeInterval::default(),
+                light_interval: TimeInterval::default(),
             };
             let rays: Vec<_> = times_s.iter().enumerate().map(of).collect();
             let mut radiance = vec![];
@@ -205,7 +205,7 @@ fn tails_are_shared_at_one_time_only() {
     let [alone, together] = [1, 4].map(|size| (0..32).map(|replicate| means(replicate, size)).collect::<Vec<_>>());
     for x in 0..4 {
         let of = |means: &[[f64; 4]]| {
-            ReplicateEstimate::of(&means.iter().map(|m| m[x]).collect::<Vec<_>>()).expect("replicates")
+            ReplicateEstimate::from_replicates(&means.iter().map(|m| m[x]).collect::<Vec<_>>()).expect("replicates")
         };
         agree(&of(&together), &of(&alone));
     }

@@ -59,8 +59,8 @@ fn patches(opening: &Opening, to_world: DAffine3, n: usize) -> Vec<(DVec3, DVec3
         let place = move |s: f64, t: f64| a + (b - a) * (s * step) + (c - a) * (t * step);
         let third = 1.0 / 3.0;
         let cells = (0..n).flat_map(move |i| (0..n - i).map(move |j| (i as f64, j as f64, i + j + 1 < n)));
-        cells.flat_map(move |(i, j, whole)| {
-            let far = whole.then(|| (place(i + 2.0 * third, j + 2.0 * third), area));
+        cells.flat_map(move |(i, j, total)| {
+            let far = total.then(|| (place(i + 2.0 * third, j + 2.0 * third), area));
             [Some((place(i + third, j + third), area)), far].into_iter().flatten()
         })
     };
@@ -89,18 +89,18 @@ fn is_flat(opening: &Opening) -> bool {
 
 /// Irradiance at (x, 0, 0), of normal +z, as the sum over patches of L cos θ cos θ′ dA/d² with L = I/A; `visible` is true for patches that
 /// are not shaded.
-fn by_sum(opening: &Opening, at: DVec3, profile: &Profile, x: f64, visible: impl Fn(DVec3) -> bool) -> f64 {
+fn irradiance_by_sum(opening: &Opening, at: DVec3, profile: &Profile, x: f64, visible: impl Fn(DVec3) -> bool) -> f64 {
     let lamp = Lamp::new(at, DOWN, Spectrum::constant(1.0), profile.clone()).expect("a lamp");
     let flat = is_flat(opening);
     let receiver = DVec3::new(x, 0.0, 0.0);
     let of = |(place, area): (DVec3, DVec3)| {
-        let way = receiver - place;
-        let direction = way.normalize();
+        let offset = receiver - place;
+        let direction = offset.normalize();
         let own = (DOWN.transpose() * direction).as_vec3();
         let leaving = if flat { area.dot(direction).abs() } else { area.dot(direction).max(0.0) };
-        let radiance = f64::from(profile.value(own)) / f64::from(opening.seen_area_m2(own));
-        let lit = if visible(place) { 1.0 } else { 0.0 };
-        lit * radiance * leaving * (-direction.z).max(0.0) / way.length_squared()
+        let radiance = f64::from(profile.value(own)) / f64::from(opening.projected_area_m2(own));
+        let visibility = if visible(place) { 1.0 } else { 0.0 };
+        visibility * radiance * leaving * (-direction.z).max(0.0) / offset.length_squared()
     };
     patches(opening, lamp.opening_to_world(opening).at(0.0), 48).into_iter().map(of).sum()
 }
@@ -114,13 +114,13 @@ fn irradiance_near_and_far_is_the_sum_over_the_surface() {
     for shape in shapes() {
         for (height_m, x) in [(0.2, 0.0), (0.3, 0.5), (1.0, 0.3), (6.0, 3.0)] {
             for profile in [Profile::Isotropic, spot()] {
-                let expected = by_sum(&shape, above(height_m), &profile, x, |_| true) / PI;
+                let expected = irradiance_by_sum(&shape, above(height_m), &profile, x, |_| true) / PI;
                 let mut scene = Scene::default();
-                let floor = scene.material(matt(1.0), None);
+                let floor = scene.material(diffuse_surface(1.0), None);
                 scene.square(Vec3::ZERO, 50.0, floor);
                 scene.open_lamp(above(height_m), DOWN, shape, profile);
                 let from = ray([x as f32 - 2.0, 1.0, 0.05], [x as f32, 0.0, 0.0]);
-                let estimate = scene.ready().look(&from, 256, bounces(1));
+                let estimate = scene.ready().measure(&from, 256, bounces(1));
                 // Patches of 1/48 of each triangle, on which a body's horizon is cut to a patch.
                 let allowed = 3.5 * estimate.standard_error() + 2e-3 * expected;
                 assert!(
@@ -137,9 +137,9 @@ fn irradiance_near_and_far_is_the_sum_over_the_surface() {
 fn from_afar_it_is_the_lamp_without_an_opening() {
     for shape in shapes() {
         for x in [0.0, 70.0] {
-            let look = |open: bool| {
+            let measure = |open: bool| {
                 let mut scene = Scene::default();
-                let floor = scene.material(matt(1.0), None);
+                let floor = scene.material(diffuse_surface(1.0), None);
                 scene.square(Vec3::ZERO, 1000.0, floor);
                 let at = DVec3::new(0.0, 0.0, 200.0);
                 if open {
@@ -147,9 +147,9 @@ fn from_afar_it_is_the_lamp_without_an_opening() {
                 } else {
                     scene.sources.lamps.push(Lamp::new(at, DOWN, Spectrum::constant(1.0), spot()).expect("a lamp"));
                 }
-                scene.ready().look(&ray([x - 3.0, 1.0, 1.0], [x, 0.0, 0.0]), 64, bounces(1))
+                scene.ready().measure(&ray([x - 3.0, 1.0, 1.0], [x, 0.0, 0.0]), 64, bounces(1))
             };
-            let (open, point) = (look(true), look(false));
+            let (open, point) = (measure(true), measure(false));
             // Size over distance, 0.3/200, as sides that face past the receiver are not seen there; 1.5e-3 of the silhouette of 48 sides.
             let allowed = 3.5 * open.standard_error() + 2e-3 * point.mean;
             assert!((open.mean - point.mean).abs() < allowed, "{shape:?} {x}: {open:?} {point:?}");
@@ -158,7 +158,7 @@ fn from_afar_it_is_the_lamp_without_an_opening() {
 }
 
 #[test]
-fn each_way_of_finding_the_light_gives_the_same_on_glossy_planes() {
+fn each_strategy_gives_the_same_on_glossy_planes() {
     for shape in shapes() {
         for surface in [paint(0.3, 0.15), aluminium(0.3)] {
             let mut scene = Scene::default();
@@ -166,20 +166,20 @@ fn each_way_of_finding_the_light_gives_the_same_on_glossy_planes() {
             scene.square(Vec3::ZERO, 10.0, floor);
             scene.open_lamp(DVec3::new(0.8, 0.1, 0.7), DOWN, shape, spot());
             let ready = scene.ready();
-            let look = |strategies, samples| {
+            let measure = |strategies, samples| {
                 let settings = PathSettings { max_bounces: 1, strategies, ..PathSettings::default() };
-                ready.look(&ray([-0.9, 0.0, 0.8], [0.0; 3]), samples, settings)
+                ready.measure(&ray([-0.9, 0.0, 0.8], [0.0; 3]), samples, settings)
             };
-            let both = look(Strategies::Both, 512);
-            agree(&look(Strategies::Scattering, 2048), &both);
-            agree(&look(Strategies::Lights, 1024), &both);
+            let both = measure(Strategies::Both, 512);
+            agree(&measure(Strategies::Scattering, 2048), &both);
+            agree(&measure(Strategies::Lights, 1024), &both);
             assert!(both.mean > 0.0 && both.standard_error() < 0.02 * both.mean, "{shape:?}: {both:?}");
         }
     }
 }
 
 /// Openings of every shape with spots, a headlamp's beam and isotropic lamps, some close to the floor.
-fn many() -> Ready {
+fn many() -> BuiltScene {
     let mut scene = Scene::default();
     let floor = scene.material(paint(0.5, 0.3), None);
     scene.square(Vec3::ZERO, 20.0, floor);
@@ -201,30 +201,30 @@ fn many() -> Ready {
 fn many_openings_agree_in_both_ways_of_finding_them() {
     let ready = many();
     for at in [[0.3, 0.2, 0.0], [-1.0, 1.1, 0.0]] {
-        let look = |strategies, samples, branches| {
+        let measure = |strategies, samples, branches| {
             let settings = PathSettings { max_bounces: 2, strategies, branches, ..PathSettings::default() };
-            ready.look(&ray([at[0] - 0.6, at[1] - 0.4, 0.3], at), samples, settings)
+            ready.measure(&ray([at[0] - 0.6, at[1] - 0.4, 0.3], at), samples, settings)
         };
-        let both = look(Strategies::Both, 1024, 1);
-        agree(&look(Strategies::Scattering, 8192, 1), &both);
-        agree(&look(Strategies::Lights, 2048, 1), &both);
-        agree(&look(Strategies::Both, 512, 3), &both);
-        agree(&look(Strategies::Scattering, 2048, 4), &both);
+        let both = measure(Strategies::Both, 1024, 1);
+        agree(&measure(Strategies::Scattering, 8192, 1), &both);
+        agree(&measure(Strategies::Lights, 2048, 1), &both);
+        agree(&measure(Strategies::Both, 512, 3), &both);
+        agree(&measure(Strategies::Scattering, 2048, 4), &both);
     }
 }
 
 /// Receivers: near, far, grazing and lateral.
-const ASKING: [Vec3; 4] =
+const RECEIVERS: [Vec3; 4] =
     [Vec3::new(0.0, 0.0, 0.3), Vec3::new(0.4, 0.1, 0.95), Vec3::new(2.0, -1.0, 0.4), Vec3::new(-0.25, 0.0, 0.7)];
 
 /// Samples for each of them.
-const DRAWS: u32 = 10_000;
+const SAMPLES: u32 = 10_000;
 
 /// More than the triangles of any shape.
 const CELLS: usize = 256;
 
 #[test]
-fn points_are_drawn_by_the_densities_told() {
+fn points_are_sampled_by_the_densities_stated() {
     for shape in shapes() {
         let mut scene = Scene::default();
         scene.open_lamp(DVec3::new(0.0, 0.0, 1.0), DOWN, shape, Profile::Isotropic);
@@ -232,7 +232,7 @@ fn points_are_drawn_by_the_densities_told() {
         let view = ready.world.render_space(DVec3::ZERO);
         let lights = ready.lights(&view);
         let flat = is_flat(&shape);
-        let to_world = ready.world.instances()[0].to_world.as_still().expect("still");
+        let to_world = ready.world.instances()[0].to_world.as_constant().expect("still");
         // A triangle of the mesh; for a sphere by halves and sixteen sectors.
         let cell = |primitive: u32, local: Vec3| match shape.mesh() {
             Some(_) => primitive as usize,
@@ -241,19 +241,19 @@ fn points_are_drawn_by_the_densities_told() {
                 usize::from(local.z > 0.0) * 16 + (16.0 * turn) as usize % 16
             }
         };
-        for from in ASKING {
-            let receiver = LightSampleContext::matt(from, Vec3::ZERO);
+        for from in RECEIVERS {
+            let receiver = LightSampleContext::diffuse(from, Vec3::ZERO);
             // The density of the light hit in a direction, its cell and the cosine of the hit; `None` if nothing is hit.
-            let told = |direction: Vec3| {
+            let density_at = |direction: Vec3| {
                 let hit_ray = Ray::new(from, direction, 0.0);
                 let hit = view.closest(&hit_ray)?;
                 let point = view.surface(&hit_ray, &hit);
-                let met = LightHit { receiver: &receiver, point: &point, direction, distance_m: hit.t };
+                let light_hit = LightHit { receiver: &receiver, point: &point, direction, distance_m: hit.t };
                 let cos = point.geometric_normal.dot(direction).abs();
-                Some((lights.light_pdf(&met), cell(point.primitive, point.local), cos))
+                Some((lights.light_pdf(&light_hit), cell(point.primitive, point.local), cos))
             };
             let (mut counts, mut expected) = (vec![0_u64; CELLS], vec![0.0; CELLS]);
-            for k in 0..DRAWS {
+            for k in 0..SAMPLES {
                 let u = Vec2::new(
                     ((f64::from(k) * 0.754_877_666_246_69) % 1.0) as f32,
                     ((f64::from(k) * 0.569_840_290_998_05) % 1.0) as f32,
@@ -264,7 +264,7 @@ fn points_are_drawn_by_the_densities_told() {
                     continue;
                 };
                 // At the edge a ray may miss by rounding.
-                let Some((pdf, cell, cos)) = told(sample.direction) else { continue };
+                let Some((pdf, cell, cos)) = density_at(sample.direction) else { continue };
                 counts[cell] += 1;
                 // At 0.3 m positions have 24 bits, directions to the limb of a ball of 5 cm 18, over the cosine twice.
                 assert!(
@@ -275,18 +275,18 @@ fn points_are_drawn_by_the_densities_told() {
             }
             let cuts = shape.mesh().map_or(60, |mesh| 1 + (5000 / mesh.triangles().len()).isqrt());
             for (place, area) in patches(&shape, to_world, cuts) {
-                let way = place.as_vec3() - from;
-                let cos = area.normalize().dot(way.as_dvec3().normalize());
-                let Some((pdf, cell, ..)) = told(way.normalize()).filter(|_| flat || cos < 0.0) else { continue };
-                let sr = area.length() * cos.abs() / f64::from(way.length_squared());
-                expected[cell] += f64::from(pdf) * sr * f64::from(DRAWS);
+                let offset = place.as_vec3() - from;
+                let cos = area.normalize().dot(offset.as_dvec3().normalize());
+                let Some((pdf, cell, ..)) = density_at(offset.normalize()).filter(|_| flat || cos < 0.0) else { continue };
+                let sr = area.length() * cos.abs() / f64::from(offset.length_squared());
+                expected[cell] += f64::from(pdf) * sr * f64::from(SAMPLES);
             }
             let (sum, count) = (expected.iter().sum::<f64>(), counts.iter().sum::<u64>());
             // Patches near a horizon are cut as a whole. The far side of ellipsoids, which are sampled by area, is not hit.
             let scale = count as f64 / sum;
             assert!((scale - 1.0).abs() < 0.02, "{shape:?} {from}: {count} met for densities of {sum}");
-            let whole = shape.mesh().is_none() || count > 9_950;
-            assert!(whole, "{shape:?} {from}: {count}");
+            let covers_all = shape.mesh().is_none() || count > 9_950;
+            assert!(covers_all, "{shape:?} {from}: {count}");
             expected.iter_mut().for_each(|e| *e *= scale);
             let test = chi_square::goodness_of_fit(&counts, &expected);
             assert!(test.as_ref().is_none_or(|test| test.p > 1e-3), "{shape:?} {from}: {test:?}");
@@ -301,15 +301,15 @@ fn a_penumbra_is_as_wide_as_the_opening_says() {
     let disc = opening(OpeningBody::Cylinder(0), [0.0, 0.3, 0.3]);
     let at = above(4.0);
     for (x, full) in [(-0.06, Some(1.0)), (0.0, None), (0.1, None), (0.2, None), (0.26, Some(0.0))] {
-        let lit = |place: DVec3| 0.5 * (place.x + x) < 0.1;
-        let open = by_sum(&disc, at, &Profile::Isotropic, x, |_| true);
-        let expected = by_sum(&disc, at, &Profile::Isotropic, x, lit);
+        let is_lit = |place: DVec3| 0.5 * (place.x + x) < 0.1;
+        let open = irradiance_by_sum(&disc, at, &Profile::Isotropic, x, |_| true);
+        let expected = irradiance_by_sum(&disc, at, &Profile::Isotropic, x, is_lit);
         let mut scene = Scene::default();
-        let (floor, plate) = (scene.material(matt(1.0), None), scene.material(Surface::Absorber, None));
+        let (floor, plate) = (scene.material(diffuse_surface(1.0), None), scene.material(Surface::Absorber, None));
         scene.square(Vec3::ZERO, 50.0, floor);
         scene.square(Vec3::new(5.1, 0.0, 2.0), 5.0, plate);
         scene.open_lamp(at, DOWN, disc, Profile::Isotropic);
-        let estimate = scene.ready().look(&ray([x as f32 - 2.0, 1.0, 0.5], [x as f32, 0.0, 0.0]), 512, bounces(1));
+        let estimate = scene.ready().measure(&ray([x as f32 - 2.0, 1.0, 0.5], [x as f32, 0.0, 0.0]), 512, bounces(1));
         // The edge of the shadow cuts whole patches.
         let allowed = 3.5 * estimate.standard_error() + 4e-3 * open / PI;
         assert!((estimate.mean - expected / PI).abs() < allowed, "{x}: {estimate:?} for {expected} of {open}");
@@ -326,8 +326,8 @@ fn the_camera_sees_the_intensity_over_the_seen_area() {
         for from in [[0.3_f32, 0.1, -1.0], [0.05, 0.0, -0.5], [0.2, 0.3, 3.0]] {
             let towards = ray(from, [0.01, 0.02, 1.0]);
             let own = DOWN.as_mat3().transpose() * -towards.direction;
-            let expected = f64::from(spot().value(own) / shape.seen_area_m2(own));
-            agrees(&ready.look(&towards, 1, bounces(1)), expected);
+            let expected = f64::from(spot().value(own) / shape.projected_area_m2(own));
+            agrees(&ready.measure(&towards, 1, bounces(1)), expected);
         }
     }
 }
@@ -339,9 +339,9 @@ fn a_mirror_shows_the_opening() {
     scene.square(Vec3::ZERO, 10.0, mirror);
     scene.open_lamp(DVec3::new(1.0, 0.0, 1.0), DOWN, shapes()[4], spot());
     let ready = scene.ready();
-    let seen = ready.look(&ray([-1.0, 0.0, 1.0], [0.0; 3]), 4, bounces(2)).mean;
+    let actual = ready.measure(&ray([-1.0, 0.0, 1.0], [0.0; 3]), 4, bounces(2)).mean;
     let own = Vec3::new(0.5_f32.sqrt(), 0.0, -(0.5_f32.sqrt()));
-    let bare = f64::from(spot().value(own) / shapes()[4].seen_area_m2(own));
+    let bare = f64::from(spot().value(own) / shapes()[4].projected_area_m2(own));
     // Aluminium reflects some nine tenths.
-    assert!((0.85..0.95).contains(&(seen / bare)), "{seen} {bare}");
+    assert!((0.85..0.95).contains(&(actual / bare)), "{actual} {bare}");
 }

@@ -4,15 +4,15 @@ use super::*;
 use crate::accel::Simd;
 use crate::media::Media;
 use crate::precipitation::{
-    ChangeOver, Crystals, Field, NearParticles, Resolution, SeenRegion, SizeLaw, ViewPlacement,
+    ChangeOver, Crystals, PrecipitationField, NearParticles, CameraResolution, VisibleRegion, SizeLaw, ViewPlacement,
 };
 
 /// Mean radiance over rays that start near the origin within a cone along x, from 32 replicates, with precipitation or without.
-fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
-    let field = Field::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
+fn measure(ready: &BuiltScene, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
+    let field = PrecipitationField::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
     let interval = TimeInterval::new(0.0, 0.02).expect("legal");
-    let region = SeenRegion::around(&[DVec3::X], 0.1, 0.0);
-    let resolution = Resolution { pixel_rad: 1e-3, smallest_px: 0.25, most: 20_000.0, clear_m: 0.0, exposure_s: 0.0 };
+    let region = VisibleRegion::around(&[DVec3::X], 0.1, 0.0);
+    let resolution = CameraResolution { pixel_rad: 1e-3, min_size_px: 0.25, max_particles: 20_000.0, clear_m: 0.0, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let medium = [field.medium().expect("legal")];
     let media = Media::new(&medium, DVec3::ZERO, interval);
@@ -32,20 +32,20 @@ fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstima
         let [a, b] = [k % 16, k / 16].map(|i| (i as f32 + 0.5) / 16.0 - 0.5);
         Ray::new(Vec3::ZERO, Vec3::new(1.0, 0.12 * a, 0.12 * b).normalize(), 0.02 * (k as f32 / 256.0))
     };
-    let met = (0..256).filter(|k| near.closest(&ray(*k), 1e9).is_some()).count() as f64 / 256.0;
+    let hit_fraction = (0..256).filter(|k| near.closest(&ray(*k), 1e9).is_some()).count() as f64 / 256.0;
     let mean = |r: u32| (0..256).map(|k| replicate(&tracer, &ray(k), 4, 256 * r + k)).sum::<f64>() / 256.0;
-    (ReplicateEstimate::of(&(0..32).map(mean).collect::<Vec<_>>()).expect("replicates"), met)
+    (ReplicateEstimate::from_replicates(&(0..32).map(mean).collect::<Vec<_>>()).expect("replicates"), hit_fraction)
 }
 
-fn under(environment: Environment) -> Ready {
+fn scene_under(environment: Environment) -> BuiltScene {
     Scene { sources: Sources { environment: Some(environment), ..Sources::default() }, ..Scene::default() }.ready()
 }
 
 /// A sky and a floor that reflects all light, so that none is lost in rain below.
-fn furnace() -> Ready {
+fn furnace() -> BuiltScene {
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
     let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
-    let white = scene.material(matt(1.0), None);
+    let white = scene.material(diffuse_surface(1.0), None);
     scene.square(Vec3::new(0.0, 0.0, -2.0), 20_000.0, white);
     scene.ready()
 }
@@ -57,9 +57,9 @@ fn rain_and_snow_in_a_furnace_are_not_seen() {
     let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
     for law in [SizeLaw::rain(150.0), SizeLaw::snow(3.0, Crystals::Dendrites)] {
         let law = law.expect("legal");
-        let (seen, met) = look(&furnace(), law, settings);
-        assert!(met > 0.01, "{met}");
-        assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 1e-3, "{law:?}: {seen:?}");
+        let (actual, hit_fraction) = measure(&furnace(), law, settings);
+        assert!(hit_fraction > 0.01, "{hit_fraction}");
+        assert!((actual.mean - 1.0).abs() < 3.0 * actual.standard_error() + 1e-3, "{law:?}: {actual:?}");
     }
 }
 
@@ -80,11 +80,11 @@ fn rain_is_bright_before_a_dark_wall_and_dark_where_nothing_shines() {
     ];
     scene.mesh(wall, vec![[0, 1, 2], [0, 2, 3]], black);
     let law = SizeLaw::rain(150.0).expect("legal");
-    let (seen, _) = look(&scene.ready(), law, settings);
+    let (actual, _) = measure(&scene.ready(), law, settings);
     // 30 m of β as of an image: lost light is replaced by light of the surroundings, a part of which the wall hides around the viewing
     // direction.
-    let lost = 30.0 * Field::new(law, DVec3::ZERO, 500.0, 0).extinction_per_m();
-    assert!(seen.mean > 0.2 * lost && seen.mean < 1.1 * lost, "{seen:?} {lost}");
-    let (dark, _) = look(&under(Environment::Uniform(Spectrum::constant(0.0))), law, settings);
+    let lost = 30.0 * PrecipitationField::new(law, DVec3::ZERO, 500.0, 0).extinction_per_m();
+    assert!(actual.mean > 0.2 * lost && actual.mean < 1.1 * lost, "{actual:?} {lost}");
+    let (dark, _) = measure(&scene_under(Environment::Uniform(Spectrum::constant(0.0))), law, settings);
     assert_eq!(dark.mean, 0.0);
 }

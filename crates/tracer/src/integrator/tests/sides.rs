@@ -4,14 +4,14 @@ use super::*;
 use crate::materials::Dielectric;
 
 #[test]
-fn each_side_glows_as_stated() {
-    for (glow, above, below) in [(EmissionSides::Front, 3.0, 0.0), (EmissionSides::Both, 3.0, 3.0)] {
+fn each_side_emits_as_stated() {
+    for (emission, above, below) in [(EmissionSides::Front, 3.0, 0.0), (EmissionSides::Both, 3.0, 3.0)] {
         let mut scene = Scene::default();
-        let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: glow }));
+        let lamp = scene.material(Surface::Absorber, Some(TestEmission { radiance: 3.0, sides: emission }));
         scene.square(Vec3::new(0.0, 0.0, 1.0), 1.0, lamp);
         let ready = scene.ready();
-        agrees(&ready.look(&ray([0.0, 0.2, 2.0], [0.1, 0.0, 1.0]), 1, bounces(0)), above);
-        agrees(&ready.look(&ray([0.0, 0.2, 0.0], [0.1, 0.0, 1.0]), 1, bounces(0)), below);
+        agrees(&ready.measure(&ray([0.0, 0.2, 2.0], [0.1, 0.0, 1.0]), 1, bounces(0)), above);
+        agrees(&ready.measure(&ray([0.0, 0.2, 0.0], [0.1, 0.0, 1.0]), 1, bounces(0)), below);
     }
 }
 
@@ -19,12 +19,12 @@ fn each_side_glows_as_stated() {
 fn a_dark_side_lights_nothing() {
     let mut scene = Scene::default();
     let (floor, lamp) = (
-        scene.material(matt(0.9), None),
-        scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: EmissionSides::Front })),
+        scene.material(diffuse_surface(0.9), None),
+        scene.material(Surface::Absorber, Some(TestEmission { radiance: 3.0, sides: EmissionSides::Front })),
     );
     scene.square(Vec3::ZERO, 5.0, floor);
     scene.square(Vec3::new(0.0, 0.0, 1.0), 1.0, lamp);
-    let estimate = scene.ready().look(&ray([-2.0, 0.0, 0.5], [0.0, 0.0, 0.0]), 256, bounces(4));
+    let estimate = scene.ready().measure(&ray([-2.0, 0.0, 0.5], [0.0, 0.0, 0.0]), 256, bounces(4));
     assert_eq!(estimate.mean, 0.0, "the lamp faces up");
 }
 
@@ -32,8 +32,8 @@ fn a_dark_side_lights_nothing() {
 fn a_wall_with_leaning_normals_lets_no_light_through() {
     let mut scene = Scene::default();
     let (wall, lamp) = (
-        scene.material(matt(0.9), None),
-        scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: EmissionSides::Both })),
+        scene.material(diffuse_surface(0.9), None),
+        scene.material(Surface::Absorber, Some(TestEmission { radiance: 3.0, sides: EmissionSides::Both })),
     );
     // Shading normals that lean 70° to one side: half of the lamp is above their horizon.
     let leaning = Vec3::new(0.94, 0.0, 0.342);
@@ -42,7 +42,7 @@ fn a_wall_with_leaning_normals_lets_no_light_through() {
     scene.sphere(DVec3::new(2.0, 0.0, -0.5), 0.4, lamp);
     let ready = scene.ready();
     for from in [[1.0, 0.0, 2.0], [-3.0, 0.0, 0.2]] {
-        let estimate = ready.look(&ray(from, [0.0; 3]), 256, bounces(4));
+        let estimate = ready.measure(&ray(from, [0.0; 3]), 256, bounces(4));
         assert_eq!(estimate.mean, 0.0, "the lamp is behind the wall");
     }
 }
@@ -51,11 +51,11 @@ fn a_wall_with_leaning_normals_lets_no_light_through() {
 fn a_viewer_below_the_shading_horizon_sees_no_black_seam() {
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
     let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
-    let wall = scene.material(matt(1.0), None);
+    let wall = scene.material(diffuse_surface(1.0), None);
     let positions = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
     scene.mesh_with_normals(positions, vec![Vec3::new(0.94, 0.0, 0.342); 4], vec![[0, 1, 2], [0, 2, 3]], wall);
     // Seen from the side that the normals lean away from.
-    let estimate = scene.ready().look(&ray([-3.0, 0.0, 0.2], [0.0; 3]), 256, bounces(4));
+    let estimate = scene.ready().measure(&ray([-3.0, 0.0, 0.2], [0.0; 3]), 256, bounces(4));
     assert!(estimate.mean > 0.4 && estimate.mean <= 1.0, "{estimate:?}");
 }
 
@@ -88,7 +88,7 @@ fn coarse_cylinder(scene: &mut Scene, material: MaterialId) {
 fn coarse_glass_loses_no_light_at_its_silhouette() {
     let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
     // Rough glass loses multiple scattering among its facets.
-    for (alpha, least_mean, least) in [(0.0, 0.999, 0.99), (0.02, 0.997, 0.96)] {
+    for (alpha, min_mean, min_each) in [(0.0, 0.999, 0.99), (0.02, 0.997, 0.96)] {
         let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
         let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
         let glass = Dielectric::new(1.5, alpha, None).expect("glass");
@@ -97,11 +97,11 @@ fn coarse_glass_loses_no_light_at_its_silhouette() {
         let ready = scene.ready();
         let rays: Vec<Ray> =
             (0..40).map(|i| ray([-4.0, 0.0, 0.0], [0.0, -1.03 + 2.06 * (i as f32 + 0.5) / 40.0, 0.3])).collect();
-        let found: Vec<f64> = rays.iter().map(|ray| ready.look(ray, 8, settings).mean).collect();
-        let mean = found.iter().sum::<f64>() / found.len() as f64;
+        let actual: Vec<f64> = rays.iter().map(|ray| ready.measure(ray, 8, settings).mean).collect();
+        let mean = actual.iter().sum::<f64>() / actual.len() as f64;
         assert!(
-            mean > least_mean && mean < 1.001 && found.iter().all(|found| *found > least),
-            "{alpha}: {mean} of {found:?}"
+            mean > min_mean && mean < 1.001 && actual.iter().all(|mean_found| *mean_found > min_each),
+            "{alpha}: {mean} of {actual:?}"
         );
     }
 }
@@ -116,8 +116,8 @@ fn a_coarse_mirror_loses_no_light_at_its_silhouette() {
     coarse_cylinder(&mut scene, metal);
     let ready = scene.ready();
     for i in 0..40 {
-        let look = ray([-4.0, 0.0, 0.0], [0.0, -1.03 + 2.06 * (i as f32 + 0.5) / 40.0, 0.3]);
-        let found = ready.look(&look, 8, bounces(8)).mean;
-        assert!(found > 0.85 && found < 1.001, "{i}: {found}");
+        let camera_ray = ray([-4.0, 0.0, 0.0], [0.0, -1.03 + 2.06 * (i as f32 + 0.5) / 40.0, 0.3]);
+        let actual = ready.measure(&camera_ray, 8, bounces(8)).mean;
+        assert!(actual > 0.85 && actual < 1.001, "{i}: {actual}");
     }
 }

@@ -9,16 +9,16 @@ use super::mesh::{self, SIDES, polygon_area};
 use crate::{geometry::Mesh, lights::profile::Profile};
 
 /// Minimum and maximum extent of an opening, m.
-const EXTENTS_M: [f64; 2] = [1e-4, 100.0];
+const EXTENT_RANGE_M: [f64; 2] = [1e-4, 100.0];
 
 /// Minimum cosine at which the area of a flat face is evaluated; closer to its plane, the area is that at this cosine.
-const LEAST_COS: f32 = 1e-3;
+const MIN_COS: f32 = 1e-3;
 
 /// Maximum fraction of the flux that a flat opening may lose towards its own plane. An isotropic lamp loses half of [`LEAST_COS`].
-const MOST_LOST: f64 = 0.01;
+const MAX_LOST_FRACTION: f64 = 0.01;
 
 /// Directions in the plane of a flat opening over which its loss is summed: steps of 0.1°.
-const AROUND: u32 = 3600;
+const LOSS_DIRECTIONS: u32 = 3600;
 
 /// Error of an opening.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -73,8 +73,8 @@ impl Opening {
     /// # Errors
     /// If an extent is not 0.0001 to 100 m, except one of a flat opening, which is 0.
     pub fn new(body: OpeningBody, extents_m: [f64; 3]) -> Result<Self, OpeningError> {
-        let [least, most] = EXTENTS_M;
-        let legal = |axis: usize| (least..=most).contains(&extents_m[axis]);
+        let [min_m, max_m] = EXTENT_RANGE_M;
+        let legal = |axis: usize| (min_m..=max_m).contains(&extents_m[axis]);
         let may_be_flat = |axis: usize| match body {
             OpeningBody::Box => (0..3).all(|other| other == axis || legal(other)),
             OpeningBody::Cylinder(along) => axis == along,
@@ -93,17 +93,17 @@ impl Opening {
     /// # Errors
     /// If more than a hundredth of the light would leave along the plane of a flat opening.
     pub fn check(&self, profile: &Profile) -> Result<(), OpeningError> {
-        let share = self.lost_share(profile);
-        if share > MOST_LOST { Err(OpeningError::EdgeOn { share }) } else { Ok(()) }
+        let fraction = self.lost_fraction(profile);
+        if fraction > MAX_LOST_FRACTION { Err(OpeningError::EdgeOn { share: fraction }) } else { Ok(()) }
     }
 
     /// Fraction of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine
     /// c from the plane's normal; 0 for bodies.
     #[must_use]
-    pub fn lost_share(&self, profile: &Profile) -> f64 {
+    pub fn lost_fraction(&self, profile: &Profile) -> f64 {
         let Some(axis) = self.flat_axis().filter(|_| profile.flux_sr() > 0.0) else { return 0.0 };
         let value = |k: u32| {
-            let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(AROUND));
+            let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(LOSS_DIRECTIONS));
             let mut direction = DVec3::ZERO;
             (direction[(axis + 1) % 3], direction[(axis + 2) % 3]) = (cos, sin);
             // Thirds of the triangle's base are approximately its root mean square.
@@ -112,11 +112,11 @@ impl Opening {
                 aside[axis] = cos;
                 f64::from(profile.value(aside.normalize().as_vec3()))
             };
-            let least = f64::from(LEAST_COS);
-            (at(-least / 3.0) + at(0.0) + at(least / 3.0)) / 3.0
+            let min_cos = f64::from(MIN_COS);
+            (at(-min_cos / 3.0) + at(0.0) + at(min_cos / 3.0)) / 3.0
         };
-        let mean = (0..AROUND).map(value).sum::<f64>() / f64::from(AROUND);
-        f64::from(LEAST_COS) * TAU * mean / profile.flux_sr()
+        let mean = (0..LOSS_DIRECTIONS).map(value).sum::<f64>() / f64::from(LOSS_DIRECTIONS);
+        f64::from(MIN_COS) * TAU * mean / profile.flux_sr()
     }
 
     /// The axis across a flat opening.
@@ -126,12 +126,12 @@ impl Opening {
 
     /// Projected area seen from far along the unit `direction` of the lamp's frame, m²: positive.
     #[must_use]
-    pub fn seen_area_m2(&self, direction: Vec3) -> f32 {
+    pub fn projected_area_m2(&self, direction: Vec3) -> f32 {
         let faces = self.faces_m2;
         let half = self.half_m.as_vec3();
         match (self.body, self.flat_axis()) {
             (OpeningBody::Ellipsoid, _) => (faces * direction).length(),
-            (_, Some(axis)) => faces[axis] * direction[axis].abs().max(LEAST_COS),
+            (_, Some(axis)) => faces[axis] * direction[axis].abs().max(MIN_COS),
             (OpeningBody::Box, None) => faces.dot(direction.abs()),
             (OpeningBody::Cylinder(along), None) => {
                 let (p, q) = ((along + 1) % 3, (along + 2) % 3);
@@ -142,10 +142,10 @@ impl Opening {
     }
 
     /// Minimum of these areas, m².
-    pub(in crate::lights) fn least_area_m2(&self) -> f32 {
+    pub(in crate::lights) fn min_projected_area_m2(&self) -> f32 {
         let axes = [Vec3::X, Vec3::Y, Vec3::Z];
         // Projected areas of bodies are smallest along an axis, those of flat openings in their plane.
-        axes.into_iter().map(|axis| self.seen_area_m2(axis)).fold(f32::INFINITY, f32::min)
+        axes.into_iter().map(|axis| self.projected_area_m2(axis)).fold(f32::INFINITY, f32::min)
     }
 
     /// Radius of the sphere about the lamp's position that holds it, m.
@@ -154,10 +154,10 @@ impl Opening {
             OpeningBody::Ellipsoid => self.half_m.max_element(),
             OpeningBody::Box => self.half_m.length(),
             OpeningBody::Cylinder(along) => {
-                let rim = self.half_m[(along + 1) % 3].max(self.half_m[(along + 2) % 3]);
+                let radius_m = self.half_m[(along + 1) % 3].max(self.half_m[(along + 2) % 3]);
                 // The corners of a polygon as large as a circle lie outside of it.
                 let corner = mesh::disc_reach().max(mesh::tube_reach());
-                (corner * corner * rim * rim + self.half_m[along] * self.half_m[along]).sqrt()
+                (corner * corner * radius_m * radius_m + self.half_m[along] * self.half_m[along]).sqrt()
             }
         }
     }

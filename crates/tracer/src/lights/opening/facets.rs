@@ -13,12 +13,12 @@ use crate::lights::{LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::{MaterialId, geometry::Mesh, lights::triangle::TriangleLight};
 
 /// Maximum number of facets: those of a tube with its two ends.
-const MOST: usize = SIDES as usize + 2;
+const MAX_FACETS: usize = SIDES as usize + 2;
 
 /// The facets of an opening in the render frame.
 #[derive(Clone, Debug)]
-pub(in crate::lights) struct Facets {
-    facets: Vec<Facet>,
+pub(in crate::lights) struct OpeningFacets {
+    facets: Vec<OpeningFacet>,
     /// Number of parallelograms; they come first.
     parallelograms: usize,
     /// True if they emit from both sides.
@@ -26,16 +26,16 @@ pub(in crate::lights) struct Facets {
 }
 
 #[derive(Clone, Debug)]
-struct Facet {
+struct OpeningFacet {
     middle: Vec3,
     /// Outward.
     normal: Vec3,
     area_m2: f32,
-    form: Form,
+    form: FacetForm,
 }
 
 #[derive(Clone, Debug)]
-enum Form {
+enum FacetForm {
     Parallelogram(TriangleLight),
     Polygon(Polygon),
 }
@@ -58,12 +58,12 @@ pub(in crate::lights) struct FacetSample {
 }
 
 /// The weight of each facet for a receiver.
-struct Weights {
-    of: [f32; MOST],
+struct FacetWeights {
+    of: [f32; MAX_FACETS],
     total: f32,
 }
 
-impl Facets {
+impl OpeningFacets {
     /// The facets of an opening's mesh; `None` if rounding leaves one no area.
     pub(in crate::lights) fn new(
         opening: &Opening,
@@ -73,12 +73,12 @@ impl Facets {
     ) -> Option<Self> {
         let parallelograms = opening.parallelograms();
         let of_two = |k: usize| {
-            let light = TriangleLight::of_two(mesh, [2 * k, 2 * k + 1], to_render, material)?;
-            Some(Facet {
+            let light = TriangleLight::from_parallelogram(mesh, [2 * k, 2 * k + 1], to_render, material)?;
+            Some(OpeningFacet {
                 middle: light.middle(),
                 normal: light.normal(),
                 area_m2: light.area_m2() as f32,
-                form: Form::Parallelogram(light),
+                form: FacetForm::Parallelogram(light),
             })
         };
         let mut facets = (0..parallelograms).map(of_two).collect::<Option<Vec<_>>>()?;
@@ -94,13 +94,13 @@ impl Facets {
         2 * self.parallelograms + SIDES as usize * (self.facets.len() - self.parallelograms)
     }
 
-    fn weights(&self, from: Vec3) -> Weights {
-        let mut weights = Weights { of: [0.0; MOST], total: 0.0 };
+    fn weights(&self, from: Vec3) -> FacetWeights {
+        let mut weights = FacetWeights { of: [0.0; MAX_FACETS], total: 0.0 };
         for (weight, facet) in weights.of.iter_mut().zip(&self.facets) {
-            let way = from - facet.middle;
-            let height = facet.normal.dot(way);
+            let offset = from - facet.middle;
+            let height = facet.normal.dot(offset);
             let height = if self.both { height.abs() } else { height.max(0.0) };
-            let wide2 = way.length_squared() + 0.25 * facet.area_m2;
+            let wide2 = offset.length_squared() + 0.25 * facet.area_m2;
             *weight = facet.area_m2 * height / (wide2 * wide2.sqrt());
             weights.total += *weight;
         }
@@ -110,19 +110,19 @@ impl Facets {
     /// Samples a point for a receiver; `None` if no facet faces it.
     pub(in crate::lights) fn sample(&self, from: Vec3, u: Vec2) -> Option<FacetSample> {
         let weights = self.weights(from);
-        let (chosen, within) = weights.fall(u.x)?;
+        let (chosen, within) = weights.select(u.x)?;
         let facet = &self.facets[chosen];
-        let mut drawn = facet.sample(from, Vec2::new(within, u.y))?;
-        drawn.surface.pdf *= weights.share(chosen);
-        (drawn.surface.pdf > 0.0).then_some(drawn)
+        let mut facet_sample = facet.sample(from, Vec2::new(within, u.y))?;
+        facet_sample.surface.pdf *= weights.probability(chosen);
+        (facet_sample.surface.pdf > 0.0).then_some(facet_sample)
     }
 
     /// Density with which [`Facets::sample`] returns the direction to a point that was hit, 1/sr.
     pub(in crate::lights) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         let weights = self.weights(hit.receiver.position);
         let facet = self.facet_of(hit.point.primitive as usize);
-        let share = weights.share(facet);
-        if share > 0.0 { share * self.facets[facet].pdf(hit) } else { 0.0 }
+        let probability = weights.probability(facet);
+        if probability > 0.0 { probability * self.facets[facet].pdf(hit) } else { 0.0 }
     }
 
     /// The facet that a triangle of the mesh belongs to.
@@ -134,13 +134,13 @@ impl Facets {
     }
 }
 
-impl Weights {
-    fn share(&self, facet: usize) -> f32 {
+impl FacetWeights {
+    fn probability(&self, facet: usize) -> f32 {
         if self.total > 0.0 { self.of[facet] / self.total } else { 0.0 }
     }
 
     /// The facet selected by `u` in [0, 1), and the place of `u` within it.
-    fn fall(&self, u: f32) -> Option<(usize, f32)> {
+    fn select(&self, u: f32) -> Option<(usize, f32)> {
         let mut rest = u * self.total;
         let mut chosen = None;
         for (facet, weight) in self.of.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
@@ -157,18 +157,18 @@ impl Weights {
 /// The largest `f32` below one.
 const ONE_BELOW: f32 = 1.0 - 0.5 * f32::EPSILON;
 
-impl Facet {
+impl OpeningFacet {
     fn sample(&self, from: Vec3, u: Vec2) -> Option<FacetSample> {
         match &self.form {
-            Form::Parallelogram(light) => {
+            FacetForm::Parallelogram(light) => {
                 let (error_m, early_m) = light.rounding_m();
                 Some(FacetSample { surface: light.sample(from, u)?, error_m, early_m })
             }
-            Form::Polygon(polygon) => {
-                let way = self.middle + polygon.place(u) - from;
-                let distance = way.length();
-                let pdf = solid_angle_pdf(1.0 / self.area_m2, way, distance, self.normal);
-                let surface = SurfaceSample { way, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
+            FacetForm::Polygon(polygon) => {
+                let to_light = self.middle + polygon.place(u) - from;
+                let distance = to_light.length();
+                let pdf = solid_angle_pdf(1.0 / self.area_m2, to_light, distance, self.normal);
+                let surface = SurfaceSample { to_light: way: to_light, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
                 Some(FacetSample { surface, error_m: polygon.error_m, early_m: 0.0 })
             }
         }
@@ -176,8 +176,8 @@ impl Facet {
 
     fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match &self.form {
-            Form::Parallelogram(light) => light.pdf(hit),
-            Form::Polygon(_) => {
+            FacetForm::Parallelogram(light) => light.pdf(hit),
+            FacetForm::Polygon(_) => {
                 solid_angle_pdf(1.0 / self.area_m2, hit.direction * hit.distance_m, hit.distance_m, self.normal)
             }
         }
@@ -190,14 +190,14 @@ impl Polygon {
         let scaled = u.x * SIDES as f32;
         let side = (scaled as u32).min(SIDES - 1);
         let [near, far] = [side, side + 1].map(|k| Vec2::from(corner(k, 1.0).map(|x| x as f32)) * self.reach);
-        let shares = uniform_triangle(Vec2::new((scaled - side as f32).min(ONE_BELOW), u.y));
-        let place = near * shares.x + far * shares.y;
+        let fractions = uniform_triangle(Vec2::new((scaled - side as f32).min(ONE_BELOW), u.y));
+        let place = near * fractions.x + far * fractions.y;
         self.axes[0] * place.x + self.axes[1] * place.y
     }
 }
 
 /// The end of a cylinder towards one side of its axis, or a disc.
-fn polygon(opening: &Opening, along: usize, end: f64, to_render: &DAffine3) -> Facet {
+fn polygon(opening: &Opening, along: usize, end: f64, to_render: &DAffine3) -> OpeningFacet {
     let mut middle = glam::DVec3::ZERO;
     middle[along] = end * opening.half_m[along];
     let axis = |k: usize| {
@@ -210,11 +210,11 @@ fn polygon(opening: &Opening, along: usize, end: f64, to_render: &DAffine3) -> F
     let reach = if opening.half_m[along] == 0.0 { mesh::disc_reach() } else { mesh::tube_reach() };
     let middle = to_render.transform_point3(middle).as_vec3();
     let extent = (axes[0].length() + axes[1].length()) as f32 + middle.abs().max_element();
-    Facet {
+    OpeningFacet {
         middle,
         normal: (across.normalize() * end).as_vec3(),
         area_m2: (across.length() * mesh::polygon_area(reach)) as f32,
-        form: Form::Polygon(Polygon {
+        form: FacetForm::Polygon(Polygon {
             axes: axes.map(|axis| axis.as_vec3()),
             reach: reach as f32,
             error_m: ROUNDING * extent,

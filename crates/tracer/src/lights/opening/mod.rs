@@ -20,4 +20,4 @@ mod tests;
 
 pub use body::{Opening, OpeningBody, OpeningError};
 
-pub(super) use facets::{FacetSample, Facets};
+pub(super) use facets::{FacetSample, OpeningFacets};

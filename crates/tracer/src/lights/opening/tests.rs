@@ -37,12 +37,12 @@ fn directions(n: usize) -> impl Iterator<Item = DVec3> {
 
 /// Projected area of an opening's mesh seen from afar: for a body the facing part, for a flat opening either side.
 fn by_mesh(mesh: &Mesh, both: bool, direction: DVec3) -> f64 {
-    let seen = |primitive: usize| {
+    let actual = |primitive: usize| {
         let [a, b, c] = mesh.corners(primitive as u32).map(|corner| corner.as_dvec3());
         let along = 0.5 * (b - a).cross(c - a).dot(direction);
         if both { along.abs() } else { along.max(0.0) }
     };
-    (0..mesh.triangles().len()).map(seen).sum()
+    (0..mesh.triangles().len()).map(actual).sum()
 }
 
 #[test]
@@ -52,12 +52,12 @@ fn seen_areas_are_those_of_the_meshes() {
         let (mesh, flat) = (opening.mesh().expect("a mesh"), opening.flat_axis());
         // Flat openings that are nearly edge-on have a minimum area.
         for direction in directions(40).filter(|d| flat.is_none_or(|axis| d[axis].abs() > 2e-3)) {
-            let seen = f64::from(opening.seen_area_m2(direction.as_vec3()));
+            let actual = f64::from(opening.projected_area_m2(direction.as_vec3()));
             let meshed = by_mesh(&mesh, flat.is_some(), direction);
             // The silhouette of a polygon of 48 sides deviates by up to 1.5e-3 from the circle's, boxes by f32's rounding.
             let allowed = if matches!(opening.body, OpeningBody::Cylinder(_)) { 1.5e-3 } else { 2e-6 };
-            assert!((seen / meshed - 1.0).abs() < allowed, "{opening:?} {direction}: {seen} {meshed}");
-            (ratios, count) = (ratios + seen / meshed, count + 1.0);
+            assert!((actual / meshed - 1.0).abs() < allowed, "{opening:?} {direction}: {actual} {meshed}");
+            (ratios, count) = (ratios + actual / meshed, count + 1.0);
         }
         // For tubes the mean width is the circle's; that of an ellipse's polygon rotates with its axes.
         assert!((ratios / count - 1.0).abs() < 1e-4, "{opening:?}: {}", ratios / count);
@@ -70,26 +70,26 @@ fn an_ellipsoid_is_seen_as_its_support_says() {
     let ball = opening(OpeningBody::Ellipsoid, [2.0 * a, 2.0 * b, 2.0 * c]);
     // The mean projected area of a convex body is a quarter of its surface (Cauchy 1841); by the sections along the axes.
     for (axis, area) in [(Vec3::X, b * c), (Vec3::Y, c * a), (Vec3::Z, a * b)] {
-        assert!((f64::from(ball.seen_area_m2(axis)) / (PI * area) - 1.0).abs() < 1e-6);
+        assert!((f64::from(ball.projected_area_m2(axis)) / (PI * area) - 1.0).abs() < 1e-6);
     }
     let round = opening(OpeningBody::Ellipsoid, [0.4; 3]);
     for direction in directions(8) {
-        assert!((f64::from(round.seen_area_m2(direction.as_vec3())) / (PI * 0.04) - 1.0).abs() < 1e-6);
+        assert!((f64::from(round.projected_area_m2(direction.as_vec3())) / (PI * 0.04) - 1.0).abs() < 1e-6);
     }
 }
 
 /// Flux that leaves an opening, over that of the profile: ∫ value · A(mesh)/A(projected) dΩ.
-fn kept_flux(opening: &Opening, profile: &Profile) -> f64 {
+fn remaining_flux(opening: &Opening, profile: &Profile) -> f64 {
     let n = 200;
     let (mesh, flat) = (opening.mesh().expect("a mesh"), opening.flat_axis().is_some());
     let of = |d: DVec3| {
         let towards = d.as_vec3();
         let meshed = by_mesh(&mesh, flat, d);
         let value = f64::from(profile.value(towards));
-        (value * meshed / f64::from(opening.seen_area_m2(towards)), value)
+        (value * meshed / f64::from(opening.projected_area_m2(towards)), value)
     };
-    let (left, whole) = directions(n).map(of).fold((0.0, 0.0), |sum, (a, b)| (sum.0 + a, sum.1 + b));
-    left / whole
+    let (left, total) = directions(n).map(of).fold((0.0, 0.0), |sum, (a, b)| (sum.0 + a, sum.1 + b));
+    left / total
 }
 
 #[test]
@@ -97,11 +97,11 @@ fn the_flux_is_kept_but_for_what_a_flat_opening_loses_along_its_plane() {
     let spot = Profile::Cone(Cone::new(0.4, 0.7).expect("a spot"));
     for opening in meshed() {
         for profile in [&Profile::Isotropic, &spot] {
-            let (kept, lost) = (kept_flux(&opening, profile), opening.lost_share(profile));
+            let (kept_flux_sr, lost) = (remaining_flux(&opening, profile), opening.lost_fraction(profile));
             // Some 40 of 40 000 directions lie in the band about the plane; sides of tubes are exact in the mean.
-            assert!((kept + lost - 1.0).abs() < 2e-4, "{opening:?} {profile:?}: {kept} {lost}");
+            assert!((kept_flux_sr + lost - 1.0).abs() < 2e-4, "{opening:?} {profile:?}: {kept_flux_sr} {lost}");
         }
-        let lost = opening.lost_share(&Profile::Isotropic);
+        let lost = opening.lost_fraction(&Profile::Isotropic);
         let expected = if opening.flat_axis().is_some() { 5e-4 } else { 0.0 };
         assert!((lost - expected).abs() <= 1e-9 + 1e-6 * expected, "{opening:?}: {lost}");
     }

@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths;
 use glam::Vec3;
 
-use super::spread::{self, Node, Spread};
+use super::spread::{self, ProfileNode, DirectionalExtent};
 
 /// A spot's field.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Cone {
     /// 1 − c_i and 1 − c_o.
     inner: f32,
     outer: f32,
-    spread: Spread,
+    spread: DirectionalExtent,
 }
 
 /// Error of a spot.
@@ -48,7 +48,7 @@ impl Cone {
             return Err(ConeError::Angles { inner_rad, outer_rad });
         }
         let inner = one_minus_cos(inner_rad);
-        let spread = Spread {
+        let spread = DirectionalExtent {
             flux_sr: TAU * (inner + 0.5 * (outer - inner)),
             peak: 1.0,
             axis: Vec3::X,
@@ -68,11 +68,11 @@ impl Cone {
         if t > 0.0 { t * t * (3.0 - 2.0 * t) } else { 0.0 }
     }
 
-    pub(super) fn spread(&self) -> &Spread {
+    pub(super) fn spread(&self) -> &DirectionalExtent {
         &self.spread
     }
 
-    pub(super) fn nodes(&self) -> Vec<Node> {
+    pub(super) fn nodes(&self) -> Vec<ProfileNode> {
         spread::cap(f64::from(self.outer), |direction| self.value(direction))
     }
 }

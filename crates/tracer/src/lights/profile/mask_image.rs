@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 use etendue_core::maths;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::spread::{GAUSS, Node, Spread};
+use super::spread::{GAUSS, ProfileNode, DirectionalExtent};
 
 /// Error of a mask.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -53,7 +53,7 @@ pub struct MaskImage {
     texels: Vec<f32>,
     /// Tangents of the half angles.
     half: Vec2,
-    spread: Spread,
+    spread: DirectionalExtent,
 }
 
 impl core::fmt::Debug for MaskImage {
@@ -88,9 +88,9 @@ impl MaskImage {
             return Err(MaskImageError::Field { horizontal_rad, vertical_rad });
         }
         let half = [horizontal_rad, vertical_rad].map(|a| maths::f64::tan(0.5 * a) as f32);
-        let mut image = Self { width, height, texels, half: Vec2::from(half), spread: Spread::EVERYWHERE };
+        let mut image = Self { width, height, texels, half: Vec2::from(half), spread: DirectionalExtent::EVERYWHERE };
         let peak = image.texels.iter().copied().fold(0.0, f32::max);
-        image.spread = Spread { peak: f64::from(peak), ..Spread::of(&image.nodes()) };
+        image.spread = DirectionalExtent { peak: f64::from(peak), ..DirectionalExtent::from_nodes(&image.nodes()) };
         Ok(image)
     }
 
@@ -114,12 +114,12 @@ impl MaskImage {
         line(row) + t * (line(row + 1) - line(row))
     }
 
-    pub(super) fn spread(&self) -> &Spread {
+    pub(super) fn spread(&self) -> &DirectionalExtent {
         &self.spread
     }
 
     /// Four directions in each of equal cells of the field. Cells end where the linear pieces do: at half texels.
-    pub(super) fn nodes(&self) -> Vec<Node> {
+    pub(super) fn nodes(&self) -> Vec<ProfileNode> {
         let (columns, rows) = (cells(self.width), cells(self.height));
         let size = self.half.as_dvec2() * 2.0 / glam::DVec2::new(columns as f64, rows as f64);
         let place = |i: usize, s: f64, count: usize| -1.0 + 2.0 * (i as f64 + s) / count as f64;
@@ -129,7 +129,7 @@ impl MaskImage {
         let node = |(x, y): (f64, f64)| {
             let long = DVec3::new(1.0, -x * f64::from(self.half.x), y * f64::from(self.half.y));
             let length = long.length();
-            Node {
+            ProfileNode {
                 direction: (long / length).as_vec3(),
                 value: self.at(Vec2::new(x as f32, y as f32)),
                 weight_sr: 0.25 * size.x * size.y / (length * length * length),

@@ -20,13 +20,13 @@ mod tests;
 
 use glam::Vec3;
 
-use spread::{Node, cap};
+use spread::{ProfileNode, cap};
 
 pub use cone::{Cone, ConeError};
 pub use mask_image::{MaskImage, MaskImageError};
 pub use photometric_grid::{PhotometricAxes, PhotometricGrid, PhotometricGridError};
 
-pub(in crate::lights) use spread::Spread;
+pub(in crate::lights) use spread::DirectionalExtent;
 
 /// Distribution of a lamp's intensity.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,14 +48,14 @@ pub enum Profile {
 pub struct MaskedProfile {
     lamp: Box<Profile>,
     mask: Box<Profile>,
-    spread: Spread,
+    spread: DirectionalExtent,
 }
 
 impl Profile {
     /// `lamp` seen through `mask`.
     #[must_use]
     pub fn masked(lamp: Self, mask: Self) -> Self {
-        let spread = Spread::of(&product(&lamp, &mask));
+        let spread = DirectionalExtent::from_nodes(&product(&lamp, &mask));
         Self::Masked(MaskedProfile { lamp: Box::new(lamp), mask: Box::new(mask), spread })
     }
 
@@ -65,7 +65,7 @@ impl Profile {
         match self {
             Self::Isotropic => 1.0,
             Self::Cone(cone) => cone.value(direction),
-            Self::PhotometricGrid(web) => web.value(direction),
+            Self::PhotometricGrid(grid) => grid.value(direction),
             Self::MaskImage(image) => image.value(direction),
             Self::Masked(masked) => masked.mask.value(direction) * masked.lamp.value(direction),
         }
@@ -87,7 +87,7 @@ impl Profile {
     #[must_use]
     pub fn axis(&self) -> Vec3 {
         match self {
-            Self::PhotometricGrid(web) if web.axes() == PhotometricAxes::C => Vec3::NEG_Z,
+            Self::PhotometricGrid(grid) if grid.axes() == PhotometricAxes::C => Vec3::NEG_Z,
             Self::Masked(masked) => masked.lamp.axis(),
             _ => Vec3::X,
         }
@@ -99,11 +99,11 @@ impl Profile {
         f64::from(self.value(self.axis()))
     }
 
-    pub(in crate::lights) fn spread(&self) -> &Spread {
+    pub(in crate::lights) fn spread(&self) -> &DirectionalExtent {
         match self {
-            Self::Isotropic => &Spread::EVERYWHERE,
+            Self::Isotropic => &DirectionalExtent::EVERYWHERE,
             Self::Cone(cone) => cone.spread(),
-            Self::PhotometricGrid(web) => web.spread(),
+            Self::PhotometricGrid(grid) => grid.spread(),
             Self::MaskImage(image) => image.spread(),
             Self::Masked(masked) => &masked.spread,
         }
@@ -112,7 +112,7 @@ impl Profile {
 
 /// The nodes of the narrower profile, their values times those of the other. They are thus dense enough for a narrow spot behind a wide
 /// mask.
-fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
+fn product(lamp: &Profile, mask: &Profile) -> Vec<ProfileNode> {
     let narrower = lamp.spread().reach_rad < mask.spread().reach_rad;
     let (of, factor) = if narrower { (lamp, mask) } else { (mask, lamp) };
     let mut nodes = nodes(of);
@@ -120,11 +120,11 @@ fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
     nodes
 }
 
-fn nodes(profile: &Profile) -> Vec<Node> {
+fn nodes(profile: &Profile) -> Vec<ProfileNode> {
     match profile {
         Profile::Isotropic => cap(2.0, |_| 1.0),
         Profile::Cone(cone) => cone.nodes(),
-        Profile::PhotometricGrid(web) => web.nodes(),
+        Profile::PhotometricGrid(grid) => grid.nodes(),
         Profile::MaskImage(image) => image.nodes(),
         Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
     }

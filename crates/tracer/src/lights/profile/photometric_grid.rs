@@ -18,7 +18,7 @@ use etendue_core::maths::f32::{acos, asin, atan2};
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec3, Vec3};
 
-use super::spread::{GAUSS, Node, Spread};
+use super::spread::{GAUSS, ProfileNode, DirectionalExtent};
 
 /// Meaning of the two angles of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl AngleInterval {
     }
 
     /// The interval shifted by an angle.
-    fn later(self, angle_deg: f64) -> Self {
+    fn shifted(self, angle_deg: f64) -> Self {
         Self { from_deg: angle_deg + self.from_deg, to_deg: angle_deg + self.to_deg }
     }
 }
@@ -107,11 +107,11 @@ pub enum PhotometricGridError {
 #[derive(Clone, PartialEq)]
 pub struct PhotometricGrid {
     axes: PhotometricAxes,
-    vertical_deg: Axis,
-    horizontal_deg: Axis,
+    vertical_deg: AngleAxis,
+    horizontal_deg: AngleAxis,
     /// All vertical angles of the first horizontal one, then of the next.
     values: Vec<f32>,
-    spread: Spread,
+    spread: DirectionalExtent,
 }
 
 impl core::fmt::Debug for PhotometricGrid {
@@ -146,11 +146,11 @@ impl PhotometricGrid {
         let (horizontal_deg, values) = closed(axes, horizontal_deg, values, vertical);
         let vertical_deg = checked(vertical_deg, "vertical", axes.vertical_limits())?;
         let horizontal_deg = checked(horizontal_deg, "horizontal", axes.horizontal_limits())?;
-        let mut web = Self { axes, vertical_deg, horizontal_deg, values, spread: Spread::EVERYWHERE };
-        let sampled = Spread::of(&web.nodes());
-        let peak = web.values.iter().copied().fold(0.0, f32::max);
-        web.spread = Spread { flux_sr: web.exact_flux_sr(), peak: f64::from(peak), ..sampled };
-        Ok(web)
+        let mut grid = Self { axes, vertical_deg, horizontal_deg, values, spread: DirectionalExtent::EVERYWHERE };
+        let sampled = DirectionalExtent::from_nodes(&grid.nodes());
+        let peak = grid.values.iter().copied().fold(0.0, f32::max);
+        grid.spread = DirectionalExtent { flux_sr: grid.exact_flux_sr(), peak: f64::from(peak), ..sampled };
+        Ok(grid)
     }
 
     /// Meaning of the angles.
@@ -182,7 +182,7 @@ impl PhotometricGrid {
         self.at_deg(vertical, turned)
     }
 
-    pub(super) fn spread(&self) -> &Spread {
+    pub(super) fn spread(&self) -> &DirectionalExtent {
         &self.spread
     }
 
@@ -207,22 +207,22 @@ impl PhotometricGrid {
         match self.axes {
             PhotometricAxes::B => {
                 let [low, high] = [h.from_deg, h.to_deg].map(|h| across(v, &|v| at(v, h)));
-                v.length_deg().to_radians() * polar_integral(h.later(90.0), low, high)
+                v.length_deg().to_radians() * polar_integral(h.shifted(90.0), low, high)
             }
             PhotometricAxes::A | PhotometricAxes::C => {
                 let zero = if self.axes == PhotometricAxes::A { 90.0 } else { 0.0 };
                 let [low, high] = [v.from_deg, v.to_deg].map(|v| across(h, &|h| at(v, h)));
-                h.length_deg().to_radians() * polar_integral(v.later(zero), low, high)
+                h.length_deg().to_radians() * polar_integral(v.shifted(zero), low, high)
             }
         }
     }
 
     /// Four directions per cell.
-    pub(super) fn nodes(&self) -> Vec<Node> {
+    pub(super) fn nodes(&self) -> Vec<ProfileNode> {
         self.cells().into_iter().flat_map(|cell| self.cell_nodes(cell)).collect()
     }
 
-    fn cell_nodes(&self, cell: GridCell) -> impl Iterator<Item = Node> + '_ {
+    fn cell_nodes(&self, cell: GridCell) -> impl Iterator<Item = ProfileNode> + '_ {
         let GridCell { vertical, horizontal } = cell;
         let size = [vertical.length_deg(), horizontal.length_deg()].map(f64::to_radians);
         let spacing_rad = (0.8 * (size[0] + size[1])) as f32;
@@ -230,7 +230,7 @@ impl PhotometricGrid {
         angles.map(move |(v, h)| {
             let (direction, stretch) = self.axes.direction(v, h);
             let weight_sr = 0.25 * size[0] * size[1] * stretch;
-            Node { direction, value: self.at_deg(v as f32, h as f32), weight_sr, spacing_rad }
+            ProfileNode { direction, value: self.at_deg(v as f32, h as f32), weight_sr, spacing_rad }
         })
     }
 }
@@ -295,13 +295,13 @@ fn polar_integral(interval: AngleInterval, low: f64, high: f64) -> f64 {
     low * (cos_a - cos_b) + (high - low) * ((sin_b - sin_a) / (b - a) - cos_b)
 }
 
-fn checked(angles: Vec<f32>, which: &'static str, limits: AngleLimits) -> Result<Axis, PhotometricGridError> {
+fn checked(angles: Vec<f32>, which: &'static str, limits: AngleLimits) -> Result<AngleAxis, PhotometricGridError> {
     let AngleLimits { low_deg: low, high_deg: high, max_span_deg: span } = limits;
-    let fault = PhotometricGridError::Angles { which, low, high, span };
-    let axis = Axis::new(angles).ok_or(fault)?;
+    let error = PhotometricGridError::Angles { which, low, high, span };
+    let axis = AngleAxis::new(angles).ok_or(error)?;
     let (first, last) = (f64::from(axis.nodes()[0]), f64::from(axis.nodes()[axis.nodes().len() - 1]));
     let vertical_line = which == "vertical" && axis.nodes().len() == 1;
-    if first < low || last > high || last - first > span || vertical_line { Err(fault) } else { Ok(axis) }
+    if first < low || last > high || last - first > span || vertical_line { Err(error) } else { Ok(axis) }
 }
 
 /// Closes a grid of type C from 0° whose last plane is below 360°: its first plane is added at 360°.
@@ -319,7 +319,7 @@ pub(super) const EDGE_DEG: f32 = 1e-4;
 
 /// Increasing numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct AngleAxis {
     nodes: Vec<f32>,
     /// For each of equal steps from the first to the last number, the interval in which the step begins.
     guide: Vec<u16>,
@@ -333,7 +333,7 @@ pub(super) struct GridPosition {
     pub(super) t: f32,
 }
 
-impl Axis {
+impl AngleAxis {
     /// `None` if there are none or too many, one is not finite, or they do not increase.
     pub(super) fn new(nodes: Vec<f32>) -> Option<Self> {
         let rise = nodes.windows(2).all(|w| w[0] < w[1]) && nodes.iter().all(|n| n.is_finite());

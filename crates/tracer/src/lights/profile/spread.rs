@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 
 /// Flux, peak and bounding cone of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::lights) struct Spread {
+pub(in crate::lights) struct DirectionalExtent {
     /// ∫ value dΩ.
     pub(in crate::lights) flux_sr: f64,
     /// Maximum value.
@@ -21,7 +21,7 @@ pub(in crate::lights) struct Spread {
 /// Fraction of the flux within the core.
 const CORE: f64 = 0.9;
 
-impl Spread {
+impl DirectionalExtent {
     /// The spread of a profile of value 1 everywhere.
     pub(super) const EVERYWHERE: Self = Self {
         flux_sr: 4.0 * core::f64::consts::PI,
@@ -32,8 +32,8 @@ impl Spread {
     };
 
     /// The spread of the distribution that `nodes` sum up.
-    pub(super) fn of(nodes: &[Node]) -> Self {
-        let flux_sr: f64 = nodes.iter().map(Node::flux).sum();
+    pub(super) fn from_nodes(nodes: &[ProfileNode]) -> Self {
+        let flux_sr: f64 = nodes.iter().map(ProfileNode::flux).sum();
         let peak = nodes.iter().map(|n| f64::from(n.value)).fold(0.0, f64::max);
         let mean: DVec3 = nodes.iter().map(|n| n.direction.as_dvec3() * n.flux()).sum();
         // A mean that is short compared with its terms is rounding: the light is isotropic.
@@ -44,7 +44,7 @@ impl Spread {
 }
 
 /// Core and reach about `axis`, by steps of half a degree; the reach with a margin for directions between nodes.
-fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
+fn half_angles(nodes: &[ProfileNode], axis: Vec3, flux_sr: f64) -> (f32, f32) {
     const STEPS: usize = 360;
     let mut shells = [0.0; STEPS];
     let mut reach = 0.0_f32;
@@ -66,7 +66,7 @@ fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
 
 /// A direction with its part of the integral.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
+pub(super) struct ProfileNode {
     /// Unit vector in the lamp's frame.
     pub(super) direction: Vec3,
     /// Value of the profile there.
@@ -77,7 +77,7 @@ pub(super) struct Node {
     pub(super) spacing_rad: f32,
 }
 
-impl Node {
+impl ProfileNode {
     pub(super) fn flux(&self) -> f64 {
         f64::from(self.value) * self.weight_sr
     }
@@ -91,7 +91,7 @@ const RINGS: usize = 128;
 const SECTORS: usize = 256;
 
 /// Directions about +x whose cosine is at least 1 − `one_minus_cos`, each representing the same solid angle.
-pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<Node> {
+pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<ProfileNode> {
     let weight_sr = core::f64::consts::TAU * one_minus_cos / (RINGS * SECTORS) as f64;
     let spacing_rad = 2.0 * weight_sr.sqrt() as f32;
     let cells = (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector)));
@@ -100,7 +100,7 @@ pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<Node> 
         let (sin, cos) = sin_cos(core::f64::consts::TAU * (sector as f64 + 0.5) / SECTORS as f64);
         let aside = (low * (2.0 - low)).sqrt();
         let direction = DVec3::new(1.0 - low, aside * cos, aside * sin).as_vec3();
-        Node { direction, value: value(direction), weight_sr, spacing_rad }
+        ProfileNode { direction, value: value(direction), weight_sr, spacing_rad }
     };
     cells.map(node).collect()
 }

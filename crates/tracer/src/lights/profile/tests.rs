@@ -18,7 +18,7 @@ fn steps(from: f32, to: f32, count: usize) -> Vec<f32> {
     (0..count).map(|i| from + (to - from) * i as f32 / (count - 1) as f32).collect()
 }
 
-fn web(axes: PhotometricAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32) -> f32) -> PhotometricGrid {
+fn photometric_grid(axes: PhotometricAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32) -> f32) -> PhotometricGrid {
     let values = h.iter().flat_map(|h| v.iter().map(|v| value(*v, *h)).collect::<Vec<_>>()).collect();
     PhotometricGrid::new(axes, v, h, values).expect("a grid")
 }
@@ -27,7 +27,7 @@ fn web(axes: PhotometricAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32)
 fn a_spot_has_its_closed_flux_and_its_edges() {
     for (inner_deg, outer_deg) in [(0.0_f64, 30.0_f64), (10.0, 10.0), (0.05, 0.1), (60.0, 180.0)] {
         let cone = Cone::new(inner_deg.to_radians(), outer_deg.to_radians()).expect("a spot");
-        let summed: f64 = cone.nodes().iter().map(spread::Node::flux).sum();
+        let summed: f64 = cone.nodes().iter().map(spread::ProfileNode::flux).sum();
         // The midpoint rule in 128 rings errs by half a ring at a sharp edge, of 128.
         let profile = Profile::Cone(cone);
         assert!((summed / profile.flux_sr() - 1.0).abs() < 5e-3, "{inner_deg}–{outer_deg}: {summed}");
@@ -46,20 +46,20 @@ fn a_spot_has_its_closed_flux_and_its_edges() {
 #[test]
 fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
     let (full_v, full_h) = (steps(-90.0, 90.0, 19), steps(-180.0, 180.0, 37));
-    let shares = [
-        (web(PhotometricAxes::A, full_v.clone(), full_h.clone(), |_, _| 1.0), 1.0),
-        (web(PhotometricAxes::B, full_h, full_v, |_, _| 1.0), 1.0),
-        (web(PhotometricAxes::C, steps(0.0, 180.0, 5), vec![0.0], |_, _| 1.0), 1.0),
-        (web(PhotometricAxes::A, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 1.0),
-        (web(PhotometricAxes::B, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 0.5),
-        (web(PhotometricAxes::C, steps(0.0, 90.0, 5), steps(0.0, 360.0, 5), |_, _| 1.0), 0.5),
-        (web(PhotometricAxes::A, steps(0.0, 90.0, 5), steps(0.0, 90.0, 3), |_, _| 1.0), 0.125),
-        (web(PhotometricAxes::B, steps(-90.0, 90.0, 5), steps(-30.0, 30.0, 3), |_, _| 1.0), 0.25),
+    let fractions = [
+        (photometric_grid(PhotometricAxes::A, full_v.clone(), full_h.clone(), |_, _| 1.0), 1.0),
+        (photometric_grid(PhotometricAxes::B, full_h, full_v, |_, _| 1.0), 1.0),
+        (photometric_grid(PhotometricAxes::C, steps(0.0, 180.0, 5), vec![0.0], |_, _| 1.0), 1.0),
+        (photometric_grid(PhotometricAxes::A, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 1.0),
+        (photometric_grid(PhotometricAxes::B, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 0.5),
+        (photometric_grid(PhotometricAxes::C, steps(0.0, 90.0, 5), steps(0.0, 360.0, 5), |_, _| 1.0), 0.5),
+        (photometric_grid(PhotometricAxes::A, steps(0.0, 90.0, 5), steps(0.0, 90.0, 3), |_, _| 1.0), 0.125),
+        (photometric_grid(PhotometricAxes::B, steps(-90.0, 90.0, 5), steps(-30.0, 30.0, 3), |_, _| 1.0), 0.25),
     ];
-    for (web, share) in shares {
-        let summed: f64 = web.nodes().iter().map(spread::Node::flux).sum();
-        let profile = Profile::PhotometricGrid(web);
-        assert!((isotropic_flux(&profile) - share).abs() < 1e-6, "{profile:?}");
+    for (grid, fraction) in fractions {
+        let summed: f64 = grid.nodes().iter().map(spread::ProfileNode::flux).sum();
+        let profile = Profile::PhotometricGrid(grid);
+        assert!((isotropic_flux(&profile) - fraction).abs() < 1e-6, "{profile:?}");
         // Two nodes per interval of up to 45°: the error of Gauss' rule for a cosine is (π/4)⁵/4320.
         assert!((summed / profile.flux_sr() - 1.0).abs() < 1e-3, "{profile:?}: {summed}");
     }
@@ -67,7 +67,7 @@ fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
 
 #[test]
 fn a_cosine_lamp_has_the_flux_pi() {
-    let down = web(PhotometricAxes::C, steps(0.0, 90.0, 91), vec![0.0], |v, _| {
+    let down = photometric_grid(PhotometricAxes::C, steps(0.0, 90.0, 91), vec![0.0], |v, _| {
         sin_cos(f64::from(90.0 - v).to_radians()).0 as f32
     });
     // Chords lie below the cosine by at most (1°)²/8 of it.
@@ -77,9 +77,9 @@ fn a_cosine_lamp_has_the_flux_pi() {
 #[test]
 fn grids_are_exact_at_their_points_in_the_directions_of_their_type() {
     let value = |v: f32, h: f32| 2.0 + v / 100.0 + h / 500.0;
-    let a = web(PhotometricAxes::A, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
-    let b = web(PhotometricAxes::B, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
-    let c = web(PhotometricAxes::C, steps(0.0, 180.0, 13), steps(0.0, 345.0, 24), value);
+    let a = photometric_grid(PhotometricAxes::A, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
+    let b = photometric_grid(PhotometricAxes::B, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
+    let c = photometric_grid(PhotometricAxes::C, steps(0.0, 180.0, 13), steps(0.0, 345.0, 24), value);
     for (v, h) in [(10.0, 20.0), (-25.0, 45.0), (5.0, -60.0), (30.0, 0.0)] {
         assert!((a.value(towards(h, v)) - value(v as f32, h as f32)).abs() < 1e-5, "A {v} {h}");
         // Type B: H leaves the plane, V turns it: (cos H cos V, −sin H, cos H sin V).
@@ -89,8 +89,8 @@ fn grids_are_exact_at_their_points_in_the_directions_of_their_type() {
     }
     for (gamma, plane) in [(45.0, 90.0), (90.0, 0.0), (120.0, 270.0), (15.0, 345.0)] {
         // C90 is to the left, straight down is 0.
-        let told = c.value(towards(-plane, gamma - 90.0));
-        assert!((told - value(gamma as f32, plane as f32)).abs() < 1e-4, "C {gamma} {plane}: {told}");
+        let intensity = c.value(towards(-plane, gamma - 90.0));
+        assert!((intensity - value(gamma as f32, plane as f32)).abs() < 1e-4, "C {gamma} {plane}: {intensity}");
     }
     let seam = c.value(towards(-352.5, 0.0));
     assert!((seam - 0.5 * (value(90.0, 345.0) + value(90.0, 0.0))).abs() < 1e-4, "the last plane joins the first");
@@ -98,11 +98,11 @@ fn grids_are_exact_at_their_points_in_the_directions_of_their_type() {
 
 #[test]
 fn nothing_shines_outside_a_grid() {
-    let a = web(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0);
+    let a = photometric_grid(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0);
     for (h, v) in [(61.0, 0.0), (0.0, 31.0), (0.0, -31.0), (180.0, 0.0), (-61.0, 10.0)] {
         assert_eq!(a.value(towards(h, v)), 0.0, "{h} {v}");
     }
-    let c = web(PhotometricAxes::C, steps(0.0, 90.0, 3), vec![0.0], |_, _| 5.0);
+    let c = photometric_grid(PhotometricAxes::C, steps(0.0, 90.0, 3), vec![0.0], |_, _| 5.0);
     assert_eq!((c.value(Vec3::Z), c.value(Vec3::NEG_Z)), (0.0, 5.0));
 }
 
@@ -133,10 +133,10 @@ fn a_mask_fills_its_field_the_right_way_up() {
 fn a_mask_cuts_what_it_covers() {
     let half = MaskImage::new(2, 1, vec![0.0, 1.0], 80_f64.to_radians(), 80_f64.to_radians()).expect("a mask");
     let spot = Cone::new(0.2, 0.3).expect("a spot");
-    let whole = spot.spread().flux_sr;
+    let total = spot.spread().flux_sr;
     let masked = Profile::masked(Profile::Cone(spot), Profile::MaskImage(half));
     // Odd about the middle: half of the spot passes the mask.
-    assert!((masked.flux_sr() / whole - 0.5).abs() < 2e-3, "{}", masked.flux_sr() / whole);
+    assert!((masked.flux_sr() / total - 0.5).abs() < 2e-3, "{}", masked.flux_sr() / total);
     assert_eq!(masked.value(towards(-0.35_f64.to_degrees(), 0.0)), 0.0);
     assert!(masked.value(towards(5.0, 0.0)) > masked.value(towards(-5.0, 0.0)));
 }
@@ -144,8 +144,8 @@ fn a_mask_cuts_what_it_covers() {
 #[test]
 fn the_reach_holds_all_light() {
     let profiles = [
-        Profile::PhotometricGrid(web(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
-        Profile::PhotometricGrid(web(PhotometricAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
+        Profile::PhotometricGrid(photometric_grid(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
+        Profile::PhotometricGrid(photometric_grid(PhotometricAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
         Profile::MaskImage(MaskImage::new(4, 4, vec![1.0; 16], 1.0, 2.0).expect("a mask")),
         Profile::Cone(Cone::new(0.1, 0.4).expect("a spot")),
     ];
@@ -189,7 +189,7 @@ fn a_mask_wider_than_its_spot_takes_no_light() {
         let masked = Profile::masked(cone.clone(), Profile::MaskImage(image));
         // The midpoint rule in 128 rings.
         assert!((masked.flux_sr() / cone.flux_sr() - 1.0).abs() < 5e-3, "{field_deg}°: {}", masked.flux_sr());
-        let (seen, reach) = (f64::from(masked.spread().reach_rad), field_deg.to_radians());
-        assert!(seen >= reach && seen < 1.2 * reach, "{field_deg}°: {seen}");
+        let (reach_seen, reach) = (f64::from(masked.spread().reach_rad), field_deg.to_radians());
+        assert!(reach_seen >= reach && reach_seen < 1.2 * reach, "{field_deg}°: {reach_seen}");
     }
 }

@@ -30,14 +30,14 @@ impl LightBounds {
     }
 
     /// The cone of full intensity.
-    fn cone(&self) -> Cone {
-        Cone { axis: self.axis, half_angle_rad: self.theta_o }
+    fn cone(&self) -> AngularCone {
+        AngularCone { axis: self.axis, half_angle_rad: self.theta_o }
     }
 
     /// Bounds of both.
     pub(super) fn union(&self, other: &Self) -> Self {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
-        let Cone { axis, half_angle_rad: theta_o } = self.cone().union(other.cone());
+        let AngularCone { axis, half_angle_rad: theta_o } = self.cone().union(other.cone());
         Self {
             low,
             high,
@@ -68,12 +68,12 @@ impl LightBounds {
 
 /// Directions about a unit axis.
 #[derive(Clone, Copy)]
-struct Cone {
+struct AngularCone {
     axis: Vec3,
     half_angle_rad: f32,
 }
 
-impl Cone {
+impl AngularCone {
     /// The smallest cone about two.
     fn union(self, other: Self) -> Self {
         let (wide, narrow) = if self.half_angle_rad >= other.half_angle_rad { (self, other) } else { (other, self) };
@@ -100,7 +100,7 @@ fn angle(a: Vec3, b: Vec3) -> f32 {
 
 impl LightBounds {
     /// Bounds of a surface: diffuse emission from one side (`normal`) or all.
-    pub(in crate::lights) fn of_surface(points: &[Vec3], intensity: f64, normal: Option<Vec3>) -> Self {
+    pub(in crate::lights) fn from_surface(points: &[Vec3], intensity: f64, normal: Option<Vec3>) -> Self {
         let low = points.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = points.iter().copied().reduce(Vec3::max).unwrap_or_default();
         let (axis, theta_o, theta_e) = normal.map_or((Vec3::Z, PI, FRAC_PI_2), |n| (n, 0.0, FRAC_PI_2));

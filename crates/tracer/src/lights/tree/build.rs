@@ -7,23 +7,23 @@
 use core::ops::Range;
 
 use super::bounds::LightBounds;
-use super::light_tree::{LightTree, Slot};
-use super::node::{Child, LANES, Node};
+use super::light_tree::{LightTree, ParentSlot};
+use super::node::{LightChild, LANES, LightNode};
 
 /// Bins along an axis.
 const BINS: usize = 12;
 
 /// Levels beyond which lights are halved by count.
-const DEEP: u32 = 24;
+const MAX_SAH_DEPTH: u32 = 24;
 
 /// A light with its bounds.
 type Item = (LightBounds, u32);
 
-struct Builder {
+struct LightTreeBuilder {
     items: Vec<Item>,
-    nodes: Vec<Node>,
-    parents: Vec<Slot>,
-    leaves: Vec<Slot>,
+    nodes: Vec<LightNode>,
+    parents: Vec<ParentSlot>,
+    leaves: Vec<ParentSlot>,
     per_scale: f64,
 }
 
@@ -40,44 +40,44 @@ fn tree(lights: &[LightBounds]) -> Option<LightTree> {
         return None;
     }
     let items: Vec<Item> = lights.iter().copied().zip(0..).collect();
-    let leaves = vec![Slot::default(); items.len()];
-    let mut builder = Builder { items, nodes: vec![], parents: vec![], leaves, per_scale: 1.0 / scale };
-    builder.node(0..lights.len(), Slot::default(), 0);
-    let Builder { nodes, parents, leaves, .. } = builder;
+    let leaves = vec![ParentSlot::default(); items.len()];
+    let mut builder = LightTreeBuilder { items, nodes: vec![], parents: vec![], leaves, per_scale: 1.0 / scale };
+    builder.node(0..lights.len(), ParentSlot::default(), 0);
+    let LightTreeBuilder { nodes, parents, leaves, .. } = builder;
     Some(LightTree { nodes, parents, leaves, scale, per_irradiance: (1.0 / scale) as f32 })
 }
 
 /// A contiguous range of lights in the list.
-struct Part {
+struct LightRange {
     range: Range<usize>,
     bounds: LightBounds,
 }
 
-impl Builder {
-    fn node(&mut self, range: Range<usize>, parent: Slot, level: u32) -> u32 {
+impl LightTreeBuilder {
+    fn node(&mut self, range: Range<usize>, parent: ParentSlot, level: u32) -> u32 {
         let parts = self.parts(range, level);
         let index = self.nodes.len() as u32;
-        self.nodes.push(Node::default());
+        self.nodes.push(LightNode::default());
         self.parents.push(parent);
         for (lane, part) in parts.into_iter().enumerate() {
-            let slot = Slot { node: index, lane: lane as u8 };
+            let slot = ParentSlot { node: index, lane: lane as u8 };
             let child = self.child(part.range, slot, level + 1);
             self.nodes[index as usize].set(lane, &part.bounds, child, self.per_scale);
         }
         index
     }
 
-    fn child(&mut self, range: Range<usize>, slot: Slot, level: u32) -> Child {
+    fn child(&mut self, range: Range<usize>, slot: ParentSlot, level: u32) -> LightChild {
         if range.len() > 1 {
-            return Child { index: self.node(range, slot, level), is_node: true };
+            return LightChild { index: self.node(range, slot, level), is_node: true };
         }
         let light = self.items[range.start].1;
         self.leaves[light as usize] = slot;
-        Child { index: light, is_node: false }
+        LightChild { index: light, is_node: false }
     }
 
     /// Up to eight parts of a range.
-    fn parts(&mut self, range: Range<usize>, level: u32) -> Vec<Part> {
+    fn parts(&mut self, range: Range<usize>, level: u32) -> Vec<LightRange> {
         if range.len() <= LANES {
             return range.map(|i| self.part(i..i + 1)).collect();
         }
@@ -96,17 +96,17 @@ impl Builder {
         parts
     }
 
-    fn part(&self, range: Range<usize>) -> Part {
+    fn part(&self, range: Range<usize>) -> LightRange {
         let first = self.items[range.start].0;
         let bounds = self.items[range.clone()].iter().skip(1).fold(first, |b, (other, _)| b.union(other));
-        Part { range, bounds }
+        LightRange { range, bounds }
     }
 
     /// Sorts the lights of a part so that those before the returned index are one half.
-    fn halve(&mut self, part: &Part, level: u32) -> usize {
+    fn halve(&mut self, part: &LightRange, level: u32) -> usize {
         let items = &mut self.items[part.range.clone()];
         let half = items.len() / 2;
-        let before = match best_plane(items, part).filter(|_| level < DEEP) {
+        let before = match best_plane(items, part).filter(|_| level < MAX_SAH_DEPTH) {
             Some((axis, at)) => partition(items, |item| item.0.centre()[axis] < at),
             None => {
                 let extent = part.bounds.high - part.bounds.low;
@@ -122,7 +122,7 @@ impl Builder {
 }
 
 /// The axis and plane of minimum cost; `None` if all middles coincide.
-fn best_plane(items: &[Item], part: &Part) -> Option<(usize, f32)> {
+fn best_plane(items: &[Item], part: &LightRange) -> Option<(usize, f32)> {
     let (mut low, mut high) = (items[0].0.centre(), items[0].0.centre());
     for (bounds, _) in items {
         (low, high) = (low.min(bounds.centre()), high.max(bounds.centre()));

@@ -8,29 +8,29 @@
 //! - For a diffuse receiver in view, clusters whose weight exceeds [`MATTERS_TO_MATT`], as the estimate of a cluster around or near the receiver
 //!   is rough. Elsewhere on a path this is not worth its time.
 
-use super::light_tree::{LightTree, Slot, TreeQuery, mix};
-use super::node::{GlossyWeights, LANES, Node};
+use super::light_tree::{LightTree, ParentSlot, TreeQuery, mix};
+use super::node::{GlossyWeights, LANES, LightNode};
 use crate::{lights::ReceiverGloss, lights::light_sample::LampIrradiance};
 
 /// Maximum number of opened nodes.
-const OPENED: usize = 16;
+const MAX_OPENED_NODES: usize = 16;
 
 /// Fraction of the whole estimate, as computed from the root's children, above which a cluster's maximum estimate has it opened. Between
 /// 0.1 and 0.5 the error of the wet street changes by a hundredth, and its time by a twentieth.
-const MATTERS: f32 = 0.3;
+const GLOSSY_THRESHOLD: f32 = 0.3;
 
 /// The same for a diffuse receiver, for a cluster's weight. With 0.1 the street at night gains 1.8 instead of 2.0 times, wet 1.05 instead
 /// of 1.10 times.
-const MATTERS_TO_MATT: f32 = 0.02;
+const DIFFUSE_THRESHOLD: f32 = 0.02;
 
 /// Lights and clusters from which a receiver chooses, by their slots.
-pub(in crate::lights) struct Cut {
+pub(in crate::lights) struct LightCut {
     /// Node × [`LANES`] + lane.
-    slots: [u32; OPENED * LANES],
+    slots: [u32; MAX_OPENED_NODES * LANES],
     /// Weight of each slot raised by the gloss; finally its selection probability.
-    shares: [f32; OPENED * LANES],
+    weights: [f32; MAX_OPENED_NODES * LANES],
     /// Weight of each slot for a diffuse receiver.
-    plain: [f32; OPENED * LANES],
+    diffuse: [f32; MAX_OPENED_NODES * LANES],
     len: usize,
     /// Sum of the weights.
     total: f32,
@@ -39,23 +39,23 @@ pub(in crate::lights) struct Cut {
 impl LightTree {
     /// The cut of a glossy receiver.
     #[inline(always)]
-    fn glossy_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, gloss: &ReceiverGloss) -> Cut {
-        let greatest =
-            |node: &Node, lane: usize, weights: &GlossyWeights| node.greatest(lane, weights, question.receiver, gloss);
-        let mut cut = self.cut(MATTERS, |node| self.glossy_weights(node, question, gloss), greatest);
-        cut.total = mix(&mut cut.shares[..cut.len], &cut.plain[..cut.len]);
+    fn glossy_cut<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, gloss: &ReceiverGloss) -> LightCut {
+        let maximum =
+            |node: &LightNode, lane: usize, weights: &GlossyWeights| node.max_weights(lane, weights, query.receiver, gloss);
+        let mut cut = self.cut(GLOSSY_THRESHOLD, |node| self.glossy_weights(node, query, gloss), maximum);
+        cut.total = mix(&mut cut.weights[..cut.len], &cut.diffuse[..cut.len]);
         cut
     }
 
     /// The cut of a diffuse receiver.
     #[inline(always)]
-    fn matt_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Cut {
+    fn diffuse_cut<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>) -> LightCut {
         let weigh = |node| {
-            let plain = self.weights(node, question);
-            GlossyWeights { raised: plain, plain, faced: plain }
+            let plain = self.weights(node, query);
+            GlossyWeights { with_gloss: plain, diffuse: plain, facing: plain }
         };
-        let mut cut = self.cut(MATTERS_TO_MATT, weigh, |_, lane, weights| weights.plain[lane]);
-        cut.total = cut.shares[..cut.len].iter().sum();
+        let mut cut = self.cut(DIFFUSE_THRESHOLD, weigh, |_, lane, weights| weights.diffuse[lane]);
+        cut.total = cut.weights[..cut.len].iter().sum();
         cut
     }
 
@@ -63,26 +63,26 @@ impl LightTree {
     #[inline(always)]
     fn cut(
         &self,
-        share: f32,
+        threshold: f32,
         weigh: impl Fn(u32) -> GlossyWeights,
-        greatest: impl Fn(&Node, usize, &GlossyWeights) -> f32,
-    ) -> Cut {
+        maximum: impl Fn(&LightNode, usize, &GlossyWeights) -> f32,
+    ) -> LightCut {
         let mut weights = weigh(0);
-        let least = share * weights.raised.iter().sum::<f32>();
-        let mut cut = Cut::empty();
-        let mut open = [0_u32; OPENED];
+        let minimum = threshold * weights.with_gloss.iter().sum::<f32>();
+        let mut cut = LightCut::empty();
+        let mut open = [0_u32; MAX_OPENED_NODES];
         let (mut next, mut opened) = (0, 1);
         while next < opened {
             let index = open[next];
             let node = &self.nodes[index as usize];
-            for (lane, weight) in weights.raised.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
+            for (lane, weight) in weights.with_gloss.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
                 let child = node.child(lane);
-                let opens = child.is_node && opened < OPENED;
-                if opens && greatest(node, lane, &weights) > least {
+                let opens = child.is_node && opened < MAX_OPENED_NODES;
+                if opens && maximum(node, lane, &weights) > minimum {
                     open[opened] = child.index;
                     opened += 1;
                 } else {
-                    cut.push(coded(Slot { node: index, lane: lane as u8 }), weight, weights.plain[lane]);
+                    cut.push(slot_code(ParentSlot { node: index, lane: lane as u8 }), weight, weights.diffuse[lane]);
                 }
             }
             next += 1;
@@ -94,16 +94,16 @@ impl LightTree {
     }
 }
 
-impl Cut {
+impl LightCut {
     fn empty() -> Self {
-        const NONE: [f32; OPENED * LANES] = [0.0; OPENED * LANES];
-        Self { slots: [0; OPENED * LANES], shares: NONE, plain: NONE, len: 0, total: 0.0 }
+        const NONE: [f32; MAX_OPENED_NODES * LANES] = [0.0; MAX_OPENED_NODES * LANES];
+        Self { slots: [0; MAX_OPENED_NODES * LANES], weights: NONE, diffuse: NONE, len: 0, total: 0.0 }
     }
 
     fn push(&mut self, slot: u32, raised: f32, plain: f32) {
         self.slots[self.len] = slot;
-        self.shares[self.len] = raised;
-        self.plain[self.len] = plain;
+        self.weights[self.len] = raised;
+        self.diffuse[self.len] = plain;
         self.len += 1;
     }
 
@@ -113,24 +113,24 @@ impl Cut {
     }
 
     /// The slot selected by `u` in [0, 1), its probability, and the place of `u` within it; `None` if all weights are zero.
-    pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
-        let (i, share, within) = draw(&self.shares[..self.len], u)?;
-        Some((slot_of(self.slots[i]), share, within))
+    pub(super) fn sample(&self, u: f64) -> Option<(ParentSlot, f32, f64)> {
+        let (i, probability, within) = sample_index(&self.weights[..self.len], u)?;
+        Some((slot_of(self.slots[i]), probability, within))
     }
 
     /// The probability of a slot; `None` if it is no part of the cut.
-    pub(super) fn share(&self, slot: Slot) -> Option<f32> {
-        let i = self.slots[..self.len].iter().position(|other| *other == coded(slot))?;
-        Some(share(&self.shares[..self.len], i))
+    pub(super) fn probability(&self, slot: ParentSlot) -> Option<f32> {
+        let i = self.slots[..self.len].iter().position(|other| *other == slot_code(slot))?;
+        Some(fraction_of_total(&self.weights[..self.len], i))
     }
 }
 
-fn coded(slot: Slot) -> u32 {
+fn slot_code(slot: ParentSlot) -> u32 {
     slot.node * LANES as u32 + u32::from(slot.lane)
 }
 
-fn slot_of(code: u32) -> Slot {
-    Slot { node: code / LANES as u32, lane: (code % LANES as u32) as u8 }
+fn slot_of(code: u32) -> ParentSlot {
+    ParentSlot { node: code / LANES as u32, lane: (code % LANES as u32) as u8 }
 }
 
 /// The first choice of a receiver.
@@ -138,61 +138,61 @@ fn slot_of(code: u32) -> Slot {
     clippy::large_enum_variant,
     reason = "lives on the stack for one draw; a box would cost an allocation at each vertex"
 )]
-pub(in crate::lights) enum Start {
+pub(in crate::lights) enum TreeStart {
     /// The only light, or none.
     Only,
     /// The root's children, by their weights.
     Root([f32; LANES]),
     /// For a glossy receiver, or one in view: lights and clusters of a cut.
-    Cut(Cut),
+    Cut(LightCut),
 }
 
 impl LightTree {
     /// Start of the descent.
     #[inline(always)]
-    pub(in crate::lights) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
+    pub(in crate::lights) fn start<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>) -> TreeStart {
         if self.len() == 1 {
-            return Start::Only;
+            return TreeStart::Only;
         }
-        match &question.receiver.gloss {
-            Some(gloss) => Start::Cut(self.glossy_cut(question, gloss)),
-            None if question.receiver.in_view => Start::Cut(self.matt_cut(question)),
-            None => Start::Root(self.weights(0, question)),
+        match &query.receiver.gloss {
+            Some(gloss) => TreeStart::Cut(self.glossy_cut(query, gloss)),
+            None if query.receiver.in_view => TreeStart::Cut(self.diffuse_cut(query)),
+            None => TreeStart::Root(self.weights(0, query)),
         }
     }
 }
 
-impl Start {
+impl TreeStart {
     /// The slot selected by `u` in [0, 1), its probability, and the place of `u` within it; `None` if all weights are zero.
-    pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
+    pub(super) fn sample(&self, u: f64) -> Option<(ParentSlot, f32, f64)> {
         match self {
-            Self::Only => Some((Slot::default(), 1.0, u)),
-            Self::Cut(cut) => cut.draw(u),
+            Self::Only => Some((ParentSlot::default(), 1.0, u)),
+            Self::Cut(cut) => cut.sample(u),
             Self::Root(weights) => {
-                let (lane, share, within) = draw(weights, u)?;
-                Some((Slot { node: 0, lane: lane as u8 }, share, within))
+                let (lane, probability, within) = sample_index(weights, u)?;
+                Some((ParentSlot { node: 0, lane: lane as u8 }, probability, within))
             }
         }
     }
 
     /// The probability of a slot; `None` if it is not part of the first choice.
-    pub(super) fn share(&self, slot: Slot) -> Option<f32> {
+    pub(super) fn probability(&self, slot: ParentSlot) -> Option<f32> {
         match self {
             Self::Only => Some(1.0),
-            Self::Cut(cut) => cut.share(slot),
-            Self::Root(weights) => (slot.node == 0).then(|| share(weights, usize::from(slot.lane))),
+            Self::Cut(cut) => cut.probability(slot),
+            Self::Root(weights) => (slot.node == 0).then(|| fraction_of_total(weights, usize::from(slot.lane))),
         }
     }
 }
 
 /// The fraction of a weight in the sum of its row.
-pub(super) fn share(weights: &[f32], index: usize) -> f32 {
+pub(super) fn fraction_of_total(weights: &[f32], index: usize) -> f32 {
     let total: f32 = weights.iter().sum();
     if total > 0.0 { weights[index] / total } else { 0.0 }
 }
 
 /// The weight of a row selected by `u` in [0, 1), its fraction, and the place of `u` within it, in [0, 1); `None` if the row has none.
-pub(super) fn draw(weights: &[f32], u: f64) -> Option<(usize, f32, f64)> {
+pub(super) fn sample_index(weights: &[f32], u: f64) -> Option<(usize, f32, f64)> {
     // As f64, in which no sum of these loses a weight that the fraction would include: the sum of f32 may differ by some roundings.
     let mut rest = u * weights.iter().map(|weight| f64::from(*weight)).sum::<f64>();
     let mut chosen = None;
@@ -204,7 +204,7 @@ pub(super) fn draw(weights: &[f32], u: f64) -> Option<(usize, f32, f64)> {
         }
         rest -= weight;
     }
-    chosen.map(|(index, within)| (index, share(weights, index), within))
+    chosen.map(|(index, within)| (index, fraction_of_total(weights, index), within))
 }
 
 /// The largest `f64` below one.

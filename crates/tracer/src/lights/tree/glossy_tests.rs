@@ -43,7 +43,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
         let wi = frame.inward(towards);
         wi.map_or(0.0, |wi| of(&table, &|bsdf| bsdf.evaluate(frame.wo, wi).value_cos.mean()))
     };
-    Some((LightSampleContext { gloss, ..LightSampleContext::matt(position, Vec3::Z) }, scattered))
+    Some((LightSampleContext { gloss, ..LightSampleContext::diffuse(position, Vec3::Z) }, scattered))
 }
 
 /// Directions of viewers: steep, slanting and grazing.
@@ -52,16 +52,16 @@ const VIEWERS: [[f32; 3]; 3] = [[0.1, 0.05, 1.0], [-1.0, 0.3, 0.8], [0.4, -1.0, 
 /// Calls `f` with every glossy surface as seen by these viewers, by its name.
 fn each_receiver(mut f: impl FnMut(&str, &LightSampleContext, &dyn Fn(Vec3) -> f32)) {
     for (name, surface) in glossy_surfaces() {
-        let mut told = false;
+        let mut was_called = false;
         for (i, viewer) in VIEWERS.iter().enumerate() {
             let position = Vec3::new(3.0 * i as f32, -2.0, -20.0);
             let Some((receiver, scattered)) = receiver(&surface, position, Vec3::from(*viewer).normalize()) else {
                 continue;
             };
             f(name, &receiver, &scattered);
-            told = true;
+            was_called = true;
         }
-        assert!(told, "{name}: nobody is told of gloss");
+        assert!(was_called, "{name}: nobody is told of gloss");
     }
 }
 
@@ -71,30 +71,30 @@ fn tree_of(lamps: &[LampLight]) -> LightTree {
 }
 
 #[test]
-fn frequencies_of_draws_are_the_probabilities_told() {
+fn frequencies_of_samples_are_the_probabilities_stated() {
     let lamps = lamps(300, DVec3::ZERO, 40.0, 2.0);
     let tree = tree_of(&lamps);
     let mut p_values = vec![];
     each_receiver(|name, receiver, _| {
-        let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
-        let start = tree.start(&question);
-        let draws = 50_000;
+        let query = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
+        let start = tree.start(&query);
+        let samples = 50_000;
         let mut counts = vec![0_u64; lamps.len() + 1];
-        for i in 0..draws {
+        for i in 0..samples {
             // Irregular, unlike the points of a grid: the fraction of a large multiple.
             let u = (number(i, 0) * 7_919.0 + number(i, 1) * 104_729.0).fract();
-            let chosen = tree.pick(&question, &start, u);
-            if let Some((light, told)) = chosen {
-                assert_eq!(told.to_bits(), tree.probability(&question, &start, light).to_bits());
+            let chosen = tree.sample(&query, &start, u);
+            if let Some((light, probability)) = chosen {
+                assert_eq!(probability.to_bits(), tree.probability(&query, &start, light).to_bits());
             }
             counts[chosen.map_or(lamps.len(), |(light, _)| light)] += 1;
         }
-        let mut told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
-        let none = 1.0 - told.iter().sum::<f64>();
+        let mut probabilities: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
+        let none = 1.0 - probabilities.iter().sum::<f64>();
         // A few branches may hold only lamps below the horizon; rounding of f32 in some hundred sums.
         assert!((-1e-4..0.05).contains(&none), "{name}: {none}");
-        told.push(none.max(0.0));
-        let expected: Vec<_> = told.iter().map(|p| p * f64::from(draws)).collect();
+        probabilities.push(none.max(0.0));
+        let expected: Vec<_> = probabilities.iter().map(|p| p * f64::from(samples)).collect();
         let test = chi_square::goodness_of_fit(&counts, &expected).expect("lamps that are drawn");
         p_values.push((test.p, name.to_owned()));
     });
@@ -107,18 +107,18 @@ fn no_lamp_that_a_glossy_surface_sees_is_lost() {
     let lamps = lamps(200, DVec3::new(0.0, 0.0, -15.0), 40.0, 8.0);
     let tree = tree_of(&lamps);
     each_receiver(|name, receiver, _| {
-        let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
-        let start = tree.start(&question);
+        let query = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
+        let start = tree.start(&query);
         for (i, light) in lamps.iter().enumerate() {
-            let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver).raised > 0.0);
-            assert!(told.is_finite() && (told > 0.0) == arrives, "{name}, lamp {i}: {told}, {arrives}");
+            let (probability, arrives) = (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
+            assert!(probability.is_finite() && (probability > 0.0) == arrives, "{name}, lamp {i}: {probability}, {arrives}");
         }
     });
 }
 
 /// Scattered light of the sampled lamp, over its probability: its spread is the error of one sample.
 #[test]
-fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
+fn what_is_mirrored_is_sampled_as_often_as_it_counts() {
     let spread = |i: u32| {
         let at = DVec3::new(60.0 * (number(i, 0) - 0.5), 60.0 * (number(i, 1) - 0.5), 2.0 + 6.0 * number(i, 2));
         lamp(at + DVec3::new(0.0, 0.0, -20.0), direction(i, 1), 1.0, Profile::Isotropic)
@@ -129,14 +129,14 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
     each_receiver(|_, receiver, scattered| {
         let blind = LightSampleContext { gloss: None, ..*receiver };
         let error = |choice: &LightSampleContext| {
-            let question = TreeQuery { receiver: choice, lamp: |i| lamps[i as usize].irradiance(choice) };
-            let start = tree.start(&question);
+            let query = TreeQuery { receiver: choice, lamp: |i| lamps[i as usize].irradiance(choice) };
+            let start = tree.start(&query);
             let (mut sum, mut square) = (0.0, 0.0);
             for (i, light) in lamps.iter().enumerate() {
-                let p = f64::from(tree.probability(&question, &start, i));
+                let p = f64::from(tree.probability(&query, &start, i));
                 if p > 0.0 {
-                    let way = light.position() - receiver.position;
-                    let value = f64::from(scattered(way.normalize()) / way.length_squared());
+                    let to_light = light.position() - receiver.position;
+                    let value = f64::from(scattered(to_light.normalize()) / to_light.length_squared());
                     sum += value;
                     square += value * value / p;
                 }
@@ -146,8 +146,8 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
         worst = worst.max(error(receiver));
         worst_blind = worst_blind.max(error(&blind));
     });
-    assert!(worst < WORST && worst_blind > 10.0 * WORST, "{worst}, blind {worst_blind}");
+    assert!(worst < MAX_VARIANCE && worst_blind > 10.0 * MAX_VARIANCE, "{worst}, blind {worst_blind}");
 }
 
 /// Relative variance of one sample of 300 lamps; measured: 2.3, and 188 for selection without gloss.
-const WORST: f64 = 4.6;
+const MAX_VARIANCE: f64 = 4.6;

@@ -1,12 +1,12 @@
 //! The tree itself: nodes, the slots of lights and nodes, and the weights of a node's children for a receiver.
 
-use super::node::{GlossyWeights, LANES, Lanes, Node};
+use super::node::{GlossyWeights, LANES, NodeLanes, LightNode};
 use crate::lights::light_sample::LampIrradiance;
 use crate::lights::{LightSampleContext, ReceiverGloss};
 
 /// Place of a light or a node in its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Slot {
+pub(super) struct ParentSlot {
     pub(super) node: u32,
     pub(super) lane: u8,
 }
@@ -15,11 +15,11 @@ pub(super) struct Slot {
 #[derive(Clone, Debug)]
 pub(in crate::lights) struct LightTree {
     /// The root first.
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<LightNode>,
     /// Slot of each node; without meaning for the root.
-    pub(super) parents: Vec<Slot>,
+    pub(super) parents: Vec<ParentSlot>,
     /// Slot of each light.
-    pub(super) leaves: Vec<Slot>,
+    pub(super) leaves: Vec<ParentSlot>,
     /// Irradiance, W·m⁻²·nm⁻¹, of a weight of 1: weights are in units of the strongest light, to fit into f32.
     pub(super) scale: f64,
     pub(super) per_irradiance: f32,
@@ -33,17 +33,17 @@ pub(in crate::lights) struct TreeQuery<'a, F: Fn(u32) -> LampIrradiance> {
 }
 
 /// Minimum weight of a lamp with an opening, as a fraction of its estimate as a cluster, whatever its profile gives from its middle.
-const LEAST_OF_EXTENT: f32 = 0.05;
+const MIN_EXTENDED_FRACTION: f32 = 0.05;
 
 /// Fraction of a glossy receiver's samples that uses the weights of a diffuse one. A reflected lamp may weigh 10⁴ times as much as the
 /// others and more; if it is hidden, these are left with this fraction.
-pub(in crate::lights) const MATT_SHARE: f32 = 0.2;
+pub(in crate::lights) const DIFFUSE_FRACTION: f32 = 0.2;
 
 /// The weight of a lamp of weight `own` from its middle and estimated weight `weight` as a cluster of one: parts of an opening may light
 /// points that its middle does not.
 #[inline(always)]
-fn of_leaf(node: &Node, lane: usize, own: f32, weight: f32) -> f32 {
-    if node.has_extent(lane) { own.max(LEAST_OF_EXTENT * weight) } else { own }
+fn leaf_weight(node: &LightNode, lane: usize, own: f32, weight: f32) -> f32 {
+    if node.has_extent(lane) { own.max(MIN_EXTENDED_FRACTION * weight) } else { own }
 }
 
 impl LightTree {
@@ -52,13 +52,13 @@ impl LightTree {
     }
 
     /// The weights of a node's children for a diffuse receiver.
-    pub(super) fn weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, question: &TreeQuery<'_, F>) -> Lanes {
+    pub(super) fn weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, query: &TreeQuery<'_, F>) -> NodeLanes {
         let node = &self.nodes[node as usize];
-        let mut weights = node.weights(question.receiver);
+        let mut weights = node.weights(query.receiver);
         for (lane, weight) in weights.iter_mut().enumerate() {
             if node.is_lamp(lane) && *weight > 0.0 {
-                let own = (question.lamp)(node.child(lane).index).plain * self.per_irradiance;
-                *weight = of_leaf(node, lane, own, *weight);
+                let own = (query.lamp)(node.child(lane).index).diffuse * self.per_irradiance;
+                *weight = leaf_weight(node, lane, own, *weight);
             }
         }
         weights
@@ -68,36 +68,36 @@ impl LightTree {
     pub(super) fn glossy_weights<F: Fn(u32) -> LampIrradiance>(
         &self,
         node: u32,
-        question: &TreeQuery<'_, F>,
+        query: &TreeQuery<'_, F>,
         gloss: &ReceiverGloss,
     ) -> GlossyWeights {
         let node = &self.nodes[node as usize];
-        let mut weights = node.glossy_weights(question.receiver, gloss);
+        let mut weights = node.glossy_weights(query.receiver, gloss);
         for lane in 0..LANES {
-            if node.is_lamp(lane) && weights.plain[lane] > 0.0 {
-                let lamp = (question.lamp)(node.child(lane).index);
-                let of = |own: f32, weight: f32| of_leaf(node, lane, own * self.per_irradiance, weight);
-                weights.plain[lane] = of(lamp.plain, weights.plain[lane]);
-                weights.raised[lane] = of(lamp.raised, weights.raised[lane]);
+            if node.is_lamp(lane) && weights.diffuse[lane] > 0.0 {
+                let lamp = (query.lamp)(node.child(lane).index);
+                let of = |own: f32, weight: f32| leaf_weight(node, lane, own * self.per_irradiance, weight);
+                weights.diffuse[lane] = of(lamp.diffuse, weights.diffuse[lane]);
+                weights.with_gloss[lane] = of(lamp.with_gloss, weights.with_gloss[lane]);
             }
         }
         weights
     }
 
     /// The weights of a node's children for a receiver.
-    pub(super) fn raised_weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, question: &TreeQuery<'_, F>) -> Lanes {
-        match &question.receiver.gloss {
-            None => self.weights(node, question),
-            Some(gloss) => self.glossy_weights(node, question, gloss).raised,
+    pub(super) fn gloss_weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, query: &TreeQuery<'_, F>) -> NodeLanes {
+        match &query.receiver.gloss {
+            None => self.weights(node, query),
+            Some(gloss) => self.glossy_weights(node, query, gloss).with_gloss,
         }
     }
 
     /// The selection weights of a node's children.
-    pub(super) fn shares<F: Fn(u32) -> LampIrradiance>(&self, node: u32, question: &TreeQuery<'_, F>) -> Lanes {
-        match &question.receiver.gloss {
-            None => self.weights(node, question),
+    pub(super) fn selection_weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, query: &TreeQuery<'_, F>) -> NodeLanes {
+        match &query.receiver.gloss {
+            None => self.weights(node, query),
             Some(gloss) => {
-                let GlossyWeights { mut raised, plain, .. } = self.glossy_weights(node, question, gloss);
+                let GlossyWeights { with_gloss: mut raised, diffuse: plain, .. } = self.glossy_weights(node, query, gloss);
                 mix(&mut raised, &plain);
                 raised
             }
@@ -112,7 +112,7 @@ pub(super) fn mix(raised: &mut [f32], plain: &[f32]) -> f32 {
     let (total, plain_total) = (raised.iter().sum::<f32>(), plain.iter().sum::<f32>());
     // Below, quotients would not be finite; then no fraction uses the diffuse weights.
     if total >= f32::MIN_POSITIVE && plain_total >= f32::MIN_POSITIVE {
-        let (per_total, per_plain) = ((1.0 - MATT_SHARE) / total, MATT_SHARE / plain_total);
+        let (per_total, per_plain) = ((1.0 - DIFFUSE_FRACTION) / total, DIFFUSE_FRACTION / plain_total);
         for (raised, plain) in raised.iter_mut().zip(plain) {
             *raised = *raised * per_total + plain * per_plain;
         }

@@ -28,28 +28,28 @@ mod node;
 mod tests;
 
 use crate::lights::light_sample::LampIrradiance;
-use cut::{draw, share};
-use light_tree::Slot;
+use cut::{sample_index, fraction_of_total};
+use light_tree::ParentSlot;
 use node::LANES;
 
 pub(super) use bounds::LightBounds;
-pub(super) use cut::Start;
-pub(super) use light_tree::{LightTree, MATT_SHARE, TreeQuery};
+pub(super) use cut::TreeStart;
+pub(super) use light_tree::{LightTree, DIFFUSE_FRACTION, TreeQuery};
 
 impl LightTree {
     /// The light selected by `u` in [0, 1), and its probability; `None` if nothing reaches the receiver, unless there is only one light.
     /// `start` is this receiver's.
-    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
+    pub(super) fn sample<F: Fn(u32) -> LampIrradiance>(
         &self,
-        question: &TreeQuery<'_, F>,
-        start: &Start,
+        query: &TreeQuery<'_, F>,
+        start: &TreeStart,
         u: f64,
     ) -> Option<(usize, f32)> {
-        let (slot, mut probability, mut u) = start.draw(u)?;
+        let (slot, mut probability, mut u) = start.sample(u)?;
         let mut child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
         while child.is_node {
-            let (lane, share, within) = draw(&self.shares(child.index, question), u)?;
-            probability *= share;
+            let (lane, child_probability, within) = sample_index(&self.selection_weights(child.index, query), u)?;
+            probability *= child_probability;
             u = within;
             child = self.nodes[child.index as usize].child(lane);
         }
@@ -59,46 +59,46 @@ impl LightTree {
     /// The probability with which [`LightTree::pick`] returns a light.
     pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(
         &self,
-        question: &TreeQuery<'_, F>,
-        start: &Start,
+        query: &TreeQuery<'_, F>,
+        start: &TreeStart,
         light: usize,
     ) -> f32 {
-        self.reach(question, start, self.leaves[light])
+        self.reach(query, start, self.leaves[light])
     }
 
     /// Probability of reaching a slot.
-    fn reach<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
-        if let Some(share) = start.share(slot) {
-            return share;
+    fn reach<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, start: &TreeStart, slot: ParentSlot) -> f32 {
+        if let Some(probability) = start.probability(slot) {
+            return probability;
         }
         let above = match slot.node {
             // A slot that cannot be reached from the start has been evaluated and has zero weight.
             0 => 0.0,
-            node => self.reach(question, start, self.parents[node as usize]),
+            node => self.reach(query, start, self.parents[node as usize]),
         };
-        if above > 0.0 { above * share(&self.shares(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
+        if above > 0.0 { above * fraction_of_total(&self.selection_weights(slot.node, query), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer if the largest cluster is near.
-    pub(super) fn irradiance<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
+    pub(super) fn irradiance<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, start: &TreeStart) -> f64 {
         let mut weights = match start {
-            Start::Cut(cut) => return self.scale * f64::from(cut.total()),
-            Start::Root(weights) => *weights,
-            Start::Only => self.raised_weights(0, question),
+            TreeStart::Cut(cut) => return self.scale * f64::from(cut.total()),
+            TreeStart::Root(weights) => *weights,
+            TreeStart::Only => self.gloss_weights(0, query),
         };
         let (mut node, mut sum) = (0, 0.0);
         loop {
             let total: f32 = weights.iter().sum();
             let lane = (0..LANES).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
             let child = self.nodes[node as usize].child(lane);
-            if !child.is_node || self.nodes[node as usize].is_far(lane, question.receiver.position) {
+            if !child.is_node || self.nodes[node as usize].is_far(lane, query.receiver.position) {
                 return self.scale * (sum + f64::from(total));
             }
             // Not by subtraction, in which weak lights vanish.
             weights[lane] = 0.0;
             sum += f64::from(weights.iter().sum::<f32>());
             node = child.index;
-            weights = self.raised_weights(node, question);
+            weights = self.gloss_weights(node, query);
         }
     }
 }

@@ -12,26 +12,26 @@
 use glam::Vec3;
 
 use super::bounds::LightBounds;
-use crate::lights::gloss::{DirectionCone, Four, at_least, at_most, each};
+use crate::lights::gloss::{DirectionCone, FourValues, at_least, at_most, each};
 use crate::lights::{LightSampleContext, ReceiverGloss};
 
 /// Children of a node.
 pub(super) const LANES: usize = 8;
 
 /// One number for each of a node's children.
-pub(super) type Lanes = [f32; LANES];
+pub(super) type NodeLanes = [f32; LANES];
 
 /// Eight children, component by component. Lanes without a child have no intensity.
 #[derive(Clone, Debug, Default)]
 #[repr(align(32))]
-pub(super) struct Node {
-    centre: [Lanes; 3],
-    radius2: Lanes,
-    intensity: Lanes,
-    axis: [Lanes; 3],
-    cos_o: Lanes,
-    sin_o: Lanes,
-    cos_e: Lanes,
+pub(super) struct LightNode {
+    centre: [NodeLanes; 3],
+    radius2: NodeLanes,
+    intensity: NodeLanes,
+    axis: [NodeLanes; 3],
+    cos_o: NodeLanes,
+    sin_o: NodeLanes,
+    cos_e: NodeLanes,
     children: [u32; LANES],
     used: u8,
     /// Bit masks: children that are nodes, and children that are lamps.
@@ -41,22 +41,22 @@ pub(super) struct Node {
 
 /// A node or a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Child {
+pub(super) struct LightChild {
     pub(super) index: u32,
     pub(super) is_node: bool,
 }
 
 /// Minimum cosine of light beyond the axis' own cone, within θ_e.
-const DIM: f32 = 0.02;
+const MIN_EMISSION_COS: f32 = 0.02;
 
 /// Margin for the rounding of a cosine: a cluster counts as dark or below the horizon only by more than this.
 const MARGIN: f32 = 1e-4;
 
 /// Minimum of d² as a fraction of r²: a receiver among the lights is near to one of them.
-const INSIDE: f32 = 0.25;
+const MIN_DISTANCE2_RATIO: f32 = 0.25;
 
-impl Node {
-    pub(super) fn set(&mut self, lane: usize, bounds: &LightBounds, child: Child, per_scale: f64) {
+impl LightNode {
+    pub(super) fn set(&mut self, lane: usize, bounds: &LightBounds, child: LightChild, per_scale: f64) {
         let centre = bounds.centre();
         for axis in 0..3 {
             self.centre[axis][lane] = centre[axis];
@@ -73,8 +73,8 @@ impl Node {
         self.lamps |= u8::from(bounds.is_lamp && !child.is_node) << lane;
     }
 
-    pub(super) fn child(&self, lane: usize) -> Child {
-        Child { index: self.children[lane], is_node: self.nodes >> lane & 1 == 1 }
+    pub(super) fn child(&self, lane: usize) -> LightChild {
+        LightChild { index: self.children[lane], is_node: self.nodes >> lane & 1 == 1 }
     }
 
     pub(super) fn is_lamp(&self, lane: usize) -> bool {
@@ -93,19 +93,19 @@ impl Node {
 
     /// Maximum weights of the children for a receiver with the weights `weights`, if all light of a child came from the place in it that
     /// the lobes favour most.
-    pub(super) fn greatest(
+    pub(super) fn max_weights(
         &self,
         lane: usize,
         weights: &GlossyWeights,
         receiver: &LightSampleContext,
         gloss: &ReceiverGloss,
     ) -> f32 {
-        let way = self.centre_of(lane) - receiver.position;
-        let (distance2, radius2) = (way.length_squared(), self.radius2[lane]);
+        let to_light = self.centre_of(lane) - receiver.position;
+        let (distance2, radius2) = (to_light.length_squared(), self.radius2[lane]);
         // From inside, the light may come from everywhere.
         let cone = (distance2 > radius2)
-            .then(|| DirectionCone { axis: way / distance2.sqrt(), sin: (radius2 / distance2).sqrt() });
-        weights.plain[lane] + weights.faced[lane] * gloss.greatest(cone)
+            .then(|| DirectionCone { axis: to_light / distance2.sqrt(), sin: (radius2 / distance2).sqrt() });
+        weights.diffuse[lane] + weights.facing[lane] * gloss.max_relative(cone)
     }
 
     fn centre_of(&self, lane: usize) -> Vec3 {
@@ -113,7 +113,7 @@ impl Node {
     }
 
     /// The weight of each child for a receiver: four children at a time, the second four if there are any.
-    pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
+    pub(super) fn weights(&self, receiver: &LightSampleContext) -> NodeLanes {
         let mut weights = [0.0; LANES];
         self.fill(receiver, |from, reached| weights[from..from + 4].copy_from_slice(&reached.plain()));
         weights
@@ -123,9 +123,9 @@ impl Node {
     pub(super) fn glossy_weights(&self, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> GlossyWeights {
         let mut weights = GlossyWeights::default();
         self.fill(receiver, |from, reached| {
-            weights.plain[from..from + 4].copy_from_slice(&reached.plain());
-            weights.raised[from..from + 4].copy_from_slice(&reached.raised(gloss));
-            weights.faced[from..from + 4].copy_from_slice(&reached.faced());
+            weights.diffuse[from..from + 4].copy_from_slice(&reached.plain());
+            weights.with_gloss[from..from + 4].copy_from_slice(&reached.gloss_weight(gloss));
+            weights.facing[from..from + 4].copy_from_slice(&reached.facing_weight());
         });
         weights
     }
@@ -145,7 +145,7 @@ impl Node {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 if light counts from everywhere; the cosine then does not count.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
-        let lanes = |of: &Lanes| -> Four { each(|i| of[from + i]) };
+        let lanes = |of: &NodeLanes| -> FourValues { each(|i| of[from + i]) };
         let (radius2, sin_o, cos_o) = (lanes(&self.radius2), lanes(&self.sin_o), lanes(&self.cos_o));
         let (x, y, z) = (lanes(&self.centre[0]), lanes(&self.centre[1]), lanes(&self.centre[2]));
         let (x, y, z) = (each(|i| x[i] - p.x), each(|i| y[i] - p.y), each(|i| z[i] - p.z));
@@ -160,14 +160,14 @@ impl Node {
         let sin = each(|i| (1.0 - cos[i] * cos[i]).sqrt());
         let cos_2 = less(less(SinCos { sin, cos }, SinCos { sin: sin_o, cos: cos_o }), subtended).cos;
         let cos_e = lanes(&self.cos_e);
-        let emits = each(|i| if cos_2[i] >= cos_e[i] - MARGIN { at_least(cos_2[i], DIM) } else { 0.0 });
+        let emits = each(|i| if cos_2[i] >= cos_e[i] - MARGIN { at_least(cos_2[i], MIN_EMISSION_COS) } else { 0.0 });
 
         let cos_i = each(|i| at_most(at_least((x[i] * n.x + y[i] * n.y + z[i] * n.z) * per_d[i], -1.0), 1.0));
         let sin_i = each(|i| (1.0 - cos_i[i] * cos_i[i]).sqrt());
         let cos_3 = less(SinCos { sin: sin_i, cos: cos_i }, subtended).cos;
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-        let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
+        let far2 = each(|i| at_least(at_least(d2[i], MIN_DISTANCE2_RATIO * radius2[i]), f32::MIN_POSITIVE));
         VisibleClusters {
             directions: [each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])],
             sin_u: subtended.sin,
@@ -183,58 +183,58 @@ impl Node {
 /// Four clusters as seen by a receiver.
 struct VisibleClusters {
     /// Unit, towards them.
-    directions: [Four; 3],
-    sin_u: Four,
+    directions: [FourValues; 3],
+    sin_u: FourValues,
     /// True if the receiver is within the cluster's sphere.
     is_inside: [bool; 4],
-    emits: Four,
-    receives: Four,
-    intensity: Four,
+    emits: FourValues,
+    receives: FourValues,
+    intensity: FourValues,
     /// Squared distance, m²; slightly more from inside or near by.
-    far2: Four,
+    far2: FourValues,
 }
 
 impl VisibleClusters {
     /// Weight for a diffuse receiver.
     #[inline(always)]
-    fn plain(&self) -> Four {
+    fn plain(&self) -> FourValues {
         self.counted([0.0; 4])
     }
 
     /// Weight for a glossy receiver.
     #[inline(always)]
-    fn raised(&self, gloss: &ReceiverGloss) -> Four {
+    fn gloss_weight(&self, gloss: &ReceiverGloss) -> FourValues {
         self.counted(gloss.relative_four(self.directions, self.sin_u))
     }
 
     /// Weight for a receiver that faces it.
     #[inline(always)]
-    fn faced(&self) -> Four {
-        let seen = each(|i| if self.is_inside[i] { 1.0 } else { self.emits[i] });
-        each(|i| self.intensity[i] * seen[i] / self.far2[i])
+    fn facing_weight(&self) -> FourValues {
+        let emitted = each(|i| if self.is_inside[i] { 1.0 } else { self.emits[i] });
+        each(|i| self.intensity[i] * emitted[i] / self.far2[i])
     }
 
     #[inline(always)]
-    fn counted(&self, gloss: Four) -> Four {
+    fn counted(&self, gloss: FourValues) -> FourValues {
         let scattered = each(|i| if self.receives[i] > 0.0 { self.receives[i] + gloss[i] } else { 0.0 });
-        let seen = each(|i| if self.is_inside[i] { 1.0 + gloss[i] } else { self.emits[i] * scattered[i] });
-        each(|i| self.intensity[i] * seen[i] / self.far2[i])
+        let emitted = each(|i| if self.is_inside[i] { 1.0 + gloss[i] } else { self.emits[i] * scattered[i] });
+        each(|i| self.intensity[i] * emitted[i] / self.far2[i])
     }
 }
 
 /// Weights of eight children for a glossy receiver, for a diffuse one in its place, and for one that faces them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GlossyWeights {
-    pub(super) raised: Lanes,
-    pub(super) plain: Lanes,
-    pub(super) faced: Lanes,
+    pub(super) with_gloss: NodeLanes,
+    pub(super) diffuse: NodeLanes,
+    pub(super) facing: NodeLanes,
 }
 
 /// Sines and cosines of four angles of 0…π.
 #[derive(Clone, Copy)]
 struct SinCos {
-    sin: Four,
-    cos: Four,
+    sin: FourValues,
+    cos: FourValues,
 }
 
 /// Sines and cosines of max(a − b, 0).

@@ -38,7 +38,7 @@ pub(super) fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<L
 }
 
 /// Calls `f` with a tree over lamps and queries of receivers near and far, facing all directions or none, in view or not.
-fn ask(
+fn for_each_receiver(
     lamps: &[LampLight],
     size: f64,
     centre: DVec3,
@@ -50,57 +50,57 @@ fn ask(
         let position = (centre + direction(i, 0) * size * [0.01, 0.3, 1.0, 20.0][i as usize % 4]).as_vec3();
         let normal = if i % 3 == 0 { Vec3::ZERO } else { direction(i, 2).as_vec3().normalize() };
         for in_view in [false, true] {
-            let receiver = LightSampleContext { in_view, ..LightSampleContext::matt(position, normal) };
+            let receiver = LightSampleContext { in_view, ..LightSampleContext::diffuse(position, normal) };
             f(&tree, &receiver, &|lamp| lamps[lamp as usize].irradiance(&receiver));
         }
     }
 }
 
 /// Relative variance of one sample for a receiver: the contribution of each lamp, over the probability of its selection.
-fn variance_of_a_draw(lamps: &[LampLight], tree: &LightTree, receiver: &LightSampleContext) -> f64 {
-    let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
-    let start = tree.start(&question);
+fn variance_of_a_sample(lamps: &[LampLight], tree: &LightTree, receiver: &LightSampleContext) -> f64 {
+    let query = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
+    let start = tree.start(&query);
     let (mut sum, mut square) = (0.0, 0.0);
     for (i, light) in lamps.iter().enumerate() {
-        let value = f64::from(light.irradiance(receiver).raised);
+        let value = f64::from(light.irradiance(receiver).with_gloss);
         if value > 0.0 {
             sum += value;
-            square += value * value / f64::from(tree.probability(&question, &start, i));
+            square += value * value / f64::from(tree.probability(&query, &start, i));
         }
     }
     square / (sum * sum) - 1.0
 }
 
 #[test]
-fn draws_fall_as_often_as_is_told() {
+fn samples_follow_the_reported_probabilities() {
     let sets = [
         (lamps(1, DVec3::ZERO, 1.0, 0.0), 1.0),
         (lamps(50, DVec3::new(5.0, 0.0, 3.0), 100.0, 2.0), 100.0),
         (lamps(700, DVec3::ZERO, 300.0, 4.0), 300.0),
     ];
     for (lamps, size) in &sets {
-        ask(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
-            let question = TreeQuery { receiver, lamp };
-            let start = tree.start(&question);
+        for_each_receiver(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
+            let query = TreeQuery { receiver, lamp };
+            let start = tree.start(&query);
             let n = 1 << 14;
             let mut counts = vec![0.0; lamps.len()];
             let mut none = 0.0;
             for i in 0..n {
-                match tree.pick(&question, &start, (f64::from(i) + 0.5) / f64::from(n)) {
-                    Some((light, told)) => {
+                match tree.sample(&query, &start, (f64::from(i) + 0.5) / f64::from(n)) {
+                    Some((light, probability)) => {
                         counts[light] += 1.0;
-                        assert_eq!(told.to_bits(), tree.probability(&question, &start, light).to_bits());
+                        assert_eq!(probability.to_bits(), tree.probability(&query, &start, light).to_bits());
                     }
                     None => none += 1.0,
                 }
             }
-            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
-            for (count, told) in counts.iter().zip(&told) {
+            let probabilities: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
+            for (count, probability) in counts.iter().zip(&probabilities) {
                 // Each light has one interval of u: its points of the grid differ from its length by less than one, and
                 // a few more where rounding in f32 moves both ends.
-                assert!((count - told * f64::from(n)).abs() < 1.0 + 2e-6 * f64::from(n), "{count} {told}");
+                assert!((count - probability * f64::from(n)).abs() < 1.0 + 2e-6 * f64::from(n), "{count} {probability}");
             }
-            let sum: f64 = told.iter().sum();
+            let sum: f64 = probabilities.iter().sum();
             assert!((sum + none / f64::from(n) - 1.0).abs() < 2e-3, "{sum} and {none} of {n} in vain");
         });
     }
@@ -115,37 +115,37 @@ fn no_light_that_arrives_is_lost() {
         (lamps(100, huge, 500.0, 3.0), 500.0, huge),
         (lamps(100, DVec3::ONE, 0.0, 3.0), 10.0, DVec3::ONE),
     ] {
-        ask(&lamps, size, centre, |tree, receiver, lamp| {
-            let question = TreeQuery { receiver, lamp };
-            let start = tree.start(&question);
+        for_each_receiver(&lamps, size, centre, |tree, receiver, lamp| {
+            let query = TreeQuery { receiver, lamp };
+            let start = tree.start(&query);
             for (i, light) in lamps.iter().enumerate() {
-                let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver).raised > 0.0);
-                assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
+                let (probability, arrives) = (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
+                assert!(probability.is_finite() && (probability > 0.0) == arrives, "lamp {i}: {probability}, {arrives}");
             }
-            assert!(tree.irradiance(&question, &start).is_finite());
+            assert!(tree.irradiance(&query, &start).is_finite());
         });
     }
 }
 
 /// Relative variance of one sample of 80 lamps, mean of 40 receivers; measured: 0.13, and 1.11 out of view.
-const MOST_IN_VIEW: f64 = 0.26;
+const MAX_IN_VIEW_VARIANCE: f64 = 0.26;
 
 /// A receiver in view uses the lamps inside the clusters around it.
 #[test]
-fn in_view_lamps_are_drawn_as_they_count() {
+fn in_view_lamps_are_sampled_as_they_count() {
     let lamps = lamps(80, DVec3::ZERO, 60.0, 1.0);
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
-    let (mut seen, mut unseen) = (0.0, 0.0);
+    let (mut in_view, mut unseen) = (0.0, 0.0);
     let receivers = 40;
     for i in 0..receivers {
         let position = (direction(i, 0) * 40.0 * number(i, 2)).as_vec3();
-        let out_of_view = LightSampleContext::matt(position, direction(i, 2).as_vec3().normalize());
-        unseen += variance_of_a_draw(&lamps, &tree, &out_of_view) / f64::from(receivers);
-        seen += variance_of_a_draw(&lamps, &tree, &LightSampleContext { in_view: true, ..out_of_view })
+        let out_of_view = LightSampleContext::diffuse(position, direction(i, 2).as_vec3().normalize());
+        unseen += variance_of_a_sample(&lamps, &tree, &out_of_view) / f64::from(receivers);
+        in_view += variance_of_a_sample(&lamps, &tree, &LightSampleContext { in_view: true, ..out_of_view })
             / f64::from(receivers);
     }
-    assert!(seen < MOST_IN_VIEW && unseen > 4.0 * MOST_IN_VIEW, "{seen}, out of view {unseen}");
+    assert!(in_view < MAX_IN_VIEW_VARIANCE && unseen > 4.0 * MAX_IN_VIEW_VARIANCE, "{in_view}, out of view {unseen}");
 }
 
 /// Two spots near the receiver that point past it, back to back so that their cluster seems to emit everywhere, must not remove the weak
@@ -158,9 +158,9 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
     let lamps: Vec<_> = [spot(DVec3::Y), spot(DVec3::NEG_Y)].into_iter().chain((0..12).map(far)).collect();
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
-    let receiver = LightSampleContext::matt(Vec3::ZERO, Vec3::ZERO);
-    let question = TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) };
-    let irradiance = tree.irradiance(&question, &tree.start(&question));
+    let receiver = LightSampleContext::diffuse(Vec3::ZERO, Vec3::ZERO);
+    let query = TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) };
+    let irradiance = tree.irradiance(&query, &tree.start(&query));
     // Twelve lamps of 1 W/sr at 100 km.
     assert!((0.5..2.0).contains(&(irradiance / 12e-10)), "{irradiance}");
 }
@@ -168,11 +168,11 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
 #[test]
 fn estimates_are_of_the_size_of_what_arrives() {
     let lamps = lamps(400, DVec3::ZERO, 200.0, 1.0);
-    ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
+    for_each_receiver(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
         if receiver.normal == Vec3::ZERO {
-            let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver).raised)).sum();
-            let question = TreeQuery { receiver, lamp };
-            let ratio = tree.irradiance(&question, &tree.start(&question)) / exact;
+            let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver).with_gloss)).sum();
+            let query = TreeQuery { receiver, lamp };
+            let ratio = tree.irradiance(&query, &tree.start(&query)) / exact;
             assert!((0.2..5.0).contains(&ratio), "{ratio}");
         }
     });
@@ -184,8 +184,8 @@ fn dark_lamps_make_no_tree() {
     assert!(LightTree::new(&[lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic).bounds()]).is_none());
     let lamps =
         [lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic), lamp(DVec3::X, DVec3::X, 1.0, Profile::Isotropic)];
-    ask(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
-        let question = TreeQuery { receiver, lamp };
-        assert_eq!(tree.probability(&question, &tree.start(&question), 0), 0.0);
+    for_each_receiver(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
+        let query = TreeQuery { receiver, lamp };
+        assert_eq!(tree.probability(&query, &tree.start(&query), 0), 0.0);
     });
 }

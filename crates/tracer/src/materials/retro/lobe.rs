@@ -10,7 +10,7 @@ use super::RetroTable;
 use crate::materials::energy::AlbedoTable;
 
 /// The widest cut-off, degrees.
-pub(super) const WIDEST_DEG: f64 = 10.0;
+pub(super) const MAX_CUT_OFF_DEG: f64 = 10.0;
 
 /// The largest entrance angle that ASTM E810 measures: beyond, the BSDF is constant and R_A falls.
 pub(super) const GRAZING_DEG: f64 = 60.0;
@@ -48,7 +48,7 @@ fn angle(one_minus_cos: f32) -> f32 {
 /// those up to the last observation angle comes second.
 fn edges(table: &RetroTable) -> (Vec<f32>, usize) {
     let (first, last) = table.observation_range();
-    let widest = WIDEST_DEG.to_radians() as f32;
+    let widest = MAX_CUT_OFF_DEG.to_radians() as f32;
     let between = |low: f32, high: f32| (1..=STEPS).map(move |i| low * exp(i as f32 / STEPS as f32 * ln(high / low)));
     let mut angles = vec![0.0, first];
     if last > first {
@@ -92,8 +92,8 @@ impl RetroLobe {
             return 0.0;
         }
         let coefficient = self.table.at(angle(k), acos(wi.z.min(1.0)));
-        let whole = coefficient / (wi.z.max(self.least_cos) * wo.z.max(self.least_cos));
-        (whole - self.beneath).max(0.0) * wi.z
+        let value = coefficient / (wi.z.max(self.least_cos) * wo.z.max(self.least_cos));
+        (value - self.beneath).max(0.0) * wi.z
     }
 
     fn cut_off(&self) -> f32 {
@@ -123,7 +123,7 @@ impl RetroLobe {
     }
 
     /// The fractions for a viewer: those of the nearest entrance angle.
-    fn shares(&self, wo: Vec3) -> &[f32] {
+    fn cumulative_row(&self, wo: Vec3) -> &[f32] {
         let nu = acos(wo.z.min(1.0));
         let entrance = self.table.entrance();
         let i = entrance.windows(2).take_while(|pair| 0.5 * (pair[0] + pair[1]) < nu).count();
@@ -132,9 +132,9 @@ impl RetroLobe {
 
     /// Samples a direction about `wo`, by the light reflected from there; it may lie below the surface.
     pub(super) fn sample(&self, wo: Vec3, u: Vec2) -> Vec3 {
-        let shares = self.shares(wo);
-        let i = shares.partition_point(|c| *c <= u.x).clamp(1, shares.len() - 1) - 1;
-        let within = ((u.x - shares[i]) / (shares[i + 1] - shares[i]).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let fractions = self.cumulative_row(wo);
+        let i = fractions.partition_point(|c| *c <= u.x).clamp(1, fractions.len() - 1) - 1;
+        let within = ((u.x - fractions[i]) / (fractions[i + 1] - fractions[i]).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         let k = self.edges[i] + (self.edges[i + 1] - self.edges[i]) * within;
         direction(&Basis::about(wo), k, TAU * u.y)
     }
@@ -146,8 +146,8 @@ impl RetroLobe {
             return 0.0;
         }
         let i = self.edges.partition_point(|e| *e <= k) - 1;
-        let shares = self.shares(wo);
-        (shares[i + 1] - shares[i]) / (TAU * (self.edges[i + 1] - self.edges[i]))
+        let fractions = self.cumulative_row(wo);
+        (fractions[i + 1] - fractions[i]) / (TAU * (self.edges[i + 1] - self.edges[i]))
     }
 }
 
@@ -163,10 +163,10 @@ fn cumulative(table: &RetroTable, edges: &[f32], entrance: f32) -> Vec<f32> {
     let cell = |e: &[f32]| f64::from((e[1] - e[0]) * table.at(angle(0.5 * (e[0] + e[1])), entrance));
     let total: f64 = edges.windows(2).map(cell).sum();
     let mut sum = 0.0;
-    let mut shares = vec![0.0];
-    shares.extend(edges.windows(2).map(|e| {
+    let mut fractions = vec![0.0];
+    fractions.extend(edges.windows(2).map(|e| {
         sum += cell(e) / total;
         sum.min(1.0) as f32
     }));
-    shares
+    fractions
 }

@@ -42,14 +42,14 @@ const LOBE_DEG: f64 = 3.0;
 
 /// Brightness of a marking by day.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DayTime {
+pub enum DaytimeBrightness {
     /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹: for a diffuse surface 1000/π times its reflectance.
     Qd(f64),
     /// Luminance factor β, 0 to 1.
     LuminanceFactor(f64),
 }
 
-impl DayTime {
+impl DaytimeBrightness {
     fn reflectance(self) -> f64 {
         match self {
             Self::Qd(mcd) => mcd * 1e-3 * core::f64::consts::PI,
@@ -83,7 +83,7 @@ pub fn marking_class(name: &str) -> Option<f64> {
 pub struct RoadMarking {
     base: Spectrum,
     colour: Spectrum,
-    lobe: Lobe,
+    lobe: MarkingLobe,
     albedo: AlbedoTable,
 }
 
@@ -93,7 +93,7 @@ impl RoadMarking {
     ///
     /// # Errors
     /// If a number is out of range, the colour is invalid, or more is reflected than arrives.
-    pub fn new(r_l: f64, day: DayTime, colour: &Spectrum) -> Result<Self, MarkingError> {
+    pub fn new(r_l: f64, day: DaytimeBrightness, colour: &Spectrum) -> Result<Self, MarkingError> {
         Self::with_spread(r_l, day, colour, LOBE_DEG)
     }
 
@@ -101,7 +101,7 @@ impl RoadMarking {
     ///
     /// # Errors
     /// As [`RoadMarking::new`].
-    pub fn with_spread(r_l: f64, day: DayTime, colour: &Spectrum, spread_deg: f64) -> Result<Self, MarkingError> {
+    pub fn with_spread(r_l: f64, day: DaytimeBrightness, colour: &Spectrum, spread_deg: f64) -> Result<Self, MarkingError> {
         let reflectance = day.reflectance();
         if !(0.0..=1.0).contains(&reflectance) {
             return Err(MarkingError::Day { reflectance });
@@ -112,7 +112,7 @@ impl RoadMarking {
         let colour = photometric(colour).ok_or(MarkingError::Colour)?;
         let by_day = observer::xyz_of_reflectance(&colour, illuminant::d65())[1];
         let base = colour.scaled(reflectance / by_day);
-        let lobe = Lobe::new(r_l * 1e-3, &base, spread_deg)?;
+        let lobe = MarkingLobe::new(r_l * 1e-3, &base, spread_deg)?;
         let albedo = AlbedoTable::new(|cos| lobe.albedo(cos));
         energy::check(&base, &[WeightedLobe { weight: &colour, albedo: &albedo }])?;
         Ok(Self { base, colour, lobe, albedo })
@@ -184,16 +184,16 @@ pub enum MarkingError {
 
 /// κ r(α)/max(cos β, cos ν).
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Lobe {
+struct MarkingLobe {
     strength: f32,
     /// h².
     width2: f32,
 }
 
-impl Lobe {
+impl MarkingLobe {
     /// The lobe that, added to `base`, gives R_L (cd·m⁻²·lx⁻¹) at the 30 m geometry.
     fn new(r_l: f64, base: &Spectrum, spread_deg: f64) -> Result<Self, MarkingError> {
-        let a = illuminant::named("A").expect("A is in the list");
+        let a = illuminant::by_name("A").expect("A is in the list");
         let (lamp, viewer) = (LAMP_DEG.to_radians(), VIEWER_DEG.to_radians());
         let (cos_lamp, cos_viewer) = (maths::f64::sin(lamp), maths::f64::sin(viewer));
         let of_base = observer::xyz_of_reflectance(base, a)[1] / core::f64::consts::PI * cos_lamp;
@@ -224,8 +224,8 @@ impl Lobe {
 
     /// Samples a direction by r(α), over the whole sphere.
     fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
-        let share = u.x * self.last();
-        let k = (0.5 * self.width2 * share / (1.0 - share)).min(2.0);
+        let fraction = u.x * self.last();
+        let k = (0.5 * self.width2 * fraction / (1.0 - fraction)).min(2.0);
         let (s, c) = sin_cos(TAU * u.y);
         let sin = (k * (2.0 - k)).max(0.0).sqrt();
         Basis::about(wo).outward(Vec3::new(sin * c, sin * s, 1.0 - k))
@@ -266,7 +266,7 @@ impl<const N: usize> MarkingBsdf<'_, N> {
         let lobe = self.marking.lobe;
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * lobe.value_cos(wo, wi),
-            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe.pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * lobe.pdf(wo, wi),
         }
     }
 }
@@ -285,13 +285,13 @@ impl<const N: usize> BsdfModel<N> for MarkingBsdf<'_, N> {
         let lobe = self.marking.lobe;
         let (width, peak) = (lobe.width2.sqrt(), self.colour.mean() * lobe.strength);
         let beads = GlossLobe { about: LobeCentre::Direction(wo), width, peak, f0: 1.0 };
-        Gloss::over(self.base.mean() * FRAC_1_PI).with(beads)
+        Gloss::from_diffuse(self.base.mean() * FRAC_1_PI).with(beads)
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let wi =
-            if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.marking.lobe.sample(wo, u) };
+            if discrete_sampler.sample(choice) == 0 { cosine_hemisphere(u) } else { self.marking.lobe.sample(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }

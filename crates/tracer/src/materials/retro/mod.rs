@@ -35,23 +35,23 @@ use super::error::{EnergyGain, MaterialError};
 use super::gloss::{Gloss, GlossLobe};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
-use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
+use lobe::{GRAZING_DEG, RetroLobe, MAX_CUT_OFF_DEG};
 
-pub use marking::{DayTime, MarkingBsdf, MarkingError, RoadMarking, marking_class};
+pub use marking::{DaytimeBrightness, MarkingBsdf, MarkingError, RoadMarking, marking_class};
 pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
 pub use table::{RetroTable, RetroTableError};
 
 /// A retro-reflective sheeting over a diffuse base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheeting {
-    face: Face,
+    face: SheetingFace,
     table: RetroTable,
     lobe: RetroLobe,
 }
 
 /// Colour of a sheeting.
 #[derive(Clone, Debug, PartialEq)]
-enum Face {
+enum SheetingFace {
     /// A reflectance by day, and the colour c.
     Plain(Spectrum, Spectrum),
     /// Reflectance of a white sheeting by day, and the print over it, which colours both that and the retro-reflected light.
@@ -70,7 +70,7 @@ impl Sheeting {
         }
         let colour = photometric(colour).ok_or(SheetingError::Colour)?;
         let lobe = widest(&table, &base, &colour)?;
-        Ok(Self { face: Face::Plain(base, colour), table, lobe })
+        Ok(Self { face: SheetingFace::Plain(base, colour), table, lobe })
     }
 
     /// A white sheeting of coefficients `table` and a reflectance `white` (0 to 1) by day, printed with transparent ink: `print` is the
@@ -83,7 +83,7 @@ impl Sheeting {
             return Err(SheetingError::Base);
         }
         let lobe = widest(&table, &Spectrum::constant(white), &Spectrum::constant(1.0))?;
-        Ok(Self { face: Face::Printed(white as f32, print), table, lobe })
+        Ok(Self { face: SheetingFace::Printed(white as f32, print), table, lobe })
     }
 
     /// The observation angle beyond which nothing is retro-reflected, degrees.
@@ -98,7 +98,7 @@ impl Sheeting {
         let (alpha, beta) = (self.table.observation_deg(), self.table.entrance_deg());
         let (first, last, deepest) = (alpha[0], alpha[alpha.len() - 1], beta[beta.len() - 1]);
         let cut = self.cut_off_deg();
-        let why = if cut < WIDEST_DEG - 0.01 { " (limited by energy conservation)" } else { "" };
+        let why = if cut < MAX_CUT_OFF_DEG - 0.01 { " (limited by energy conservation)" } else { "" };
         format!(
             "R_A is constant below an observation angle of {first}° and from {last}° to {cut:.2}°{why}, and 0 beyond. It is \
              constant beyond an entrance angle of {deepest}°, up to {}° from the normal, where it begins to fall",
@@ -112,8 +112,8 @@ impl SurfaceModel for Sheeting {
 
     fn parameters(&self) -> Vec<Parameter<'_>> {
         match &self.face {
-            Face::Plain(..) => Vec::new(),
-            Face::Printed(_, print) => vec![Parameter::Reflectance(print)],
+            SheetingFace::Plain(..) => Vec::new(),
+            SheetingFace::Printed(_, print) => vec![Parameter::Reflectance(print)],
         }
     }
 
@@ -123,8 +123,8 @@ impl SurfaceModel for Sheeting {
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> SheetingBsdf<'_, N> {
         let (base, colour) = match &self.face {
-            Face::Plain(base, colour) => (base.sample(point.wavelengths), colour.sample(point.wavelengths)),
-            Face::Printed(white, print) => {
+            SheetingFace::Plain(base, colour) => (base.sample(point.wavelengths), colour.sample(point.wavelengths)),
+            SheetingFace::Printed(white, print) => {
                 let print = point.reflectance(print);
                 (print * *white, print)
             }
@@ -144,7 +144,7 @@ impl SurfaceModel for Sheeting {
 /// The widest lobe of a table that does not gain energy.
 fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<RetroLobe, EnergyGain> {
     let mut gain = Ok(());
-    let beneath = luminous(base) as f32 * FRAC_1_PI;
+    let beneath = luminous_mean(base) as f32 * FRAC_1_PI;
     for lobe in RetroLobe::widest_first(table, beneath) {
         gain = energy::check(base, &[WeightedLobe { weight: colour, albedo: &lobe.albedo }]);
         if gain.is_ok() {
@@ -156,13 +156,13 @@ fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<Retr
 
 /// A spectrum scaled to a luminous mean of 1 under illuminant A; `None` for one that is negative or dark.
 pub(super) fn photometric(colour: &Spectrum) -> Option<Spectrum> {
-    let luminous = luminous(colour);
+    let luminous = luminous_mean(colour);
     (energy::is_weight(colour) && luminous > 0.0).then(|| colour.scaled(1.0 / luminous))
 }
 
 /// Luminous mean of a spectrum under illuminant A.
-fn luminous(of: &Spectrum) -> f64 {
-    observer::xyz_of_reflectance(of, illuminant::named("A").expect("A is in the list"))[1]
+fn luminous_mean(of: &Spectrum) -> f64 {
+    observer::xyz_of_reflectance(of, illuminant::by_name("A").expect("A is in the list"))[1]
 }
 
 /// Error of a sheeting.
@@ -203,7 +203,7 @@ impl<const N: usize> SheetingBsdf<'_, N> {
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * self.lobe.value_cos(wo, wi),
-            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * self.lobe.pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * self.lobe.pdf(wo, wi),
         }
     }
 }
@@ -221,12 +221,12 @@ impl<const N: usize> BsdfModel<N> for SheetingBsdf<'_, N> {
     fn gloss(&self, wo: Vec3) -> Gloss {
         let colour = self.colour.mean();
         let (peak, albedo) = (self.lobe.value_cos(wo, wo), self.lobe.albedo.at(wo.z));
-        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe::of_albedo(wo, colour * peak, colour * albedo))
+        Gloss::from_diffuse(self.base.mean() * FRAC_1_PI).with(GlossLobe::from_albedo(wo, colour * peak, colour * albedo))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
-        let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
+        let wi = if discrete_sampler.sample(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }

@@ -18,7 +18,7 @@ pub const SHEETING_CLASSES: &[&str] = &["ra1", "ra2", "d4956-ix"];
 /// The colours that [`SheetingPreset::named`] accepts.
 pub const SHEETING_COLOURS: &[&str] = &["white", "yellow", "red", "blue", "green"];
 
-struct Class {
+struct SheetingClassValues {
     observation_deg: &'static [f64],
     entrance_deg: &'static [f64],
     white: &'static [f64],
@@ -28,22 +28,22 @@ struct Class {
     day: [f64; 5],
 }
 
-const CLASSES: [Class; 3] = [
-    Class {
+const CLASSES: [SheetingClassValues; 3] = [
+    SheetingClassValues {
         observation_deg: &[0.2, 0.33, 2.0],
         entrance_deg: &[5.0, 30.0, 40.0],
         white: &[70.0, 30.0, 10.0, 50.0, 24.0, 9.0, 5.0, 2.5, 1.5],
         colours: [70.0, 50.0, 14.5, 4.0, 9.0],
         day: [0.35, 0.27, 0.05, 0.01, 0.04],
     },
-    Class {
+    SheetingClassValues {
         observation_deg: &[0.2, 0.33, 2.0],
         entrance_deg: &[5.0, 30.0, 40.0],
         white: &[250.0, 150.0, 110.0, 180.0, 100.0, 95.0, 5.0, 2.5, 1.5],
         colours: [250.0, 170.0, 45.0, 20.0, 45.0],
         day: [0.27, 0.16, 0.03, 0.01, 0.03],
     },
-    Class {
+    SheetingClassValues {
         observation_deg: &[0.1, 0.2, 0.5, 1.0],
         entrance_deg: &[4.0, 30.0],
         white: &[660.0, 370.0, 380.0, 215.0, 240.0, 135.0, 80.0, 45.0],

@@ -3,7 +3,7 @@
 use etendue_core::maths::f32::{exp, ln};
 
 /// Value that replaces 0 in a table, cd·lx⁻¹·m⁻²: far below that of a dark diffuse surface.
-const NEXT_TO_NOTHING: f64 = 1e-4;
+const MIN_COEFFICIENT: f64 = 1e-4;
 
 /// Value that replaces an observation angle of 0, degrees.
 const MIN_DEG: f64 = 0.01;
@@ -47,7 +47,7 @@ impl RetroTable {
         Ok(Self {
             ln_observation: observation_deg.iter().map(|a| ln(a.max(MIN_DEG).to_radians() as f32)).collect(),
             entrance: entrance_deg.iter().map(|b| b.to_radians() as f32).collect(),
-            ln_values: values.iter().map(|v| ln(v.max(NEXT_TO_NOTHING) as f32)).collect(),
+            ln_values: values.iter().map(|v| ln(v.max(MIN_COEFFICIENT) as f32)).collect(),
             observation_deg: observation_deg.to_vec(),
             entrance_deg: entrance_deg.to_vec(),
         })

@@ -11,7 +11,7 @@ use etendue_stats::chi_square;
 
 /// Polar cells about a direction: tan(θ/2) = scale · t/(1 − t), t and φ in equal steps, so that a narrow lobe is
 /// resolved. They cover the whole sphere.
-struct Polar {
+struct PolarCells {
     basis: Basis,
     scale: f32,
 }
@@ -20,7 +20,7 @@ const RINGS: usize = 20;
 const SECTORS: usize = 16;
 const CELLS: usize = RINGS * SECTORS;
 
-impl Polar {
+impl PolarCells {
     fn index(&self, direction: Vec3) -> usize {
         let local = self.basis.inward(direction);
         let tan_half = (local.x * local.x + local.y * local.y).sqrt() / (1.0 + local.z).max(1e-9);
@@ -64,21 +64,21 @@ pub(in crate::materials) fn lobe(axis: Vec3, scale: f32) -> LobeAxis {
 }
 
 /// Cells for each side of a surface.
-pub(in crate::materials) struct Grid {
-    above: Polar,
-    below: Polar,
+pub(in crate::materials) struct DirectionGrid {
+    above: PolarCells,
+    below: PolarCells,
 }
 
-impl Grid {
+impl DirectionGrid {
     /// Cells about a direction above the surface and one below; each `scale` is about the tangent of half a lobe's half angle (α for
     /// microfacets), 1 for uniform cells.
     pub(in crate::materials) fn new(above: LobeAxis, below: LobeAxis) -> Self {
-        let polar = |lobe: LobeAxis| Polar { basis: Basis::about(lobe.axis), scale: lobe.scale };
+        let polar = |lobe: LobeAxis| PolarCells { basis: Basis::about(lobe.axis), scale: lobe.scale };
         Self { above: polar(above), below: polar(below) }
     }
 
     /// Cells about the mirror direction, and uniform ones below.
-    pub(in crate::materials) fn of_mirror(wo: Vec3, scale: f32) -> Self {
+    pub(in crate::materials) fn about_mirror(wo: Vec3, scale: f32) -> Self {
         Self::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), scale), lobe(Vec3::NEG_Z, 1.0))
     }
 
@@ -94,23 +94,23 @@ impl Grid {
 }
 
 /// p-value of the counts of sampled directions against the stated density. `draw` names the random numbers.
-pub(in crate::materials) fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
-    p_of(bsdf, bsdf, wo, grid, draw)
+pub(in crate::materials) fn p_of_samples(bsdf: &Bsdf<'_, 4>, wo: Vec3, grid: &DirectionGrid, seed: u32) -> f64 {
+    p_value(bsdf, bsdf, wo, grid, seed)
 }
 
 /// The same for the density of one BSDF and samples of another.
-fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
+fn p_value(stated: &Bsdf<'_, 4>, sampled: &Bsdf<'_, 4>, wo: Vec3, grid: &DirectionGrid, seed: u32) -> f64 {
     const N: usize = 100_000;
-    let mut expected = grid.integrals(|wi| told.evaluate(wo, wi).pdf);
+    let mut expected = grid.integrals(|wi| stated.evaluate(wo, wi).pdf);
     let other = 1.0 - expected.iter().sum::<f64>();
     // The quadrature's error at the horizon, where the density may end abruptly.
     assert!(other > -2e-3, "the density integrates to {}", 1.0 - other);
     expected.push(other.max(0.0));
     let mut observed = vec![0_u64; expected.len()];
-    let mut stream = noise(draw);
+    let mut stream = noise(seed);
     for _ in 0..N {
         let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
-        let sample = drawn.sample(wo, stream.unit_f32(), u).filter(|s| s.event == Event::Scatter);
+        let sample = sampled.sample(wo, stream.unit_f32(), u).filter(|s| s.event == Event::Scatter);
         observed[sample.map_or(2 * CELLS, |s| grid.index(s.wi))] += 1;
     }
     // Cells of nearly zero expectation take part only with their neighbours: a floor keeps stray counts finite.
@@ -119,22 +119,22 @@ fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u3
 }
 
 /// Fails for a family of tests, each named, whose least p-value would occur by chance in less than one of a hundred.
-pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
-    let (least, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
+pub(in crate::materials) fn check_p_values(p_values: &[(f64, String)]) {
+    let (minimum, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
     let level = chi_square::sidak_level(0.01, p_values.len());
-    assert!(*least > level, "{name}: p = {least:e} is below {level:e}");
+    assert!(*minimum > level, "{name}: p = {minimum:e} is below {level:e}");
 }
 
 #[test]
 fn a_wrong_density_is_found() {
-    let (told, drawn) = (material_table(perfect_metal(0.40)), material_table(perfect_metal(0.42)));
+    let (stated, sampled) = (material_table(perfect_metal(0.40)), material_table(perfect_metal(0.42)));
     let wo = at_degrees(30.0);
-    let p = p_of(&bsdf(&told), &bsdf(&drawn), wo, &Grid::of_mirror(wo, 0.5), 999);
+    let p = p_value(&bsdf(&stated), &bsdf(&sampled), wo, &DirectionGrid::about_mirror(wo, 0.5), 999);
     assert!(p < 1e-6, "a roughness told 5 % wrong has p = {p}");
 }
 
 #[test]
-fn directions_are_drawn_by_the_density_told() {
+fn directions_are_sampled_by_the_density_stated() {
     let cases = [
         (Surface::Diffuse(grey(0.5)), 1.0),
         (metal_of("Al", 0.01), 0.01),
@@ -149,9 +149,9 @@ fn directions_are_drawn_by_the_density_told() {
         let material_table = material_table(surface);
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let p = p_of_draws(&bsdf(&material_table), wo, &Grid::of_mirror(wo, scale), (k * 4 + i) as u32);
+            let p = p_of_samples(&bsdf(&material_table), wo, &DirectionGrid::about_mirror(wo, scale), (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }
-    judge(&p_values);
+    check_p_values(&p_values);
 }

@@ -22,8 +22,8 @@ fn a_mix_follows_its_map() {
     let materials = [Surface::Diffuse(grey(0.2)), Surface::Diffuse(grey(0.6)), mix].map(Material::new).to_vec();
     let material_table = MaterialTable::new(materials, vec![ramp()]).expect("a mix");
     for i in 0..4 {
-        let met = (0..3000).map(|k| material_table.resolve(MaterialId(2), &at(i), (k as f32 + 0.5) / 3000.0));
-        let of_b = met.filter(|id| *id == MaterialId(1)).count();
+        let resolved = (0..3000).map(|k| material_table.resolve(MaterialId(2), &at(i), (k as f32 + 0.5) / 3000.0));
+        let of_b = resolved.filter(|id| *id == MaterialId(1)).count();
         assert!(of_b.abs_diff(i * 1000) <= 1, "{of_b}");
     }
     assert!(material_table.needs_footprint(MaterialId(2)) && !material_table.needs_footprint(MaterialId(1)));
@@ -32,8 +32,8 @@ fn a_mix_follows_its_map() {
 #[test]
 fn passages_of_cut_out_mixes_are_means() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: Factor::Number(0.25) });
-    let whole = Material { opacity: Some(RAMP), ..Material::new(mix) };
-    let materials = vec![Material::new(Surface::Absorber), Material::new(pane(1.5, 1.0)), whole];
+    let masked = Material { opacity: Some(RAMP), ..Material::new(mix) };
+    let materials = vec![Material::new(Surface::Absorber), Material::new(pane(1.5, 1.0)), masked];
     let material_table = MaterialTable::new(materials, vec![ramp()]).expect("a mix");
     assert_eq!(material_table.passage(MaterialId(0), &at(0), &|_| 1.0, &WAVELENGTHS), None);
     for i in 0..4 {
@@ -48,7 +48,7 @@ fn passages_of_cut_out_mixes_are_means() {
 }
 
 #[test]
-fn what_is_cut_out_does_not_glow() {
+fn what_is_cut_out_does_not_emit() {
     let emission =
         Emission { radiance: Spectrum::constant(6.0), factor: None, sides: EmissionSides::Both, modulation: None };
     let lamp = Material { emission: Some(emission), opacity: Some(RAMP), ..Material::new(Surface::Absorber) };
@@ -67,7 +67,7 @@ fn what_is_cut_out_does_not_glow() {
 
 #[test]
 fn a_roughness_map_is_that_roughness_at_each_point() {
-    let index = metal::named("Cu").expect("copper").clone();
+    let index = metal::by_name("Cu").expect("copper").clone();
     let metal = |alpha: Factor| Surface::Conductor(Box::new(Conductor::new(index.clone(), alpha).expect("a metal")));
     let glass = |alpha: Factor| Surface::Dielectric(Box::new(Dielectric::new(1.5, alpha, None).expect("a glass")));
     let (wo, wi) = (at_degrees(30.0), Vec3::new(-0.3, 0.2, 0.932_738));
@@ -101,8 +101,8 @@ fn a_white_base_under_a_mapped_coat_keeps_all_light() {
 /// Schlick's approximation by its formula, at a mirror and at a white rough metal with multiple scattering, which keeps all light. Single
 /// scattering is in `evaluate`, F₀ at normal incidence in proportion.
 #[test]
-fn a_metal_of_a_picture_reflects_its_colours_as_schlick_says() {
-    let metal = |alpha: f64| Conductor::of_texture(TextureId(0), alpha).expect("a metal");
+fn a_metal_of_an_image_reflects_its_colours_as_schlick_says() {
+    let metal = |alpha: f64| Conductor::from_texture(TextureId(0), alpha).expect("a metal");
     let of = |metal: Conductor| {
         let surface = Surface::Conductor(Box::new(metal));
         MaterialTable::new(vec![Material::new(surface)], vec![ramp()]).expect("a map")
@@ -116,9 +116,9 @@ fn a_metal_of_a_picture_reflects_its_colours_as_schlick_says() {
             let bsdf = mirror.bsdf(MaterialId(0), &at(i), true, &WAVELENGTHS);
             let rest = 1.0 - wo.z;
             let expected = normal + (1.0 - normal) * rest * rest * rest * rest * rest;
-            let found = bsdf.sample(wo, 0.5, Vec2::splat(0.5)).expect("a mirror").weight[1];
+            let weight = bsdf.sample(wo, 0.5, Vec2::splat(0.5)).expect("a mirror").weight[1];
             // Greys of a texture are upsampled in 32 bits.
-            assert!((found - expected).abs() < 1e-5, "{normal} at {degrees}: {found} for {expected}");
+            assert!((weight - expected).abs() < 1e-5, "{normal} at {degrees}: {weight} for {expected}");
         }
     }
     let [once, all] = [&once, &all].map(|table| table.bsdf(MaterialId(0), &at(3), true, &WAVELENGTHS));

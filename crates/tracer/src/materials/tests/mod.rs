@@ -37,7 +37,7 @@ fn grey(value: f64) -> Reflectance {
 }
 
 fn metal_of(name: &str, alpha: f64) -> Surface {
-    let index = metal::named(name).expect("a known metal").clone();
+    let index = metal::by_name(name).expect("a known metal").clone();
     Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
 }
 
@@ -69,8 +69,8 @@ fn at_degrees(degrees: f32) -> Vec3 {
     Vec3::new(0.8 * s, -0.6 * s, c)
 }
 
-fn noise(draw: u32) -> NoiseStream {
-    NoiseStream::new(11, 0, 0, 0, Pixel { x: draw, y: 0 }, NoiseDraw::Shot)
+fn noise(seed: u32) -> NoiseStream {
+    NoiseStream::new(11, 0, 0, 0, Pixel { x: seed, y: 0 }, NoiseDraw::Shot)
 }
 
 fn all_surfaces() -> Vec<Surface> {
@@ -130,7 +130,7 @@ fn eta(material_table: &MaterialTable) -> f32 {
 }
 
 /// Returns value × |cos| of the BSDF with both directions swapped.
-fn swapped(material_table: &MaterialTable, wo: Vec3, wi: Vec3) -> Spectral<4> {
+fn evaluate_swapped(material_table: &MaterialTable, wo: Vec3, wi: Vec3) -> Spectral<4> {
     if wi.z > 0.0 {
         return bsdf(material_table).evaluate(wi, wo).value_cos / wo.z;
     }
@@ -145,17 +145,17 @@ fn every_material_is_reciprocal() {
         let bsdf = bsdf(&material_table);
         let mut stream = noise(200 + k as u32);
         for i in 0..4000 {
-            let mut draw = || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
-            let (a, mut b) = (draw(), draw());
+            let mut sample_direction = || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
+            let (a, mut b) = (sample_direction(), sample_direction());
             let mut n2 = 1.0;
             if i % 2 == 1 {
                 (b.z, n2) = (-b.z, eta(&material_table) * eta(&material_table));
             }
-            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, swapped(&material_table, a, b));
+            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, evaluate_swapped(&material_table, a, b));
             // Near the critical angle Fresnel's equations subtract nearly equal numbers.
-            let (digits, least) = if b.z > 0.0 { (1e-4, 1e-10) } else { (1e-4, 2e-5) };
+            let (digits, minimum) = if b.z > 0.0 { (1e-4, 1e-10) } else { (1e-4, 2e-5) };
             for i in 0..4 {
-                assert!((there[i] - back[i]).abs() <= digits * there[i] + least, "{k}: {a} {b} {there:?} {back:?}");
+                assert!((there[i] - back[i]).abs() <= digits * there[i] + minimum, "{k}: {a} {b} {there:?} {back:?}");
             }
         }
     }
@@ -219,7 +219,7 @@ fn a_smooth_paint_has_saundersons_albedo() {
 #[test]
 fn a_smooth_metal_mirrors_by_fresnel() {
     let material_table = material_table(metal_of("Al", 0.0));
-    let index = metal::named("Al").expect("aluminium");
+    let index = metal::by_name("Al").expect("aluminium");
     let sample = bsdf(&material_table).sample(Vec3::Z, 0.0, Vec2::ZERO).expect("a mirror");
     assert!(sample.event == Event::Specular && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
     let (n, k) = (index.n.at(520.0), index.k.at(520.0));

@@ -1,6 +1,6 @@
 //! Reflection models other than metals and coats, by the same tests.
 
-use super::chi_square::{Grid, judge, p_of_draws};
+use super::chi_square::{DirectionGrid, check_p_values, p_of_samples};
 use super::*;
 
 /// A diffuse base under a mirror, an off-specular and a retro lobe.
@@ -28,17 +28,17 @@ pub(super) fn white() -> metal::ComplexIndex {
 }
 
 fn gold() -> metal::ComplexIndex {
-    metal::named("Au").expect("gold").clone()
+    metal::by_name("Au").expect("gold").clone()
 }
 
-fn glaze(alpha: f64) -> Surface {
+fn glazed_surface(alpha: f64) -> Surface {
     let index = Spectrum::from_fn(|nm| 1.5 + 0.1 * (600.0 - nm) / 600.0);
     Surface::Conductor(Box::new(Conductor::dielectric(index, alpha).expect("a glaze").with_interreflection()))
 }
 
 fn marking() -> Surface {
     let white = Spectrum::constant(1.0);
-    Surface::Marking(Box::new(RoadMarking::new(300.0, DayTime::Qd(130.0), &white).expect("a marking")))
+    Surface::Marking(Box::new(RoadMarking::new(300.0, DaytimeBrightness::Qd(130.0), &white).expect("a marking")))
 }
 
 pub(super) fn car_paint(pigment: f64, flakes: f64, coverage: f64, flake_alpha: f64, coat_alpha: f64) -> Surface {
@@ -70,7 +70,7 @@ pub(super) fn surfaces() -> Vec<Surface> {
         rough(&gold(), 0.4, Distribution::Beckmann, true),
         rough(&white(), 0.7, Distribution::Ggx, true),
         rough(&gold(), 0.01, Distribution::Ggx, true),
-        glaze(0.5),
+        glazed_surface(0.5),
         marking(),
         car_paint(0.05, 0.85, 0.6, 0.3, 0.0),
         car_paint(1.0, 1.0, 0.5, 0.1, 0.0),
@@ -82,7 +82,7 @@ pub(super) fn surfaces() -> Vec<Surface> {
 }
 
 #[test]
-fn directions_are_drawn_by_the_density_told() {
+fn directions_are_sampled_by_the_density_stated() {
     let cases = [
         (lobes(), 0.3),
         (blinn_phong(0.3, 0.7, 1.0), 1.0),
@@ -91,7 +91,7 @@ fn directions_are_drawn_by_the_density_told() {
         (rough(&white(), 0.8, Distribution::Beckmann, true), 0.8),
         (rough(&gold(), 0.1, Distribution::Ggx, true), 0.1),
         (rough(&white(), 1.0, Distribution::Ggx, true), 1.0),
-        (glaze(0.5), 0.5),
+        (glazed_surface(0.5), 0.5),
         (car_paint(0.2, 0.8, 0.7, 0.2, 0.0), 0.4),
         (car_paint(0.1, 0.9, 0.5, 0.5, 0.1), 0.2),
         (cloth(0.3, 0.8, 0.3), 1.0),
@@ -101,11 +101,11 @@ fn directions_are_drawn_by_the_density_told() {
         let material_table = material_table(surface);
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let p = p_of_draws(&bsdf(&material_table), wo, &Grid::of_mirror(wo, scale), 1000 + (k * 4 + i) as u32);
+            let p = p_of_samples(&bsdf(&material_table), wo, &DirectionGrid::about_mirror(wo, scale), 1000 + (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }
-    judge(&p_values);
+    check_p_values(&p_values);
 }
 
 #[test]

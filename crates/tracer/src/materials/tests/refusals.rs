@@ -39,7 +39,7 @@ fn factors_of_textures_are_looked_at() {
         vec![ImageTexture::new(1, 1, texels, Sampling::default()).expect("a texel")]
     };
     let metal = |channel| {
-        let index = metal::named("Al").expect("aluminium").clone();
+        let index = metal::by_name("Al").expect("aluminium").clone();
         let alpha = Factor::Texture(TextureId(0), channel);
         Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
     };
@@ -57,35 +57,35 @@ fn factors_of_textures_are_looked_at() {
 #[test]
 fn what_counts_on_a_mix_alone_is_refused_on_its_parts() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: Factor::Number(0.5) });
-    let of = |part: Material, whole: Material| {
-        MaterialTable::new(vec![Material::new(Surface::Absorber), part, whole], vec![]).err()
+    let of = |part: Material, outer: Material| {
+        MaterialTable::new(vec![Material::new(Surface::Absorber), part, outer], vec![]).err()
     };
     let plain = || Material::new(Surface::Absorber);
-    let whole = || Material::new(mix.clone());
-    assert_eq!(of(plain(), whole()), None);
+    let outer = || Material::new(mix.clone());
+    assert_eq!(of(plain(), outer()), None);
     let cut = Material { opacity: Some(Factor::Number(0.5)), ..plain() };
     let refused = MaterialError::Part { material: 2, part: 1, what: "an opacity" };
-    assert_eq!(of(cut, whole()), Some(refused));
-    let map = NormalMap::new(crate::textures::TextureId(0), Green::Up, 1.0).expect("a map");
-    let bent = Material { normal_map: Some(map), ..whole() };
+    assert_eq!(of(cut, outer()), Some(refused));
+    let map = NormalMap::new(crate::textures::TextureId(0), GreenDirection::Up, 1.0).expect("a map");
+    let bent = Material { normal_map: Some(map), ..outer() };
     assert_eq!(of(plain(), bent), Some(MaterialError::MixNormal { material: 2 }));
 }
 
 /// Light sampling on an emitting surface has only its texture coordinates.
 #[test]
-fn what_glows_has_no_gaps_laid_on_from_three_sides() {
+fn what_emits_has_no_gaps_laid_on_from_three_sides() {
     use crate::textures::{Channel, ImageTexture, Projection, Sampling, Texels, TextureId};
     let of = |emission| {
         let projection = Projection::Triplanar { size_m: 1.0, sharpness: 4.0 };
         let sampling = Sampling { projection, ..Sampling::default() };
-        let picture = ImageTexture::new(1, 1, Texels::Float(vec![[0.5; 3]]), sampling).expect("a texel");
+        let image = ImageTexture::new(1, 1, Texels::Float(vec![[0.5; 3]]), sampling).expect("a texel");
         let opacity = Some(Factor::Texture(TextureId(0), Channel::Red));
-        MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![picture])
+        MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![image])
             .err()
     };
-    let glow =
+    let emitted =
         Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both, modulation: None };
     assert_eq!(of(None), None);
     let refused = MaterialError::Projected { material: 0, what: "an opacity together with an emission" };
-    assert_eq!(of(Some(glow)), Some(refused));
+    assert_eq!(of(Some(emitted)), Some(refused));
 }

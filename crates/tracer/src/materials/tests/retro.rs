@@ -1,6 +1,6 @@
 //! Retro-reflection: light that signs and markings reflect to a viewer near the lamp.
 
-use super::chi_square::{Grid, judge, lobe, p_of_draws};
+use super::chi_square::{DirectionGrid, check_p_values, lobe, p_of_samples};
 use super::*;
 
 fn sheeting(class: &str, colour: &str) -> MaterialTable {
@@ -8,7 +8,7 @@ fn sheeting(class: &str, colour: &str) -> MaterialTable {
     material_table(Surface::Sheeting(Box::new(preset.sheeting().expect("a sheeting"))))
 }
 
-fn marking(r_l: f64, day: DayTime) -> MaterialTable {
+fn marking(r_l: f64, day: DaytimeBrightness) -> MaterialTable {
     let white = Spectrum::constant(1.0);
     material_table(Surface::Marking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
 }
@@ -33,12 +33,12 @@ fn lamp_and_viewer(entrance_deg: f64, observation_deg: f64, turn_deg: f64) -> Re
 /// Luminance over the illuminance across the beam, in the light of illuminant A.
 fn luminance(material_table: &MaterialTable, directions: RetroGeometry) -> f64 {
     let RetroGeometry { lamp, viewer } = directions;
-    let a = etendue_spectra::illuminant::named("A").expect("A");
-    let seen = Spectrum::from_fn(|nm| {
+    let a = etendue_spectra::illuminant::by_name("A").expect("A");
+    let actual = Spectrum::from_fn(|nm| {
         let wavelengths = Wavelengths { nm: [nm as f32; 4], pdf: [1.0; 4] };
         f64::from(material_table.bsdf(MaterialId(0), &LOOKUP, true, &wavelengths).evaluate(viewer, lamp).value_cos[0])
     });
-    etendue_spectra::observer::xyz_of_reflectance(&seen, a)[1]
+    etendue_spectra::observer::xyz_of_reflectance(&actual, a)[1]
 }
 
 #[test]
@@ -54,9 +54,9 @@ fn a_sign_has_the_luminance_of_its_coefficient() {
                     // L = R_A E⊥/cos ν, the base's light included. The angle between directions in f32: 3e-5 at 0.2°,
                     // and R_A falls with a power of up to 3 of it.
                     let expected = f64::from(r_a / geometry.viewer.z);
-                    let found = luminance(&sign, geometry);
+                    let actual = luminance(&sign, geometry);
                     let place = format!("{class} {colour} {entrance_deg} {observation_deg} {turn}");
-                    assert!((found / expected - 1.0).abs() < 1e-3, "{place}: {found} {expected}");
+                    assert!((actual / expected - 1.0).abs() < 1e-3, "{place}: {actual} {expected}");
                 }
             }
         }
@@ -76,11 +76,11 @@ fn a_sign_is_never_darker_than_its_base() {
 
 #[test]
 fn a_marking_returns_its_coefficient_at_the_30_m_geometry() {
-    for (r_l, day) in [(100.0, DayTime::Qd(100.0)), (300.0, DayTime::Qd(160.0)), (150.0, DayTime::LuminanceFactor(0.6))]
+    for (r_l, day) in [(100.0, DaytimeBrightness::Qd(100.0)), (300.0, DaytimeBrightness::Qd(160.0)), (150.0, DaytimeBrightness::LuminanceFactor(0.6))]
     {
         let material_table = marking(r_l, day);
-        let found = luminance(&material_table, lamp_and_viewer(88.76, 1.05, 0.0));
-        assert!((found / (r_l * 1e-3) - 1.0).abs() < 1e-3, "{r_l}: {found}");
+        let actual = luminance(&material_table, lamp_and_viewer(88.76, 1.05, 0.0));
+        assert!((actual / (r_l * 1e-3) - 1.0).abs() < 1e-3, "{r_l}: {actual}");
     }
 }
 
@@ -90,13 +90,13 @@ fn a_lamp_farther_from_the_viewer_is_sent_back_weaker() {
     let at = |degrees| luminance(&sign, lamp_and_viewer(5.0, degrees, 0.0));
     // The lamp of a lorry at 1.8 m under the viewer, 100 m away, compared with a car's at 0.6 m.
     assert!(at(0.34) > 8.0 * at(1.03), "{} {}", at(0.34), at(1.03));
-    let stripe = marking(300.0, DayTime::Qd(130.0));
+    let stripe = marking(300.0, DaytimeBrightness::Qd(130.0));
     let at = |degrees| luminance(&stripe, lamp_and_viewer(88.0, degrees, 0.0));
     assert!(at(0.5) > 1.5 * at(1.9), "{} {}", at(0.5), at(1.9));
 }
 
 #[test]
-fn directions_are_drawn_by_the_density_told() {
+fn directions_are_sampled_by_the_density_stated() {
     // The density ends abruptly at the cut-off: cells that end there too, at the 14th ring of 20.
     let scale_of = |class, colour| {
         let preset = SheetingPreset::named(class, colour).expect("a preset");
@@ -108,18 +108,18 @@ fn directions_are_drawn_by_the_density_told() {
         sheet("ra2", "white"),
         sheet("ra1", "red"),
         sheet("d4956-ix", "blue"),
-        (marking(300.0, DayTime::Qd(130.0)), 0.03),
+        (marking(300.0, DaytimeBrightness::Qd(130.0)), 0.03),
     ];
     let mut p_values = vec![];
     for (k, (material_table, scale)) in cases.iter().enumerate() {
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let grid = Grid::new(lobe(wo, *scale), lobe(Vec3::NEG_Z, 1.0));
-            let p = p_of_draws(&bsdf(material_table), wo, &grid, 2000 + (k * 4 + i) as u32);
+            let grid = DirectionGrid::new(lobe(wo, *scale), lobe(Vec3::NEG_Z, 1.0));
+            let p = p_of_samples(&bsdf(material_table), wo, &grid, 2000 + (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }
-    judge(&p_values);
+    check_p_values(&p_values);
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn lamp_and_viewer_may_nearly_be_exchanged() {
     // difference of the sheeting's values when both are exchanged, at 0.33° and 2°.
     let sign = sheeting("ra2", "white");
     let bsdf = bsdf(&sign);
-    for (observation_deg, most) in [(0.33, 0.01), (2.0, 0.12)] {
+    for (observation_deg, maximum) in [(0.33, 0.01), (2.0, 0.12)] {
         let mut worst = 0.0_f32;
         for entrance_deg in [0.0, 10.0, 25.0, 35.0, 60.0, 85.0] {
             let RetroGeometry { lamp, viewer } = lamp_and_viewer(entrance_deg, observation_deg, 0.0);
@@ -136,7 +136,7 @@ fn lamp_and_viewer_may_nearly_be_exchanged() {
             let back = bsdf.evaluate(lamp, viewer).value_cos[1] / viewer.z;
             worst = worst.max((there / back - 1.0).abs());
         }
-        assert!(worst < most && worst > 0.0, "{observation_deg}: {worst}");
+        assert!(worst < maximum && worst > 0.0, "{observation_deg}: {worst}");
     }
 }
 
@@ -154,7 +154,7 @@ fn no_sign_sends_back_more_than_arrives() {
 }
 
 #[test]
-fn limits_are_told_in_words() {
+fn limits_are_reported_in_words() {
     let preset = SheetingPreset::named("ra1", "white").expect("a preset");
     let words = preset.sheeting().expect("a sheeting").limits();
     assert!(words.contains("below an observation angle of 0.2° and from 2° to"), "{words}");
@@ -175,11 +175,11 @@ fn faulty_sheets_and_markings_are_refused() {
     assert_eq!(Sheeting::new(black.clone(), &black, table.clone()), Err(SheetingError::Colour));
     assert_eq!(Sheeting::new(white.scaled(-0.1), &white, table), Err(SheetingError::Base));
     let of = |r_l, day| RoadMarking::new(r_l, day, &white).expect_err("faulty");
-    assert!(matches!(of(2.0, DayTime::Qd(130.0)), MarkingError::Coefficient { .. }));
-    assert!(matches!(of(100.0, DayTime::Qd(400.0)), MarkingError::Day { .. }));
-    assert!(matches!(of(1e6, DayTime::Qd(130.0)), MarkingError::Energy(_)));
-    assert_eq!(RoadMarking::new(100.0, DayTime::Qd(130.0), &black), Err(MarkingError::Colour));
-    let spread = RoadMarking::with_spread(100.0, DayTime::Qd(130.0), &white, 60.0);
+    assert!(matches!(of(2.0, DaytimeBrightness::Qd(130.0)), MarkingError::Coefficient { .. }));
+    assert!(matches!(of(100.0, DaytimeBrightness::Qd(400.0)), MarkingError::Day { .. }));
+    assert!(matches!(of(1e6, DaytimeBrightness::Qd(130.0)), MarkingError::Energy(_)));
+    assert_eq!(RoadMarking::new(100.0, DaytimeBrightness::Qd(130.0), &black), Err(MarkingError::Colour));
+    let spread = RoadMarking::with_spread(100.0, DaytimeBrightness::Qd(130.0), &white, 60.0);
     assert_eq!(spread, Err(MarkingError::Spread { spread_deg: 60.0 }));
     assert_eq!((marking_class("r3"), marking_class("r9")), (Some(150.0), None));
 }

@@ -1,10 +1,10 @@
 //! Materials that transmit light.
 
-use super::chi_square::{Grid, judge, lobe, p_of_draws};
+use super::chi_square::{DirectionGrid, check_p_values, lobe, p_of_samples};
 use super::*;
 
 #[test]
-fn transmitted_directions_are_drawn_by_the_density_told() {
+fn transmitted_directions_are_sampled_by_the_density_stated() {
     let mut p_values = vec![];
     let glasses = [(1.5, 0.02), (1.33, 0.1), (1.5, 0.3), (2.4, 0.8)];
     for (k, (n, alpha)) in glasses.into_iter().enumerate() {
@@ -17,8 +17,8 @@ fn transmitted_directions_are_drawn_by_the_density_told() {
                 let straight = Vec3::new(-wo.x, -wo.y, -0.1).normalize();
                 let below = dielectric::refracted(wo, Vec3::Z, glass.eta()).unwrap_or(straight);
                 let alpha = alpha as f32;
-                let grid = Grid::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), alpha), lobe(below, alpha.max(0.02)));
-                let p = p_of_draws(bsdf, wo, &grid, (1000 + k * 8 + side * 4 + i) as u32);
+                let grid = DirectionGrid::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), alpha), lobe(below, alpha.max(0.02)));
+                let p = p_of_samples(bsdf, wo, &grid, (1000 + k * 8 + side * 4 + i) as u32);
                 p_values.push((p, format!("n {n}, α {alpha}, side {side}, {degrees}°")));
             }
         }
@@ -26,10 +26,10 @@ fn transmitted_directions_are_drawn_by_the_density_told() {
     for (k, (r, t)) in [(0.4, 0.6), (0.3, 0.1), (0.0, 0.5)].into_iter().enumerate() {
         let material_table = material_table(leaf(r, t));
         let wo = at_degrees(50.0);
-        let grid = Grid::new(lobe(Vec3::Z, 1.0), lobe(Vec3::NEG_Z, 1.0));
-        p_values.push((p_of_draws(&bsdf(&material_table), wo, &grid, 1100 + k as u32), format!("leaf {r} {t}")));
+        let grid = DirectionGrid::new(lobe(Vec3::Z, 1.0), lobe(Vec3::NEG_Z, 1.0));
+        p_values.push((p_of_samples(&bsdf(&material_table), wo, &grid, 1100 + k as u32), format!("leaf {r} {t}")));
     }
-    judge(&p_values);
+    check_p_values(&p_values);
 }
 
 #[test]

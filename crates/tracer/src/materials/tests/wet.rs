@@ -11,9 +11,9 @@ fn wet_ground_is_as_dark_as_lekner_and_dorf_say() {
         [(0.05, 0.0264), (0.10, 0.0540), (0.15, 0.0831), (0.20, 0.1137), (0.30, 0.180), (0.50, 0.337), (0.80, 0.664)];
     for (dry, wet) in darkened {
         let material_table = material_table(paint(dry, WATER, 0.0));
-        let seen = albedos_of::<{ 1 << 20 }>(&bsdf(&material_table), Vec3::Z)[0][0];
+        let actual = albedos_of::<{ 1 << 20 }>(&bsdf(&material_table), Vec3::Z)[0][0];
         // The figures have three digits; the quadrature errs by 3e-4.
-        assert!((f64::from(seen) - 0.0204 - wet).abs() < 8e-4, "{dry}: {seen}");
+        assert!((f64::from(actual) - 0.0204 - wet).abs() < 8e-4, "{dry}: {actual}");
     }
 }
 

@@ -42,13 +42,13 @@ fn light_through_a_ball_is_turned_as_snell_says() {
 /// The image in a ball is upside down.
 #[test]
 fn a_drop_shows_the_world_upside_down() {
-    let seen = |b: f64, half_m: [f64; 2]| {
+    let actual = |b: f64, half_m: [f64; 2]| {
         refracted(half_m[0], half_m[1], WATER, at_place(at(b, 0.0) * DVec3::new(1.0, half_m[0], 1.0), DVec3::X), |_| {
             0.999
         })
     };
     for half_m in [[1.0, 1.0], [1.0, 1.0 - 1e-9]] {
-        assert!(seen(0.5, half_m).direction.y < -0.2 && seen(-0.5, half_m).direction.y > 0.2);
+        assert!(actual(0.5, half_m).direction.y < -0.2 && actual(-0.5, half_m).direction.y > 0.2);
     }
 }
 
@@ -57,7 +57,7 @@ fn a_drop_shows_the_world_upside_down() {
 fn drops_scatter_as_the_phase_function_of_the_medium() {
     const RAYS: u32 = 40_000;
     const BINS: usize = 12;
-    let table = crate::media::SpectralTable::of_large_balls(&Spectrum::constant(WATER));
+    let table = crate::media::SpectralTable::from_large_balls(&Spectrum::constant(WATER));
     let phase = crate::media::Phase::Table(table);
     let wavelengths = etendue_core::Wavelengths { nm: [550.0], pdf: [1.0] };
     let density = |angle: f64| {
@@ -77,8 +77,8 @@ fn drops_scatter_as_the_phase_function_of_the_medium() {
         let out = refracted(1.0, 1.0, WATER, at_place(at(b, turn), DVec3::X), |k| number(i, k));
         counts[((acos(out.direction.x.clamp(-1.0, 1.0)) / PI * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
-    let whole: f64 = expected.iter().sum();
-    assert!((whole / f64::from(RAYS) - 1.0).abs() < 1e-4, "{whole}");
+    let total: f64 = expected.iter().sum();
+    assert!((total / f64::from(RAYS) - 1.0).abs() < 1e-4, "{total}");
     let test = goodness_of_fit(&counts, &expected).expect("bins");
     assert!(test.p > 1e-4, "{test:?}: {counts:?} {expected:?}");
 }
@@ -134,9 +134,9 @@ fn a_drop_under_a_half_bright_sky_is_as_bright_as_its_passages() {
                 refracted(1.0, 1.0, WATER, at_place(place, towards), |k| number(j, k)).direction.z > 0.0
             })
             .count();
-        let (seen, expected) = (bright as f64 / f64::from(RAYS), half_bright(up));
+        let (actual, expected) = (bright as f64 / f64::from(RAYS), half_bright(up));
         let error = (expected * (1.0 - expected) / f64::from(RAYS)).sqrt();
-        assert!((seen - expected).abs() < 4.0 * error, "{up_deg}°: {seen} {expected}");
+        assert!((actual - expected).abs() < 4.0 * error, "{up_deg}°: {actual} {expected}");
     }
     assert!((half_bright(0.0) - 0.5).abs() < 1e-3, "upside down and as it is are alike on the horizon");
 }

@@ -4,12 +4,12 @@ use super::*;
 use etendue_core::maths::f64::exp;
 use etendue_stats::chi_square::goodness_of_fit;
 
-fn field(seed: u32) -> Field {
-    Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::new(3.0, -1.0, 0.0), 500.0, seed)
+fn field(seed: u32) -> PrecipitationField {
+    PrecipitationField::new(SizeLaw::rain(50.0).expect("legal"), DVec3::new(3.0, -1.0, 0.0), 500.0, seed)
 }
 
-fn within(field: &Field, origin_m: DVec3, time_s: f64, radius_m: f64) -> Vec<Particle> {
-    let all = field.about(origin_m, moment(time_s), &SeenRegion::EVERYWHERE, &ball(radius_m));
+fn within(field: &PrecipitationField, origin_m: DVec3, time_s: f64, radius_m: f64) -> Vec<Particle> {
+    let all = field.particles_near(origin_m, moment(time_s), &VisibleRegion::EVERYWHERE, &ball(radius_m));
     all.into_iter().filter(|particle| particle.at(time_s).distance(origin_m) < radius_m).collect()
 }
 
@@ -25,8 +25,8 @@ fn drops_have_the_sizes_of_the_law() {
     assert!((particles.len() as f64 - expected_total).abs() < 4.0 * expected_total.sqrt());
     let mut counts = [0_u64; 30];
     particles.iter().for_each(|particle| counts[(particle.size_mm / 0.2) as usize] += 1);
-    let share = |i: usize| (tail(0.2 * i as f64) - tail(0.2 * (i + 1) as f64)) / (1.0 - tail(6.0));
-    let expected: Vec<f64> = (0..30).map(|i| particles.len() as f64 * share(i)).collect();
+    let fraction = |i: usize| (tail(0.2 * i as f64) - tail(0.2 * (i + 1) as f64)) / (1.0 - tail(6.0));
+    let expected: Vec<f64> = (0..30).map(|i| particles.len() as f64 * fraction(i)).collect();
     let test = goodness_of_fit(&counts, &expected).expect("bins");
     assert!(test.p > 1e-4 && test.degrees_of_freedom > 10, "{test:?}");
 }
@@ -56,13 +56,13 @@ fn two_views_at_two_times_see_the_same_drops() {
 fn an_interval_holds_what_its_moments_hold() {
     let field = field(1);
     let interval = TimeInterval::new(2.0, 2.1).expect("legal");
-    let region = SeenRegion::around(&[DVec3::X, DVec3::new(0.9, 0.3, 0.0).normalize()], 0.05, 0.01);
-    let long = field.about(DVec3::ZERO, interval, &region, &ball(2.0));
+    let region = VisibleRegion::around(&[DVec3::X, DVec3::new(0.9, 0.3, 0.0).normalize()], 0.05, 0.01);
+    let long = field.particles_near(DVec3::ZERO, interval, &region, &ball(2.0));
     for time_s in [2.0, 2.03, 2.1] {
-        let short = field.about(DVec3::ZERO, moment(time_s), &region, &ball(2.0));
-        let seen = |particle: &&Particle| region.may_see(particle.at(time_s), 0.0);
-        assert!(short.iter().filter(seen).count() > 20);
-        assert!(short.iter().filter(seen).all(|particle| long.contains(particle)), "{time_s}");
+        let short = field.particles_near(DVec3::ZERO, moment(time_s), &region, &ball(2.0));
+        let actual = |particle: &&Particle| region.may_see(particle.at(time_s), 0.0);
+        assert!(short.iter().filter(actual).count() > 20);
+        assert!(short.iter().filter(actual).all(|particle| long.contains(particle)), "{time_s}");
     }
 }
 
@@ -70,25 +70,25 @@ fn an_interval_holds_what_its_moments_hold() {
 fn another_seed_is_another_rain_and_nothing_is_above_the_top() {
     let particles = |seed| within(&field(seed), DVec3::ZERO, 0.0, 0.5);
     assert_ne!(particles(0), particles(1));
-    let below = Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 0.0, 0);
-    let found = within(&below, DVec3::ZERO, 5.0, 1.0);
-    assert!(found.len() > 1000 && found.iter().all(|particle| particle.at(5.0).z <= 0.0));
+    let below = PrecipitationField::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 0.0, 0);
+    let actual = within(&below, DVec3::ZERO, 5.0, 1.0);
+    assert!(actual.len() > 1000 && actual.iter().all(|particle| particle.at(5.0).z <= 0.0));
 }
 
 /// The modelled particles depend on the resolution of a pixel, and are bounded.
 #[test]
 fn finer_pixels_resolve_more_drops_up_to_a_bound() {
     let field = field(0);
-    let region = SeenRegion::around(&[DVec3::X], 0.4, 0.0);
-    let of = |pixel_rad, most| {
-        let resolution = Resolution { pixel_rad, smallest_px: 0.5, most, clear_m: 0.0, exposure_s: 0.0 };
+    let region = VisibleRegion::around(&[DVec3::X], 0.4, 0.0);
+    let of = |pixel_rad, maximum| {
+        let resolution = CameraResolution { pixel_rad, min_size_px: 0.5, max_particles: most: maximum, clear_m: 0.0, exposure_s: 0.0 };
         ChangeOver::new(field.classes(), &resolution, &region)
     };
     let (coarse, fine, bounded) = (of(2e-3, 1e9), of(5e-4, 1e9), of(5e-4, 20_000.0));
     let class = &field.classes()[30];
     assert!((coarse.radii_m[30] / (class.diameter_m / 1e-3) - 1.0).abs() < 1e-12);
-    assert!(fine.expected > 60.0 * coarse.expected && fine.farthest_m() > 3.9 * coarse.farthest_m());
+    assert!(fine.expected > 60.0 * coarse.expected && fine.max_distance_m() > 3.9 * coarse.max_distance_m());
     assert!((bounded.expected / 20_000.0 - 1.0).abs() < 0.01, "{}", bounded.expected);
-    let found = field.about(DVec3::ZERO, moment(0.0), &region, &bounded).len() as f64;
-    assert!(found > 19_000.0 && found < 30_000.0, "{found}");
+    let actual = field.particles_near(DVec3::ZERO, moment(0.0), &region, &bounded).len() as f64;
+    assert!(actual > 19_000.0 && actual < 30_000.0, "{actual}");
 }

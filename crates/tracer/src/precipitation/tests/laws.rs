@@ -28,7 +28,7 @@ fn rain_is_as_the_table_of_marshall_and_palmer() {
         // is left out, of speeds that are at most 9.5 m/s where the mean of the water's is more than 6.5.
         let x = 6.0 * lambda;
         let beyond = exp(-x) * (1.0 + x + x * x / 2.0 + x * x * x / 6.0) * 9.5 / 6.5;
-        let ratio = law.carried_mm_h() / carried;
+        let ratio = law.water_rate_mm_h() / carried;
         assert!(ratio < 1.01 && ratio > 0.99 - beyond, "{rate}: {ratio}");
         assert!(near(law.visibility_m(), 3912.0 / per_km, 0.01), "{rate}");
     }
@@ -37,10 +37,10 @@ fn rain_is_as_the_table_of_marshall_and_palmer() {
 #[test]
 fn a_rescaled_law_brings_the_rate_asked_for() {
     for rate in [0.1, 1.0, 25.0, 150.0] {
-        assert!(near(SizeLaw::rain(rate).expect("legal").rescaled().carried_mm_h(), rate, 1e-12));
+        assert!(near(SizeLaw::rain(rate).expect("legal").rescaled().water_rate_mm_h(), rate, 1e-12));
     }
     let law = SizeLaw::snow(2.0, Crystals::Rimed).expect("legal").rescaled();
-    assert!(near(law.carried_mm_h(), 2.0, 1e-12));
+    assert!(near(law.water_rate_mm_h(), 2.0, 1e-12));
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn drops_fall_as_atlas_measured_and_flatten() {
 #[test]
 fn an_image_loses_half_of_the_meteorological_extinction() {
     let law = SizeLaw::rain(10.0).expect("legal");
-    let field = Field::new(law, DVec3::ZERO, 500.0, 0);
+    let field = PrecipitationField::new(law, DVec3::ZERO, 500.0, 0);
     assert!(near(1e3 * field.extinction_per_m(), 0.778, 0.03));
     assert!(2.0 * field.extinction_per_m() < law.meteorological_extinction_per_m());
 }

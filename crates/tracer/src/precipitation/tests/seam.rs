@@ -8,9 +8,9 @@ use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{philox4x32, unit_f64};
 
 /// Rain a hundred times as dense, so that few metres attenuate half of the light.
-fn dense() -> Field {
+fn dense() -> PrecipitationField {
     let law = SizeLaw::rain(100.0).expect("legal");
-    Field::new(size_law::SizeLaw { n0: 100.0 * law.n0(), ..law }, DVec3::new(1.0, 2.0, 0.0), 500.0, 0)
+    PrecipitationField::new(size_law::SizeLaw { n0: 100.0 * law.n0(), ..law }, DVec3::new(1.0, 2.0, 0.0), 500.0, 0)
 }
 
 /// By distance, the transmittance of single drops and the hollowed medium together is exp(−β d), within 2 %: before, at and beyond the
@@ -28,8 +28,8 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
         let origin_m = DVec3::new(f64::from(round) * 50.0, 0.0, 1.0);
         let interval = TimeInterval::new(f64::from(round), f64::from(round) + 0.01).expect("legal");
         let axis = DVec3::new(1.0, 0.3, 0.1).normalize();
-        let region = SeenRegion::around(&[axis], 0.1, 0.0);
-        let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 1e9, clear_m: 0.0, exposure_s: 0.0 };
+        let region = VisibleRegion::around(&[axis], 0.1, 0.0);
+        let resolution = CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 1e9, clear_m: 0.0, exposure_s: 0.0 };
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
         let media = Media::new(&medium, origin_m, interval);
         let near = NearParticles::new(
@@ -44,10 +44,10 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
             let [a, b, c, _] = philox4x32([i, round, 0, 0], [1, 2]).map(|word| unit_f64(u64::from(word) << 32));
             let direction = (axis + 0.09 * DVec3::new(0.0, 2.0 * a - 1.0, 2.0 * b - 1.0) * 0.7).normalize();
             let ray = Ray::new(glam::Vec3::ZERO, direction.as_vec3(), (c * interval.length_s()) as f32);
-            let met = near.closest(&ray, 10.0).map_or(f32::INFINITY, |hit| hit.t);
+            let hit_m = near.closest(&ray, 10.0).map_or(f32::INFINITY, |hit| hit.t);
             for (sum, distance) in through.iter_mut().zip(distances) {
-                if met > distance {
-                    *sum += exp(-field.extinction_per_m() * way(&field, &change_over, f64::from(distance)));
+                if hit_m > distance {
+                    *sum += exp(-field.extinction_per_m() * optical_depth(&field, &change_over, f64::from(distance)));
                 }
             }
         }
@@ -59,7 +59,7 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
     }
 }
 
-fn way(field: &Field, change_over: &ChangeOver, distance_m: f64) -> f64 {
+fn optical_depth(field: &PrecipitationField, change_over: &ChangeOver, distance_m: f64) -> f64 {
     field.hollow(change_over).path_length(DVec3::ZERO, DVec3::X, 0.0, distance_m)
 }
 
@@ -67,12 +67,12 @@ fn way(field: &Field, change_over: &ChangeOver, distance_m: f64) -> f64 {
 #[test]
 fn nothing_falls_within_the_clear_distance() {
     let field = dense();
-    let region = SeenRegion::EVERYWHERE;
-    let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 2000.0, clear_m: 0.5, exposure_s: 0.0 };
+    let region = VisibleRegion::EVERYWHERE;
+    let resolution = CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 2000.0, clear_m: 0.5, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
-    assert_eq!(way(&field, &change_over, 0.5), 0.0);
+    assert_eq!(optical_depth(&field, &change_over, 0.5), 0.0);
     let origin_m = DVec3::ZERO;
-    let streaks = field.about(origin_m, moment(0.0), &region, &change_over);
+    let streaks = field.particles_near(origin_m, moment(0.0), &region, &change_over);
     let far = |particle| field.streak(particle, origin_m, moment(0.0), &change_over).from_m;
     assert!(!streaks.is_empty() && streaks.iter().all(|particle| far(particle) == 0.5));
 }

@@ -9,14 +9,14 @@ const SIZE: [usize; 2] = [160, 90];
 
 /// Fraction of each pixel that drops cover during an exposure that begins at 0, by the drops' paths and cross-sections; a drop is no wider
 /// than a pixel if it is farther than 1 m.
-fn cover(field: &Field, exposure_s: f64) -> Vec<f64> {
+fn cover(field: &PrecipitationField, exposure_s: f64) -> Vec<f64> {
     const STEP_S: f64 = 1e-4;
     let interval = TimeInterval::new(0.0, exposure_s).expect("legal");
-    let region = SeenRegion::around(&[DVec3::X], 0.19, 0.0);
-    let resolution = Resolution { pixel_rad: PIXEL_RAD, smallest_px: 0.25, most: 1e9, clear_m: 1.0, exposure_s: 0.0 };
+    let region = VisibleRegion::around(&[DVec3::X], 0.19, 0.0);
+    let resolution = CameraResolution { pixel_rad: PIXEL_RAD, min_size_px: 0.25, max_particles: 1e9, clear_m: 1.0, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let mut cover = vec![0.0; SIZE[0] * SIZE[1]];
-    for particle in field.about(DVec3::ZERO, interval, &region, &change_over) {
+    for particle in field.particles_near(DVec3::ZERO, interval, &region, &change_over) {
         let streak = field.streak(&particle, DVec3::ZERO, interval, &change_over);
         let area_m2 = PI * f64::from(streak.half_m[0]) * f64::from(streak.half_m[1]);
         for i in 0..(exposure_s / STEP_S).round() as u32 {
@@ -43,7 +43,7 @@ fn the_visibility_of_rain_falls_as_the_root_of_the_exposure() {
     let exposures_s = [0.008, 0.016, 0.032, 0.064, 0.125];
     let points = exposures_s.map(|exposure_s| {
         let variance = |seed| {
-            let field = Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 500.0, seed);
+            let field = PrecipitationField::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 500.0, seed);
             let cover = cover(&field, exposure_s);
             let mean = cover.iter().sum::<f64>() / cover.len() as f64;
             cover.iter().map(|c| (c - mean) * (c - mean)).sum::<f64>() / cover.len() as f64

@@ -22,7 +22,7 @@ fn square() -> Mesh {
 }
 
 /// Rises from 1e5 m away from the world's origin by 12 m/s, tilts by up to 60°/s and grows.
-fn rising(how: Interpolation) -> Track {
+fn rising(interpolation: Interpolation) -> Track {
     let tilt = |angle: f64| {
         let (sin, cos) = maths::f64::sin_cos(0.5 * angle);
         DQuat::from_xyzw(sin * 0.6, sin * 0.8, 0.0, cos)
@@ -33,7 +33,7 @@ fn rising(how: Interpolation) -> Track {
         rotation: tilt(0.3 * i * i - 0.6),
         scale: DVec3::new(1.0 + 0.25 * i, 1.0 + 0.25 * i, 1.0),
     };
-    Track::new(&[0.0, 1.0, 2.0].map(key), how).expect("legal")
+    Track::new(&[0.0, 1.0, 2.0].map(key), interpolation).expect("legal")
 }
 
 const CAMERA: DVec3 = DVec3::new(1e5, 0.0, 0.0);
@@ -49,8 +49,8 @@ fn world_of(mesh: Mesh, to_world: Track) -> World {
 #[test]
 fn truth_of_a_moving_plane_is_exact_at_the_ray_s_time() {
     let mut random = Random::new(61);
-    for how in [Interpolation::Linear, Interpolation::Smooth] {
-        let track = rising(how);
+    for interpolation in [Interpolation::Linear, Interpolation::Smooth] {
+        let track = rising(interpolation);
         let world = world_of(square(), track.clone());
         let view = world.render_space_with(CAMERA, shutter(), Simd::Auto);
         for _ in 0..2000 {
@@ -105,7 +105,7 @@ fn points_normals_and_footprints_are_those_of_the_ray_s_time() {
 
 /// Rays that leave a moving plane do not hit it again, from either side, at any angle.
 #[test]
-fn a_moving_plane_is_not_met_again_at_the_time_of_the_point() {
+fn a_moving_plane_is_not_hit_again_at_the_time_of_the_point() {
     let mut random = Random::new(63);
     let world = world_of(square(), rising(Interpolation::Smooth));
     let view = world.render_space_with(CAMERA, shutter(), Simd::Auto);

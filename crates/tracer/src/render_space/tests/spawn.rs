@@ -18,7 +18,7 @@ fn leaving(normal: Vec3, random: &mut Random) -> Vec3 {
     (along * (1.0 - sine * sine).max(0.0).sqrt() + normal * sine).as_vec3()
 }
 
-fn met(view: &RenderSpace<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePoint> {
+fn next_point(view: &RenderSpace<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePoint> {
     let ray = Ray::new(origin.as_vec3(), (target - origin).normalize().as_vec3(), 0.0);
     view.closest(&ray).map(|hit| view.surface(&ray, &hit))
 }
@@ -36,7 +36,7 @@ fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
         let reach = f64::from(half_m) * 0.99 * etendue_core::maths::f64::pow(10.0, random.between(-6.0, 0.0));
         let target =
             placement.transform_point3(DVec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0) * reach);
-        let point = met(view, DVec3::ZERO, target - over).expect("a point of the plane");
+        let point = next_point(view, DVec3::ZERO, target - over).expect("a point of the plane");
         for side in [1.0, -1.0] {
             let d = leaving(point.geometric_normal * side, &mut random);
             let (known, unknown) = (point.leave(d), Ray::new(point.spawn(d), d, 0.0));
@@ -48,7 +48,7 @@ fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
 }
 
 #[test]
-fn a_plane_is_not_met_again_from_either_side() {
+fn a_plane_is_not_hit_again_from_either_side() {
     let mut random = Random::new(12);
     check_plane(10.0, DAffine3::IDENTITY, 2.0);
     check_plane(1e5, DAffine3::IDENTITY, 1.5);
@@ -72,7 +72,7 @@ fn what_a_ray_leaves_changes_no_answer() {
             let centre = placement.translation;
             let view = world.render_space(centre + DVec3::splat(1e-4));
             for _ in 0..3000 {
-                let Some(point) = met(&view, DVec3::ZERO, random.direction()) else { continue };
+                let Some(point) = next_point(&view, DVec3::ZERO, random.direction()) else { continue };
                 let d = leaving(
                     point.geometric_normal * if random.between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 },
                     &mut random,
@@ -89,7 +89,7 @@ fn what_a_ray_leaves_changes_no_answer() {
 
 /// A floor whose own frame has its origin 1e5 m away.
 #[test]
-fn a_plane_far_from_its_own_origin_is_not_met_again() {
+fn a_plane_far_from_its_own_origin_is_not_hit_again() {
     let corners = vec![Vec3::new(1e5, 0.0, 3.0), Vec3::new(1e5 + 64.0, 0.0, 3.0), Vec3::new(1e5, 64.0, 3.0)];
     let mut random = Random::new(15);
     let placement = DAffine3::from_mat3_translation(random.rotation(), DVec3::ZERO);
@@ -98,7 +98,7 @@ fn a_plane_far_from_its_own_origin_is_not_met_again() {
     let view = world.render_space(camera);
     for _ in 0..3000 {
         let at = DVec3::new(1e5 + random.between(1.0, 30.0), random.between(1.0, 30.0), 3.0);
-        let point = met(&view, DVec3::ZERO, placement.transform_point3(at) - camera).expect("the floor");
+        let point = next_point(&view, DVec3::ZERO, placement.transform_point3(at) - camera).expect("the floor");
         let d = leaving(point.geometric_normal, &mut random);
         assert!(view.closest(&Ray::new(point.spawn(d), d, 0.0)).is_none());
     }
@@ -109,7 +109,7 @@ fn check_convex(world: &World, camera: DVec3, random: &mut Random) {
     let view = world.render_space(camera);
     for _ in 0..3000 {
         let origin = random.direction() * 500.0;
-        let point = met(&view, origin, random.cube() * 0.4 - camera).expect("the body");
+        let point = next_point(&view, origin, random.cube() * 0.4 - camera).expect("the body");
         let normal = point.geometric_normal;
         let outward = leaving(normal, random);
         let ray = Ray::new(point.spawn(outward), outward, 0.0);
@@ -121,7 +121,7 @@ fn check_convex(world: &World, camera: DVec3, random: &mut Random) {
 }
 
 #[test]
-fn spheres_do_not_leak_and_are_not_met_again() {
+fn spheres_do_not_leak_and_are_not_hit_again() {
     let mut random = Random::new(16);
     let stretched = random.rotation() * DMat3::from_diagonal(DVec3::new(1.0, 0.8, 1.3));
     for matrix in [DMat3::IDENTITY, stretched] {

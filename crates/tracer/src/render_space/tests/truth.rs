@@ -14,7 +14,7 @@ const TOLERANCE: f64 = 3e-7;
 
 /// A square in its own plane z = 0, hit at `incidence` from `distance`: position, direction and normal known.
 #[test]
-fn planes_are_met_where_they_are() {
+fn planes_are_hit_where_they_are() {
     let mut random = Random::new(3);
     let mut worst: f64 = 0.0;
     for incidence in INCIDENCES_DEG.map(f64::to_radians) {
@@ -47,7 +47,7 @@ fn planes_are_met_where_they_are() {
 
 /// A sphere whose radius is a fifth of the distance, hit at `incidence`.
 #[test]
-fn spheres_are_met_where_they_are() {
+fn spheres_are_hit_where_they_are() {
     let mut random = Random::new(4);
     let mut worst: f64 = 0.0;
     for incidence in INCIDENCES_DEG.map(f64::to_radians) {
@@ -75,12 +75,12 @@ fn spheres_are_met_where_they_are() {
 /// A triangle of a centimetre, seen at a slope of a tenth from 100 km. The accelerator's ray is up to 4 mm per axis (half a unit in the
 /// last place of 1e5 m) off the exact one, whose intersection with the plane would be decimetres away.
 #[test]
-fn a_silhouette_is_met_where_the_triangle_is() {
+fn a_silhouette_is_hit_where_the_triangle_is() {
     let mut random = Random::new(5);
     let (side, distance) = (1e-2, 1e5);
     let corners = [Vec3::ZERO, Vec3::new(1e-2, 0.0, 1e-3), Vec3::new(0.0, 1e-2, 0.0)];
     let from = DVec3::X * -distance;
-    let (mut met, mut beyond) = (0, 0);
+    let (mut hits, mut beyond) = (0, 0);
     for _ in 0..40 {
         let mut builder = WorldBuilder::new();
         let id = builder.add_mesh(mesh(corners.to_vec(), vec![[0, 1, 2]]));
@@ -93,14 +93,14 @@ fn a_silhouette_is_met_where_the_triangle_is() {
             let target = placement.transform_point3(about) - view.origin_m();
             let Some(truth) = view.truth(DVec3::ZERO, target, 0.0, |_| true) else { continue };
             let exact = plane(corners.map(Vec3::as_dvec3), from, about - from);
-            met += 1;
+            hits += 1;
             beyond += usize::from(exact.is_none_or(|(_, u, v)| u.min(v).min(1.0 - u - v) < -0.1));
             // The triangle is 1e-2 m long; its own frame adds √3 · 4 mm.
             let along = placement.inverse().transform_point3(truth.position_m).x;
             assert!(along > -7e-3 && along < side + 7e-3, "{along}");
         }
     }
-    assert!(met > 100 && beyond > 50, "{met} met, {beyond} by an exact ray that is clear of the triangle");
+    assert!(hits > 100 && beyond > 50, "{hits} met, {beyond} by an exact ray that is clear of the triangle");
 }
 
 #[test]

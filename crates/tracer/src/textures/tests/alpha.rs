@@ -41,17 +41,17 @@ fn triplanar(size_m: f32, sharpness: f32) -> Sampling {
 }
 
 #[test]
-fn a_picture_from_three_sides_has_its_size_in_metres() {
+fn an_image_from_three_sides_has_its_size_in_metres() {
     // Squares of 1 m along x and y, seen from above.
-    let squares = picture(2, 2, triplanar(2.0, 4.0), |x, y| if (x + y) % 2 == 0 { 0.0 } else { 1.0 });
+    let squares = test_image(2, 2, triplanar(2.0, 4.0), |x, y| if (x + y) % 2 == 0 { 0.0 } else { 1.0 });
     let at =
         |x: f32, y: f32| squares.sample(&Lookup { local: Vec3::new(x, y, 7.3), ..Lookup::point(Vec2::splat(0.1)) })[0];
     assert_eq!((at(0.5, 0.5), at(1.5, 0.5), at(0.5, 1.5), at(2.5, 0.5), at(-0.5, 0.5)), (1.0, 0.0, 0.0, 1.0, 0.0));
 }
 
 #[test]
-fn a_picture_from_three_sides_is_filtered_and_blended() {
-    let ramp = picture(64, 64, triplanar(1.0, 8.0), |x, y| ((x ^ y) & 1) as f32);
+fn an_image_from_three_sides_is_filtered_and_blended() {
+    let ramp = test_image(64, 64, triplanar(1.0, 8.0), |x, y| ((x ^ y) & 1) as f32);
     let local_normal = Vec3::new(1.0, 1.0, 1.0).normalize();
     let place = Lookup { local: Vec3::new(0.3, 0.1, 0.7), local_normal, ..Lookup::point(Vec2::ZERO) };
     let filtered = Lookup { width_local: 1.0, ..place };

@@ -20,32 +20,32 @@ fn road(distance: f32, raster: Vec2) -> Vec2 {
 
 /// Method of reading the texture.
 #[derive(Clone, Copy)]
-enum Way {
+enum ReadMethod {
     Point,
     Footprint(f32),
 }
 
-struct Seen<'a> {
+struct RoadView<'a> {
     texture: &'a ImageTexture,
     tile_m: f32,
     distance: f32,
 }
 
-impl Seen<'_> {
-    fn pixel(&self, pixel: Pixel, samples: u32, draw: Draw, way: Way) -> f64 {
+impl RoadView<'_> {
+    fn pixel(&self, pixel: Pixel, samples: u32, draw: Draw, method: ReadMethod) -> f64 {
         let address = PixelAddress { frame: FrameAddress { seed: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
         let stream = PathStream::new(&address, 0);
         let corner = Vec2::new(pixel.x as f32 - 12.0, pixel.y as f32 - 4.0);
-        let one = |s| f64::from(self.read(road(self.distance, corner + stream.with_sample(s).two(draw, 0)), way));
+        let one = |s| f64::from(self.read(road(self.distance, corner + stream.with_sample(s).two(draw, 0)), method));
         (0..samples).map(one).sum::<f64>() / f64::from(samples)
     }
 
-    fn read(&self, place: Vec2, way: Way) -> f32 {
+    fn read(&self, place: Vec2, method: ReadMethod) -> f32 {
         let at = Lookup::point(place / self.tile_m);
-        let lookup = match way {
-            Way::Point => at,
-            Way::Footprint(share) => {
-                let width = share * place.y * PIXEL_RAD / self.tile_m;
+        let lookup = match method {
+            ReadMethod::Point => at,
+            ReadMethod::Footprint(fraction) => {
+                let width = fraction * place.y * PIXEL_RAD / self.tile_m;
                 Lookup { width, long: Vec2::new(0.0, width * place.y / HEIGHT_M), ..at }
             }
         };
@@ -53,12 +53,12 @@ impl Seen<'_> {
     }
 
     /// Moments of: the reference's pixels, those of the method, and their differences.
-    fn moments(&self, samples: u32, way: Way) -> [Moments; 3] {
+    fn moments(&self, samples: u32, method: ReadMethod) -> [Moments; 3] {
         let mut moments = [Moments::default(); 3];
         for (x, y) in (0..8).flat_map(|y| (0..24).map(move |x| (x, y))) {
             let pixel = Pixel { x, y };
-            let reference = self.pixel(pixel, 2048, Draw::Pupil, Way::Point);
-            let value = self.pixel(pixel, samples, Draw::PixelArea, way);
+            let reference = self.pixel(pixel, 2048, Draw::Pupil, ReadMethod::Point);
+            let value = self.pixel(pixel, samples, Draw::PixelArea, method);
             for (m, v) in moments.iter_mut().zip([reference, value, value - reference]) {
                 m.push(v);
             }
@@ -73,12 +73,12 @@ fn deviation(moments: &Moments) -> f64 {
 
 /// Squares of 1 m.
 fn checker() -> ImageTexture {
-    picture(64, 64, Sampling::default(), |x, y| if (x / 32 + y / 32) % 2 == 0 { 0.1 } else { 0.5 })
+    test_image(64, 64, Sampling::default(), |x, y| if (x / 32 + y / 32) % 2 == 0 { 0.1 } else { 0.5 })
 }
 
 /// Stones, one per texel, of reflectance 0.02 to 0.3.
 fn asphalt() -> ImageTexture {
-    picture(256, 256, Sampling::default(), |x, y| {
+    test_image(256, 256, Sampling::default(), |x, y| {
         let address = PixelAddress {
             frame: FrameAddress { seed: 9, ..FrameAddress::default() },
             pixel: Pixel { x, y },
@@ -93,7 +93,7 @@ fn asphalt() -> ImageTexture {
 const SAMPLES: u32 = 16;
 
 /// Fraction of a pixel's width that each of its samples represents.
-const SHARE: f32 = 0.25;
+const PIXEL_FRACTION: f32 = 0.25;
 
 #[test]
 fn a_distant_road_neither_shimmers_nor_blurs_away() {
@@ -101,25 +101,25 @@ fn a_distant_road_neither_shimmers_nor_blurs_away() {
         [("checker", checker(), 2.0), ("gravel", asphalt(), 2.56), ("slabs", asphalt(), 25.6)]
     {
         for distance in [10.0, 30.0, 100.0, 300.0] {
-            let seen = Seen { texture: &texture, tile_m, distance };
-            let [reference, _, unfiltered] = seen.moments(SAMPLES, Way::Point);
-            let [_, filtered, errors] = seen.moments(SAMPLES, Way::Footprint(SHARE));
+            let actual = RoadView { texture: &texture, tile_m, distance };
+            let [reference, _, unfiltered] = actual.moments(SAMPLES, ReadMethod::Point);
+            let [_, filtered, errors] = actual.moments(SAMPLES, ReadMethod::Footprint(PIXEL_FRACTION));
             let name = format!("{name} at {distance} m: {reference:?} {filtered:?} {errors:?}");
             // Three standard errors of the mean difference, and 0.1 % for light that filtering moves across the window's edge.
             let allowed = 3.0 * errors.variance_of_mean().expect("pixels").sqrt() + 1e-3 * reference.mean();
             assert!(errors.mean().abs() < allowed, "mean of {name}");
             // Measured: 1.0 near by, 0.6 at 100 m, 0.1 to 0.4 at 300 m.
-            let most = if distance < 100.0 {
+            let maximum = if distance < 100.0 {
                 1.02
             } else if distance < 300.0 {
                 0.65
             } else {
                 0.45
             };
-            assert!(deviation(&errors) < most * deviation(&unfiltered), "shimmer of {name}");
+            assert!(deviation(&errors) < maximum * deviation(&unfiltered), "shimmer of {name}");
             // Measured: 0.99 and more near by, 0.83 at 100 m, 0.7 at 300 m, where a thousand stones share a pixel.
-            let least = if distance < 100.0 { 0.97 } else { 0.65 };
-            assert!(deviation(&filtered) > least * deviation(&reference), "contrast of {name}");
+            let minimum = if distance < 100.0 { 0.97 } else { 0.65 };
+            assert!(deviation(&filtered) > minimum * deviation(&reference), "contrast of {name}");
         }
     }
 }
@@ -127,7 +127,7 @@ fn a_distant_road_neither_shimmers_nor_blurs_away() {
 #[test]
 fn long_footprints_see_what_lies_along_them() {
     // Stripes across the viewing direction: a long footprint averages them, a round one of the same width does not.
-    let stripes = picture(64, 64, Sampling::default(), |_, y| f32::from(u8::from(y % 16 < 8)));
+    let stripes = test_image(64, 64, Sampling::default(), |_, y| f32::from(u8::from(y % 16 < 8)));
     let round = Lookup { width: 1.0 / 64.0, ..Lookup::point(Vec2::new(0.5, 3.5 / 64.0)) };
     let along = Lookup { long: Vec2::new(0.0, 0.25), ..round };
     let across = Lookup { long: Vec2::new(0.25, 0.0), ..round };

@@ -63,16 +63,16 @@ fn part(texels: &Texels, first: usize, count: usize) -> Texels {
 /// Tiles of an image given by `rows` rows at a time.
 fn tiles(width: u32, height: u32, texels: &Texels, encoding: TexelEncoding, rows: usize) -> MemoryBlocks {
     let lengths = PyramidWriter::lengths(width, height, encoding);
-    let mut kept = MemoryBlocks { blocks: vec![Vec::new(); lengths.len()], ..MemoryBlocks::default() };
+    let mut memory_blocks = MemoryBlocks { blocks: vec![Vec::new(); lengths.len()], ..MemoryBlocks::default() };
     let mut writer = PyramidWriter::new(width, height, encoding).expect("a picture");
     let strip = rows * width as usize;
     for first in (0..texels.len()).step_by(strip) {
-        writer.push(&part(texels, first, strip), &mut kept).expect("rows");
+        writer.push(&part(texels, first, strip), &mut memory_blocks).expect("rows");
     }
-    writer.finish(&mut kept).expect("all rows");
-    let found: Vec<usize> = kept.blocks.iter().map(Vec::len).collect();
-    assert!(found.iter().zip(&lengths).all(|(found, told)| *found == *told as usize), "{found:?} {lengths:?}");
-    kept
+    writer.finish(&mut memory_blocks).expect("all rows");
+    let lengths_found: Vec<usize> = memory_blocks.blocks.iter().map(Vec::len).collect();
+    assert!(lengths_found.iter().zip(&lengths).all(|(actual, expected)| *actual == *expected as usize), "{lengths_found:?} {lengths:?}");
+    memory_blocks
 }
 
 fn lookups() -> Vec<Lookup> {
@@ -87,7 +87,7 @@ fn lookups() -> Vec<Lookup> {
 }
 
 #[test]
-fn values_are_those_of_the_picture_in_memory() {
+fn values_are_those_of_the_image_in_memory() {
     let sizes = [(1, 1), (3, 2), (64, 64), (65, 1), (131, 300), (1, 200), (257, 129)];
     for (size, encoding) in
         sizes.into_iter().zip([TexelEncoding::Srgb8, TexelEncoding::Linear8, TexelEncoding::Float].into_iter().cycle())
@@ -117,9 +117,9 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
     let texels = texels(500 * 400, encoding);
     let held = ImageTexture::new(500, 400, texels.clone(), Sampling::default()).expect("a picture");
     let reads = |limit: u64| {
-        let kept = Arc::new(tiles(size.0, size.1, &texels, encoding, 13));
+        let tiled_texels = Arc::new(tiles(size.0, size.1, &texels, encoding, 13));
         let memory = Arc::new(TileMemory::new(limit));
-        let blocks: Arc<dyn Blocks> = kept.clone();
+        let blocks: Arc<dyn Blocks> = tiled_texels.clone();
         let tiled =
             ImageTexture::tiled(size.0, size.1, encoding, blocks, &memory, Sampling::default()).expect("a picture");
         std::thread::scope(|scope| {
@@ -134,7 +134,7 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
         });
         assert_eq!(memory.failure(), None);
         assert!(memory.held_bytes() <= limit.max(2 * 64 * 64 * 12));
-        (kept.reads.load(Ordering::Relaxed), kept.blocks.len())
+        (tiled_texels.reads.load(Ordering::Relaxed), tiled_texels.blocks.len())
     };
     let (all, tiles) = reads(1 << 30);
     // Threads that miss the same tile at the same time each read it.
@@ -143,13 +143,13 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
 }
 
 #[test]
-fn what_is_no_picture_is_refused_as_in_memory() {
+fn what_is_no_image_is_refused_as_in_memory() {
     let mut nowhere = MemoryBlocks { blocks: vec![Vec::new(); 3], ..MemoryBlocks::default() };
     let writer = || PyramidWriter::new(2, 2, TexelEncoding::Float).expect("a picture");
     let push = |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut MemoryBlocks| {
         writer.push(&Texels::Float(texels), out)
     };
-    let size = |found| TiledError::Texture(TextureError::Size { width: 2, height: 2, found });
+    let size = |actual| TiledError::Texture(TextureError::Size { width: 2, height: 2, found: actual });
     let mut short = writer();
     push(&mut short, vec![[0.0; 3]; 2], &mut nowhere).expect("a row");
     assert_eq!(short.finish(&mut nowhere), Err(size(2)));

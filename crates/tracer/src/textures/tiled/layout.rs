@@ -70,13 +70,13 @@ pub(super) fn lengths(levels: &[LevelLayout]) -> Vec<u32> {
 
 /// Statistics of a whole image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in super::super) struct Statistics {
+pub(in super::super) struct ImageStatistics {
     /// Minimum and maximum of each channel.
     pub(in super::super) ranges: [(f32, f32); 3],
     pub(in super::super) mean: Vec3,
 }
 
-impl Statistics {
+impl ImageStatistics {
     pub(super) fn to_bytes(self) -> [u8; STATISTICS_BYTES] {
         let [r, g, b] = self.ranges;
         let mut bytes = [0; STATISTICS_BYTES];
@@ -87,7 +87,7 @@ impl Statistics {
         bytes
     }
 
-    pub(super) fn of_bytes(bytes: &[u8; STATISTICS_BYTES]) -> Self {
+    pub(super) fn from_bytes(bytes: &[u8; STATISTICS_BYTES]) -> Self {
         let n: [f32; 9] = core::array::from_fn(|i| f32::from_le_bytes(bytes.as_chunks().0[i]));
         Self { ranges: [(n[0], n[1]), (n[2], n[3]), (n[4], n[5])], mean: Vec3::new(n[6], n[7], n[8]) }
     }

@@ -16,13 +16,13 @@ const MAX_SHARDS: u64 = 64;
 const MIN_SHARD_BYTES: u64 = 2 * 64 * 64 * 12;
 
 /// Tiles that a thread keeps in its own list.
-const RECENT: usize = 32;
+const MAX_RECENT_TILES: usize = 32;
 
 /// Numbers the images of this process.
 static NUMBER: AtomicU32 = AtomicU32::new(0);
 
 thread_local! {
-    static RECENT_TILES: RefCell<[Option<(u64, Tile)>; RECENT]> = const { RefCell::new([const { None }; RECENT]) };
+    static RECENT_TILES: RefCell<[Option<(u64, Tile)>; MAX_RECENT_TILES]> = const { RefCell::new([const { None }; MAX_RECENT_TILES]) };
 }
 
 /// Bytes of a tile.
@@ -86,14 +86,14 @@ impl TileMemory {
 #[derive(Debug, Default)]
 struct Shard {
     places: HashMap<u64, usize>,
-    slots: Vec<Slot>,
+    slots: Vec<TileSlot>,
     hand: usize,
     bytes: u64,
     limit: u64,
 }
 
 #[derive(Debug)]
-struct Slot {
+struct TileSlot {
     key: u64,
     tile: Tile,
     /// True if it was used since the hand last passed.
@@ -114,16 +114,16 @@ impl Shard {
         }
         let bytes = tile.len() as u64;
         while self.bytes + bytes > self.limit && !self.slots.is_empty() {
-            self.pass_hand();
+            self.advance_hand();
         }
         self.bytes += bytes;
         self.places.insert(key, self.slots.len());
-        self.slots.push(Slot { key, tile: Arc::clone(&tile), is_used: false });
+        self.slots.push(TileSlot { key, tile: Arc::clone(&tile), is_used: false });
         tile
     }
 
     /// Moves the hand on by one: over a tile that was used, or removing it.
-    fn pass_hand(&mut self) {
+    fn advance_hand(&mut self) {
         self.hand %= self.slots.len();
         let slot = &mut self.slots[self.hand];
         if std::mem::take(&mut slot.is_used) {
@@ -160,7 +160,7 @@ impl Tiles {
     pub(super) fn with<T>(&self, block: usize, bytes: usize, value: impl FnOnce(&[u8]) -> T) -> T {
         let key = u64::from(self.number) << 32 | block as u64;
         RECENT_TILES.with_borrow_mut(|recent| {
-            let place = &mut recent[spread(key) as usize % RECENT];
+            let place = &mut recent[spread(key) as usize % MAX_RECENT_TILES];
             let tile = match place {
                 Some((known, tile)) if *known == key => tile,
                 _ => &mut place.insert((key, self.memory.tile(key, || self.read(block, bytes)))).1,
@@ -213,14 +213,14 @@ mod tests {
     #[test]
     fn large_limits_have_many_shards_and_small_ones_room_for_a_tile() {
         assert_eq!(TileMemory::new(1 << 30).shards.len(), 64);
-        let least = TileMemory::new(1);
-        assert_eq!(least.shards.len(), 1);
-        least.tile(1, || Ok(vec![1; 64 * 64 * 12].into()));
-        assert_eq!(least.held_bytes(), 64 * 64 * 12);
+        let minimum = TileMemory::new(1);
+        assert_eq!(minimum.shards.len(), 1);
+        minimum.tile(1, || Ok(vec![1; 64 * 64 * 12].into()));
+        assert_eq!(minimum.held_bytes(), 64 * 64 * 12);
     }
 
     #[test]
-    fn the_first_failure_is_told() {
+    fn the_first_failure_is_reported() {
         let memory = TileMemory::new(1 << 20);
         assert_eq!(memory.failure(), None);
         assert_eq!(*memory.tile(1, || Err("first".to_owned())), [0; 0]);

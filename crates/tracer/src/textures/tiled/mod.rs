@@ -11,10 +11,10 @@ use std::sync::Arc;
 use etendue_core::storage::Blocks;
 use glam::Vec3;
 
-use super::mipmap::{Resolution, neighbours};
+use super::mipmap::{TexelLevel, neighbours};
 use super::projection::Wrap;
 use super::texels::{Texel as _, TexelEncoding};
-use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, Statistics, TILE, layout};
+use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, ImageStatistics, TILE, layout};
 use memory::Tiles;
 
 pub use memory::TileMemory;
@@ -39,7 +39,7 @@ pub(super) fn levels(
     encoding: TexelEncoding,
     blocks: Arc<dyn Blocks>,
     memory: &Arc<TileMemory>,
-) -> Result<(Vec<TiledLevel>, Statistics), String> {
+) -> Result<(Vec<TiledLevel>, ImageStatistics), String> {
     let mut statistics = [0; STATISTICS_BYTES];
     blocks.read(0, &mut statistics)?;
     let tiles = Arc::new(Tiles::new(blocks, Arc::clone(memory)));
@@ -49,7 +49,7 @@ pub(super) fn levels(
         tiles: Arc::clone(&tiles),
         linear: linear.clone().filter(|_| layout.texel_bytes < FLOAT_TEXEL),
     };
-    Ok((layout(width, height, encoding).into_iter().map(level).collect(), Statistics::of_bytes(&statistics)))
+    Ok((layout(width, height, encoding).into_iter().map(level).collect(), ImageStatistics::from_bytes(&statistics)))
 }
 
 impl TiledLevel {
@@ -91,7 +91,7 @@ impl TiledLevel {
     }
 }
 
-impl Resolution<Vec3> for TiledLevel {
+impl TexelLevel<Vec3> for TiledLevel {
     fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> Vec3 {
         let (x0, x1, fx) = neighbours(s, self.layout.width, wrap[0]);
         let (y0, y1, fy) = neighbours(t, self.layout.height, wrap[1]);

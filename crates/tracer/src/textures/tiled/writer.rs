@@ -7,9 +7,9 @@ use std::collections::VecDeque;
 use etendue_core::storage::BlockWriter;
 use glam::{DVec3, Vec3};
 
-use super::super::mipmap::{Share, overlaps};
+use super::super::mipmap::{TexelArea, overlaps};
 use super::super::texels::{Texel as _, TexelEncoding, Texels, TextureError, TiledError};
-use super::layout::{FLOAT_TEXEL, LevelLayout, Statistics, TILE, layout, lengths};
+use super::layout::{FLOAT_TEXEL, LevelLayout, ImageStatistics, TILE, layout, lengths};
 
 /// Writes tiles from rows.
 #[derive(Debug)]
@@ -81,7 +81,7 @@ impl PyramidWriter {
         }
         let mean = (self.sum / (f64::from(width) * f64::from(height))).as_vec3();
         let ranges = core::array::from_fn(|i| (self.low[i], self.high[i]));
-        out.write(0, &Statistics { ranges, mean }.to_bytes()).map_err(TiledError::Tiles)
+        out.write(0, &ImageStatistics { ranges, mean }.to_bytes()).map_err(TiledError::Tiles)
     }
 
     fn wrong_size(&self, more: usize) -> TextureError {
@@ -137,7 +137,7 @@ struct Halving {
     columns: Vec<Vec<(usize, f32)>>,
     /// The next row of the next resolution, and its rows of this one, with their weights.
     next: u32,
-    shares: Vec<(usize, f32)>,
+    weights: Vec<(usize, f32)>,
     /// Rows from `first` on.
     window: VecDeque<Vec<Vec3>>,
     first: usize,
@@ -150,7 +150,7 @@ impl LevelWriter {
             coarse: next.height,
             columns: (0..next.width).map(|x| overlaps(x, next.width, layout.width).collect()).collect(),
             next: 0,
-            shares: overlaps(0, next.height, layout.height).collect(),
+            weights: overlaps(0, next.height, layout.height).collect(),
             window: VecDeque::new(),
             first: 0,
         });
@@ -193,17 +193,17 @@ impl Halving {
     fn add(&mut self, row: Vec<Vec3>) -> Option<Vec<Vec3>> {
         self.window.push_back(row);
         let newest = self.first + self.window.len() - 1;
-        if self.shares.last().is_none_or(|(last, _)| *last != newest) {
+        if self.weights.last().is_none_or(|(last, _)| *last != newest) {
             return None;
         }
         let (window, first) = (&self.window, self.first);
         let texel =
-            |columns: &Vec<(usize, f32)>| Share { columns, rows: &self.shares }.mean(|i, j| window[j - first][i]);
+            |columns: &Vec<(usize, f32)>| TexelArea { columns, rows: &self.weights }.mean(|i, j| window[j - first][i]);
         let coarse = self.columns.iter().map(texel).collect();
         self.next += 1;
         if self.next < self.coarse {
-            self.shares = overlaps(self.next, self.coarse, self.fine).collect();
-            let needed = self.shares.first().map_or(newest + 1, |(first, _)| *first);
+            self.weights = overlaps(self.next, self.coarse, self.fine).collect();
+            let needed = self.weights.first().map_or(newest + 1, |(first, _)| *first);
             self.window.drain(..(needed - self.first).min(self.window.len()));
             self.first = needed;
         }
