@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::rule::{ValueKind, Rule};
 use crate::document::{Node, Value};
 use crate::fault::DescriptionErrors;
-use crate::written::{Item, Table, Value as Said};
+use crate::written::{Item, Table, Value as WrittenValue};
 
 /// The rule of a value of another file's key, which checks its kind and range.
 pub(crate) const fn any_value() -> AnyValueRule {
@@ -33,18 +33,18 @@ impl Rule for AnyValueRule {
     }
     fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Item> {
         let value = match &node.value {
-            Value::Flag(flag) => Said::Flag(*flag),
-            Value::Whole(number) => u64::try_from(*number).map_or(Said::Number(*number as f64), Said::Whole),
-            Value::Number(number) if number.is_finite() => Said::Number(*number),
-            Value::Text(text) => Said::Text(text.clone()),
-            Value::Moment(text) => Said::Moment(text.clone()),
-            Value::List(list) => Said::List(list.iter().map(|entry| self.read(entry, errors)).collect::<Option<_>>()?),
+            Value::Flag(flag) => WrittenValue::Flag(*flag),
+            Value::Whole(number) => u64::try_from(*number).map_or(WrittenValue::Number(*number as f64), WrittenValue::Whole),
+            Value::Number(number) if number.is_finite() => WrittenValue::Number(*number),
+            Value::Text(text) => WrittenValue::Text(text.clone()),
+            Value::Moment(text) => WrittenValue::Moment(text.clone()),
+            Value::List(list) => WrittenValue::List(list.iter().map(|entry| self.read(entry, errors)).collect::<Option<_>>()?),
             Value::Table(table) => {
                 let mut written = Table::new().in_line();
                 for entry in &table.entries {
                     written.put(&entry.key, self.read(&entry.node, errors)?);
                 }
-                Said::Table(written)
+                WrittenValue::Table(written)
             }
             Value::Number(_) | Value::Foreign(_) | Value::Unreadable => return self.refuse(node, errors),
         };

@@ -26,7 +26,7 @@ macro_rules! record {
         }
 
         impl $crate::reader::Record for $name {
-            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::DescriptionErrors) -> Option<Self> {
                 let before = faults.count();
                 $( let $key = $crate::reader::macros::field!(read $kind $key, $ty, reader, faults $(, $rule)?); )*
                 let record = Self { place: reader.place().clone(), $( $key: $key? ),* };
@@ -46,7 +46,7 @@ macro_rules! record {
             }
 
             fn write_keys(&self, table: &mut $crate::written::Table) {
-                table.stand(&self.place);
+                table.set_place(&self.place);
                 $( $crate::reader::macros::field!(write $kind $key, self, table $(, $rule)?); )*
             }
 
@@ -250,7 +250,7 @@ macro_rules! variants {
         }
 
         impl $crate::reader::Record for $name {
-            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::DescriptionErrors) -> Option<Self> {
                 match $crate::reader::macros::variant_word(reader, $by, &[$($word),*], faults)? {
                     $( $word => <$ty as $crate::reader::Record>::read_keys(reader, faults).map(Self::$variant), )*
                     _ => None,
@@ -296,7 +296,7 @@ macro_rules! keyed {
         }
 
         impl $crate::reader::Record for $name {
-            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::DescriptionErrors) -> Option<Self> {
                 match $crate::reader::macros::only_key(reader, &[$(stringify!($key)),*], faults)? {
                     $( stringify!($key) => reader.required(stringify!($key), &$rule, faults).map(Self::$variant), )*
                     _ => None,

@@ -8,7 +8,7 @@ use super::table::{Reader, Record, record_schema};
 use crate::document::{Node, Value};
 use crate::fault::{ErrorCode, DescriptionErrors};
 use crate::place::Placed;
-use crate::written::{Item, Table, Value as Said};
+use crate::written::{Item, Table, Value as WrittenValue};
 
 /// Kind of a TOML value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,7 +215,7 @@ impl<R: Rule, const N: usize> Rule for ArrayRule<R, N> {
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {
         let list = value.value.iter().map(|v| self.rule.write(v)).collect::<Option<_>>()?;
-        Some(Item::at(&value.place, Said::List(list)))
+        Some(Item::at(&value.place, WrittenValue::List(list)))
     }
 }
 

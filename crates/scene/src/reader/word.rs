@@ -11,7 +11,7 @@ use crate::document::{Node, Value};
 use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
 use crate::place::Placed;
 use crate::suggest::nearest;
-use crate::written::{Item, Value as Said};
+use crate::written::{Item, Value as WrittenValue};
 
 /// `"a", "b", "c"`.
 pub(crate) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
@@ -258,7 +258,7 @@ impl<C: Word> Rule for ChoiceRule<C> {
         C::from_word(word).map(|value| Placed::new(value, node.place.clone()))
     }
     fn write(&self, value: &Placed<C>) -> Option<Item> {
-        Some(Item::at(&value.place, Said::Text(value.value.word().to_owned())))
+        Some(Item::at(&value.place, WrittenValue::Text(value.value.word().to_owned())))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::document::{Node, Value};
 use crate::fault::DescriptionErrors;
 use crate::place::Placed;
 use crate::reader::{ValueKind, Rule};
-use crate::written::{Item, Value as Said};
+use crate::written::{Item, Value as WrittenValue};
 
 /// A day of the Gregorian calendar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl Rule for DateRule {
     }
     fn write(&self, value: &Placed<Date>) -> Option<Item> {
         let Date { year, month, day } = value.value;
-        Some(Item::at(&value.place, Said::Moment(format!("{year:04}-{month:02}-{day:02}"))))
+        Some(Item::at(&value.place, WrittenValue::Moment(format!("{year:04}-{month:02}-{day:02}"))))
     }
 }
 
@@ -85,7 +85,7 @@ impl Rule for TimeRule {
     fn write(&self, value: &Placed<TimeOfDay>) -> Option<Item> {
         let seconds = value.seconds;
         let [hour, minute, second] = [seconds / 3600, seconds / 60 % 60, seconds % 60];
-        Some(Item::at(&value.place, Said::Moment(format!("{hour:02}:{minute:02}:{second:02}"))))
+        Some(Item::at(&value.place, WrittenValue::Moment(format!("{hour:02}:{minute:02}:{second:02}"))))
     }
 }
 

@@ -85,7 +85,7 @@ pub trait MeasurementRequest: Args {
 /// Requests and the functions that answer them.
 macro_rules! measured {
     ($($Request:ident: $measure:expr,)*) => {
-        $(impl Measured for $Request {
+        $(impl MeasurementRequest for $Request {
             fn measure(&self, camera_keys: bool, observer: &dyn Observer) -> Result<Report, Error> {
                 let measure: fn(&Self, bool, &dyn Observer) -> Result<Report, Error> = $measure;
                 measure(self, camera_keys, observer)

@@ -9,7 +9,7 @@ use etendue_optics::{Lens, OpticsError, SensorPlace, RayTransferLens};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_scene::asset::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
-use etendue_scene::record::lens::ray_transfer::{self as record, SensorPlace as Stated};
+use etendue_scene::record::lens::ray_transfer::{self as record, SensorPlace as StatedPlace};
 use glam::DVec2;
 
 /// Lens for an image, and for the film around it.
@@ -43,10 +43,10 @@ pub(super) fn lens(
     Some(Lens::ray_transfer(lens))
 }
 
-fn sensor<'a>(record: &'a Stated, record_place: &'a Place) -> (SensorPlace, &'a Place) {
+fn sensor<'a>(record: &'a StatedPlace, record_place: &'a Place) -> (SensorPlace, &'a Place) {
     match record {
-        Stated::Distance(distance) => (SensorPlace::Distance(distance.value), &distance.place),
-        Stated::Focus(focus) => (SensorPlace::Focus(focus_m(focus)), record_place),
+        StatedPlace::Distance(distance) => (SensorPlace::Distance(distance.value), &distance.place),
+        StatedPlace::Focus(focus) => (SensorPlace::Focus(focus_m(focus)), record_place),
     }
 }
 

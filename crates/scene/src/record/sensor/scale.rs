@@ -6,7 +6,7 @@ use crate::document::{Node, Value};
 use crate::fault::DescriptionErrors;
 use crate::place::Placed;
 use crate::reader::{ValueKind, Rule};
-use crate::written::{Item, Value as Said};
+use crate::written::{Item, Value as WrittenValue};
 
 /// Largest divisor: no image is wider.
 const MAX_DIVISOR: u64 = 65_536;
@@ -78,7 +78,7 @@ impl Rule for ScaleRule {
         }
     }
     fn write(&self, scale: &Placed<Scale>) -> Option<Item> {
-        Some(Item::at(&scale.place, Said::Text(scale.value.to_string())))
+        Some(Item::at(&scale.place, WrittenValue::Text(scale.value.to_string())))
     }
 }
 
