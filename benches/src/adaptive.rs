@@ -158,7 +158,8 @@ mod tests {
         // Two squares side by side: scatter 1 over 4, and 0; white pixels are left out.
         let width = 2 * SQUARE;
         let image_of = |k: u64| {
-            let electrons_at = |i: usize| if i % width < SQUARE { if k.is_multiple_of(2) { 9.0 } else { 11.0 } } else { 5.0 };
+            let electrons_at =
+                |i: usize| if i % width < SQUARE { if k.is_multiple_of(2) { 9.0 } else { 11.0 } } else { 5.0 };
             (0..width * SQUARE).map(electrons_at).collect::<Vec<f64>>()
         };
         let sensor_e2 = (0..width * SQUARE).map(|i| (i != 0).then_some(4.0)).collect();

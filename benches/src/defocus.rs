@@ -122,8 +122,7 @@ fn at_pupil(plan: &Plan, pool: &ThreadPool, method: DepthOfField) -> (SpectralCu
 /// The diameter of the disc that has the spread of a picture's light, px; `dot` is the square of the dot's side.
 fn diameter_px(image: &SpectralCube<Radiance>, dot: f64) -> f64 {
     let at = |i: usize| DVec2::new((i % image.width()) as f64, (i / image.width()) as f64);
-    let light: Vec<f64> =
-        image.planes()[image.planes().len() / 2].samples().iter().map(|l| f64::from(*l)).collect();
+    let light: Vec<f64> = image.planes()[image.planes().len() / 2].samples().iter().map(|l| f64::from(*l)).collect();
     let sum: f64 = light.iter().sum();
     let mean = light.iter().enumerate().map(|(i, l)| at(i) * *l).sum::<DVec2>() / sum;
     let square: f64 = light.iter().enumerate().map(|(i, l)| at(i).distance_squared(mean) * l).sum();

@@ -26,7 +26,8 @@ pub fn table() -> Table {
     let raw = expose(&sensor, &means);
     let one = pool(1);
     let exposing = RunStatistics::measure(|| one.install(|| timed(|| std::hint::black_box(expose(&sensor, &means))).1));
-    let developing = RunStatistics::measure(|| one.install(|| timed(|| std::hint::black_box(ramp_image(&raw, development))).1));
+    let developing =
+        RunStatistics::measure(|| one.install(|| timed(|| std::hint::black_box(ramp_image(&raw, development))).1));
     let mut table = Table::new("A frame of two megapixels", NOTE, &["step", "ms", "ns a pixel", "spread"]);
     table.row(row("electrons to raw, all noises", &exposing));
     table.row(row("raw to picture", &developing));

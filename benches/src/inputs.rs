@@ -44,7 +44,9 @@ const INPUTS: [Input; 10] = [
     Input { name: "OBJ, 10 million triangles", file: "hills.obj", make: hills, read: mesh },
     Input { name: "PNG, 8192 × 8192 px of 3 × 8 bits", file: "stripes.png", make: png, read: read_image },
     Input { name: "JPEG, 8192 × 8192 px", file: "stripes.jpg", make: jpeg, read: read_image },
-    Input { name: "Radiance HDR, 8192 × 8192 px", file: "stripes.hdr", make: |file| hdr(file, SIDE), read: read_image },
+    Input {
+        name: "Radiance HDR, 8192 × 8192 px", file: "stripes.hdr", make: |file| hdr(file, SIDE), read: read_image
+    },
     Input { name: "EXR, 8192 × 8192 px of 3 × 32 bits", file: "stripes.exr", make: exr, read: read_image },
     Input {
         name: "job under a sky of 8192 × 4096 px (HDR)",

@@ -27,7 +27,8 @@ pub fn table() -> Table {
     let head = ["lamps", "start, ms", "µs a path", "beside", "relative error²", "beside", "spread of times"];
     let mut table = Table::new("Lamps", NOTE, &head);
     let one = pool(1);
-    let measured: Vec<LampMeasurement> = COUNTS.iter().map(|count| LampMeasurement::measure(&mut plan(*count), &one)).collect();
+    let measured: Vec<LampMeasurement> =
+        COUNTS.iter().map(|count| LampMeasurement::measure(&mut plan(*count), &one)).collect();
     for (count, this) in COUNTS.iter().zip(&measured) {
         table.row(this.row(*count, &measured[0]));
     }

@@ -101,8 +101,7 @@ mod tests {
 
     #[test]
     fn squares_keep_their_places() {
-        let image: Vec<f64> =
-            (0..80 * WIDTH).map(|i| f64::from(u8::from(i % WIDTH >= 96 && i / WIDTH < 16))).collect();
+        let image: Vec<f64> = (0..80 * WIDTH).map(|i| f64::from(u8::from(i % WIDTH >= 96 && i / WIDTH < 16))).collect();
         let actual = means(&image);
         assert_eq!(actual.iter().position(|mean| *mean > 0.5), Some(6));
         assert_eq!((actual.len(), actual.iter().sum::<f64>()), (35, 1.0));

@@ -50,7 +50,8 @@ pub fn table() -> Table {
         let film = one.install(|| shot(&plan, &pupil));
         let radiance = film.radiance().expect("a cube").mean;
         let stored = StoredRadianceImage { projection, radiance: &radiance, distance: None };
-        let (mut lens, mut views, mut last) = (RunStatistics::default(), RunStatistics::default(), RunStatistics::default());
+        let (mut lens, mut views, mut last) =
+            (RunStatistics::default(), RunStatistics::default(), RunStatistics::default());
         for _ in 0..etendue_bench_rays::runs::COUNT {
             lens.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &direct))).1));
             views.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &pupil))).1));

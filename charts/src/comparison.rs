@@ -80,7 +80,8 @@ impl Comparison {
         for row in self.rows(includes) {
             let key = row["quantity"].as_str().unwrap_or_default();
             let declared = measured.rows(|k| k == key).next().map_or(Value::Null, |row| row["b"]["value"].clone());
-            let (declared, measured_value, measured_estimate) = (number(declared.as_f64()), estimate(&row["b"]), estimate(&row["a"]));
+            let (declared, measured_value, measured_estimate) =
+                (number(declared.as_f64()), estimate(&row["b"]), estimate(&row["a"]));
             let (error, e_n) = (rounded(row["relative_error_percent"].as_f64(), 3), rounded(row["e_n"].as_f64(), 2));
             text += &format!("| `{key}` | {declared} | {measured_value} | {measured_estimate} | {error} | {e_n} |\n");
         }

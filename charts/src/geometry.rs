@@ -45,7 +45,12 @@ fn distortion(bench: &Bench, dots: &Path) -> Result<Section, Error> {
         title: "Distortion",
         body: comparison.quantities(|_| true) + &comparison.result_lines("Observed over ideal distance") + &shown,
         // The curve is a ratio of distances: its relative error is one of the field position.
-        reached: vec![comparison.curve("distortion curve", bounds::DISTORTION, "largest_relative_error_percent", 1.0)?],
+        reached: vec![comparison.curve(
+            "distortion curve",
+            bounds::DISTORTION,
+            "largest_relative_error_percent",
+            1.0,
+        )?],
     })
 }
 
@@ -91,7 +96,11 @@ fn simulated(bench: &Bench, measured_report: &Path) -> Result<Section, Error> {
     let second = measured_focal(bench, &chart, "twin-focal")?;
     let simulated_comparison = compared(&CompareRequest::new(second, &first), None)?;
     let is_compared = |key: &str| ["fx_mm", "k1", "k2"].contains(&key);
-    Ok(Section { title: "Declared, measured and simulated", body: simulated_comparison.three_columns(&declared, is_compared), reached: Vec::new() })
+    Ok(Section {
+        title: "Declared, measured and simulated",
+        body: simulated_comparison.three_columns(&declared, is_compared),
+        reached: Vec::new(),
+    })
 }
 
 /// The reference camera with the focal length and the distortion that were found.

@@ -6,9 +6,9 @@ use crate::comparison::BoundResult;
 use crate::page::Section;
 use crate::run::{Warnings, compared, json, keep, number};
 use etendue::chart::design::{Backlit, FlatField};
-use etendue::chart::{Chart, ChartRequest, Exposures, ExposureSeries, Spacing};
+use etendue::chart::{Chart, ChartRequest, ExposureSeries, Exposures, Spacing};
 use etendue::measure::{
-    CompareRequest, FlatFieldRequest, OecfRequest, MeasurementInput, Selection, SignalLevels, VignettingRequest,
+    CompareRequest, FlatFieldRequest, MeasurementInput, OecfRequest, Selection, SignalLevels, VignettingRequest,
 };
 use etendue::{Error, ErrorCode, ExistingFiles, ExposeRequest, JobRequest, RenderOptions, expose, measure};
 use std::path::{Path, PathBuf};
@@ -38,7 +38,9 @@ fn vignetting(bench: &Bench) -> Result<Section, Error> {
     let comparison = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Vignetting",
-        body: comparison.quantities(|_| true) + &comparison.result_lines("Illumination relative to the centre") + &shown,
+        body: comparison.quantities(|_| true)
+            + &comparison.result_lines("Illumination relative to the centre")
+            + &shown,
         reached: vec![comparison.curve("vignetting", bounds::VIGNETTING, "largest_relative_error_percent", 1.0)?],
     })
 }
@@ -66,7 +68,11 @@ fn tone(bench: &Bench) -> Result<Section, Error> {
     let exposures = shots.iter().map(|shot| exposure_s(shot)).collect::<Result<Vec<f64>, _>>()?;
     let request = OecfRequest { exposures, ..OecfRequest::new(images("picture.0000.png")) };
     let developed = curve(bench, "picture", Some("G".to_owned()), request)?;
-    Ok(Section { title: "Tone curve, fifteen exposures", body: raw.1 + &developed.1, reached: vec![raw.0, developed.0] })
+    Ok(Section {
+        title: "Tone curve, fifteen exposures",
+        body: raw.1 + &developed.1,
+        reached: vec![raw.0, developed.0],
+    })
 }
 
 /// The light of a panel rendered once, and exposed by each camera: their folders of pictures.
@@ -98,10 +104,17 @@ fn exposure_s(shot: &Path) -> Result<f64, Error> {
 }
 
 /// A tone curve measured and compared.
-fn curve(bench: &Bench, output_name: &str, channel: Option<String>, request: OecfRequest) -> Result<(BoundResult, String), Error> {
+fn curve(
+    bench: &Bench,
+    output_name: &str,
+    channel: Option<String>,
+    request: OecfRequest,
+) -> Result<(BoundResult, String), Error> {
     let selection = Selection { channel, region: Some(CENTRE_REGION), ..Selection::default() };
-    let measured =
-        measure::oecf(&OecfRequest { input: MeasurementInput { selection, ..MeasurementInput::default() }, ..request })?;
+    let measured = measure::oecf(&OecfRequest {
+        input: MeasurementInput { selection, ..MeasurementInput::default() },
+        ..request
+    })?;
     let report = bench.folder.join(format!("tone-{output_name}.json"));
     keep(&measured, &report)?;
     let (plot, shown) = bench.plot(&format!("tone-{output_name}"));

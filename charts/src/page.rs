@@ -61,8 +61,9 @@ fn summary(reports: &[RecoveryReport]) -> String {
     let heads: String = reports.iter().map(|r| format!(" {} |", r.camera)).collect();
     let mut text = format!("| quantity | bound |{heads}\n| --- | --- |{}\n", " --- |".repeat(reports.len()));
     for quantity in quantities {
-        let cell_text =
-            |report: &RecoveryReport| report.reached().find(|r| r.quantity == quantity.quantity).map_or("–".to_owned(), cell);
+        let cell_text = |report: &RecoveryReport| {
+            report.reached().find(|r| r.quantity == quantity.quantity).map_or("–".to_owned(), cell)
+        };
         let cells: String = reports.iter().map(|report| format!(" {} |", cell_text(report))).collect();
         text += &format!("| {} | {} |{cells}\n", quantity.quantity.replace('_', " "), quantity.bound.text());
     }

@@ -2,7 +2,7 @@
 
 use crate::bounds;
 use crate::cameras::Bench;
-use crate::comparison::{Comparison, BoundResult};
+use crate::comparison::{BoundResult, Comparison};
 use crate::page::Section;
 use crate::run::{compared, keep};
 use etendue::chart::Chart;

@@ -81,7 +81,10 @@ impl Attempt {
         }
         let max_bytes = target.max_bytes(length);
         if self.peak_bytes > max_bytes {
-            return Some(format!("memory: {} bytes, where {length} bytes of input may take {max_bytes}", self.peak_bytes));
+            return Some(format!(
+                "memory: {} bytes, where {length} bytes of input may take {max_bytes}",
+                self.peak_bytes
+            ));
         }
         (self.time_s > crate::watch::SLOW_S).then(|| format!("time: {} s", self.time_s))
     }

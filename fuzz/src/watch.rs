@@ -81,7 +81,13 @@ fn store(result: &mut TargetResult, target: &Target, out: &Path, findings_folder
         if text.extension().is_some_and(|extension| extension == "txt") {
             let finding_text = fs::read_to_string(&text).unwrap_or_default();
             let (kind, finding) = finding_text.split_once('\n').unwrap_or((&finding_text, ""));
-            keep_finding(result, target, (kind, finding), &fs::read(text.with_extension("input")).unwrap_or_default(), findings_folder);
+            keep_finding(
+                result,
+                target,
+                (kind, finding),
+                &fs::read(text.with_extension("input")).unwrap_or_default(),
+                findings_folder,
+            );
         }
     }
 }
@@ -92,7 +98,13 @@ fn record_death(result: &mut TargetResult, target: &Target, folder: &Path, messa
     keep_finding(result, target, (&kind.replace('\n', " "), message), &input, findings_folder);
 }
 
-fn keep_finding(result: &mut TargetResult, target: &Target, (kind, finding): (&str, &str), input: &[u8], findings_folder: &Path) {
+fn keep_finding(
+    result: &mut TargetResult,
+    target: &Target,
+    (kind, finding): (&str, &str),
+    input: &[u8],
+    findings_folder: &Path,
+) {
     if result.findings.contains_key(kind) {
         return;
     }

@@ -124,7 +124,12 @@ impl Samples {
     /// As the statistics want it.
     #[must_use]
     pub fn estimate(&self) -> EstimatedPlane<'_> {
-        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates, correlated_pixels: 1 }
+        EstimatedPlane {
+            mean: &self.mean,
+            variance_of_mean: &self.variance,
+            replicates: self.replicates,
+            correlated_pixels: 1,
+        }
     }
 }
 

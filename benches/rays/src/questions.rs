@@ -36,11 +36,16 @@ struct VisiblePoint {
 
 /// Questions of all kinds that begin with `primary` rays, under a sun in direction `sun`.
 pub fn about(primary: Vec<Ray>, sun: Vec3, view: &RenderSpace<'_>) -> Vec<RayQueries> {
-    let visible_points: Vec<VisiblePoint> = primary.iter().enumerate().filter_map(|(i, ray)| visible_point(view, ray, i as u32)).collect();
+    let visible_points: Vec<VisiblePoint> =
+        primary.iter().enumerate().filter_map(|(i, ray)| visible_point(view, ray, i as u32)).collect();
     vec![
         RayQueries { name: "primary", rays: primary, any_hit: false },
         RayQueries { name: "bounce", rays: visible_points.iter().map(VisiblePoint::bounce).collect(), any_hit: false },
-        RayQueries { name: "shadow, sun", rays: visible_points.iter().filter_map(|s| s.towards(sun)).collect(), any_hit: true },
+        RayQueries {
+            name: "shadow, sun",
+            rays: visible_points.iter().filter_map(|s| s.towards(sun)).collect(),
+            any_hit: true,
+        },
         RayQueries {
             name: "shadow, sky",
             rays: visible_points.iter().filter_map(|s| s.towards(s.sky())).collect(),

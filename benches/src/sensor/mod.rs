@@ -62,7 +62,12 @@ struct SensorMeasurement {
 }
 
 impl SensorMeasurement {
-    fn measure(sensor: &Sensor, bare_sensor: &Sensor, means: &Plane<MeanElectrons>, [one, two]: &[ThreadPool; 2]) -> Self {
+    fn measure(
+        sensor: &Sensor,
+        bare_sensor: &Sensor,
+        means: &Plane<MeanElectrons>,
+        [one, two]: &[ThreadPool; 2],
+    ) -> Self {
         let mut measured = Self::default();
         for _ in 0..etendue_bench_rays::runs::COUNT {
             let alone = |sensor| one.install(|| timed(|| std::hint::black_box(expose(sensor, means))).1);

@@ -153,7 +153,9 @@ mod tests {
         let log = Exposures::spaced(4, Spacing::Log, 0.001, 1.0).expect("legal");
         let linear = Exposures::spaced(5, Spacing::Linear, 0.2, 1.2).expect("legal");
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-12);
-        assert!(near(&log.fractions, &[0.001, 0.01, 0.1, 1.0]) && near(&linear.fractions, &[0.2, 0.45, 0.7, 0.95, 1.2]));
+        assert!(
+            near(&log.fractions, &[0.001, 0.01, 0.1, 1.0]) && near(&linear.fractions, &[0.2, 0.45, 0.7, 0.95, 1.2])
+        );
         assert!(Exposures::spaced(1, Spacing::Log, 0.1, 1.0).is_err());
         assert!(Exposures::spaced(3, Spacing::Log, 1.0, 0.1).is_err());
         assert!(Exposures::listed(vec![0.1, 0.0]).is_err() && Exposures::listed(vec![]).is_err());

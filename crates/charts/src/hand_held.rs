@@ -31,7 +31,12 @@ impl CameraStation {
         let (sin, cos) = sin_cos(0.5 * (roll * MAX_ROLL_DEG).to_radians());
         let rotation_axis = axis.normalize_or(DVec3::X);
         let turn = DQuat::from_vec4((rotation_axis * sin).extend(cos));
-        Self { position_m: self.target_m - axis * distance_factor, target_m: self.target_m + pointing_error, up: turn * self.up, ..self }
+        Self {
+            position_m: self.target_m - axis * distance_factor,
+            target_m: self.target_m + pointing_error,
+            up: turn * self.up,
+            ..self
+        }
     }
 }
 
@@ -47,11 +52,17 @@ mod tests {
             let distance_ratio = (hand_held_station.position_m - station.target_m).length() / distance;
             let pointing_error = (hand_held_station.target_m - station.target_m).length() / distance;
             let roll_deg = hand_held_station.up.angle_between(station.up).to_degrees();
-            assert!((1.0..1.02).contains(&distance_ratio) && pointing_error > 0.0 && pointing_error < 0.0071, "{distance_ratio} {pointing_error}");
+            assert!(
+                (1.0..1.02).contains(&distance_ratio) && pointing_error > 0.0 && pointing_error < 0.0071,
+                "{distance_ratio} {pointing_error}"
+            );
             // Up need not be perpendicular to the axis, so that the roll is at most this much.
             assert!(roll_deg > 0.0 && roll_deg < 1.5, "{roll_deg}");
             assert_eq!(hand_held_station, station.clone().hand_held(7, nth));
-            assert!(hand_held_station != station.clone().hand_held(8, nth) && hand_held_station != station.hand_held(7, nth + 1));
+            assert!(
+                hand_held_station != station.clone().hand_held(8, nth)
+                    && hand_held_station != station.hand_held(7, nth + 1)
+            );
         }
     }
 }

@@ -27,6 +27,6 @@ pub use design::Chart;
 pub use drawing::{Cavity, Drawing, Feature, FeatureKind, Patch, Texture};
 pub use error::ChartError;
 pub use ink::{Ink, Paint};
-pub use light::{Light, CameraResponse, Panel};
+pub use light::{CameraResponse, Light, Panel};
 pub use ray_camera::{Footprint, RasterRay, RayCamera};
-pub use write::{ChartFile, Contents, ChartSpecification, camera_file, files, chart_image};
+pub use write::{ChartFile, ChartSpecification, Contents, camera_file, chart_image, files};

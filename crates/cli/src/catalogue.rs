@@ -76,7 +76,9 @@ fn subcommands(command: &Command) -> Vec<Subcommand> {
             verbs: subcommands(verb),
             arguments: match verb.has_subcommands() {
                 true => Vec::new(),
-                false => verb.get_arguments().filter(|argument| !is_everywhere(argument)).map(argument_report).collect(),
+                false => {
+                    verb.get_arguments().filter(|argument| !is_everywhere(argument)).map(argument_report).collect()
+                }
             },
         })
         .collect()

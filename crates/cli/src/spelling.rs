@@ -3,7 +3,7 @@
 
 use crate::console::Console;
 use clap::{ArgMatches, Command};
-use etendue::{Error, InputError, ImageTile, Message, Observer, Progress};
+use etendue::{Error, ImageTile, InputError, Message, Observer, Progress};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

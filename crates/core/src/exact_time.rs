@@ -124,7 +124,11 @@ impl FromStr for ExactTime {
         let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
         let (whole_digits, fraction) = digits.split_once('.').unwrap_or((digits, ""));
         let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-        if !is_digits(whole_digits) || !is_digits(fraction) || whole_digits.len() > 15 || digits.len() == fraction.len() + 1 {
+        if !is_digits(whole_digits)
+            || !is_digits(fraction)
+            || whole_digits.len() > 15
+            || digits.len() == fraction.len() + 1
+        {
             let seconds: f64 = text.parse().map_err(|_| ParseTimeError)?;
             return Self::from_seconds(seconds).ok_or(ParseTimeError);
         }

@@ -177,7 +177,11 @@ impl Waveform {
     ///
     /// # Errors
     /// If rows are out of order, a level is out of its range or all are 0, or the period is too short.
-    pub fn table(rows: &[(f64, f64)], between: TableInterpolation, period_s: Option<f64>) -> Result<Self, WaveformError> {
+    pub fn table(
+        rows: &[(f64, f64)],
+        between: TableInterpolation,
+        period_s: Option<f64>,
+    ) -> Result<Self, WaveformError> {
         check_levels(rows.iter().map(|(_, level)| *level))?;
         let (first, last) = (rows[0], rows[rows.len() - 1]);
         if let Some([before, after]) = rows.array_windows().find(|[a, b]| !(a.0 < b.0 && b.0.is_finite())) {

@@ -8,7 +8,7 @@ use rand::RngExt as _;
 use rand_distr::Distribution as _;
 use serde::{Deserialize, Serialize};
 
-use crate::request::{Change, choice_texts, number_text, choice_changes, value_changes};
+use crate::request::{Change, choice_changes, choice_texts, number_text, value_changes};
 
 /// Use of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

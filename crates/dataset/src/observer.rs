@@ -19,7 +19,9 @@ impl Observer for SampleObserver<'_> {
         match message {
             Message::Note(_) if self.tells => self.all.message(message),
             Message::Note(_) => {}
-            Message::Warning(warning) => self.all.message(Message::Warning(&format!("sample {}: {warning}", self.sample))),
+            Message::Warning(warning) => {
+                self.all.message(Message::Warning(&format!("sample {}: {warning}", self.sample)))
+            }
         }
     }
 

@@ -91,8 +91,9 @@ pub(crate) fn check(variations: &Variations, groups: &[Vec<Change>], job: &JobRe
 /// Choices of each preset, then the limits of each variation.
 fn alternatives(variations: &Variations) -> Vec<Vec<Vec<Change>>> {
     let choices = |preset: &Preset| (0..preset.choices.len()).map(|choice| choice_changes(preset, choice)).collect();
-    let ends =
-        |entry: &Variation| ends(&entry.distribution).iter().map(|value| value_changes(entry, value).collect()).collect();
+    let ends = |entry: &Variation| {
+        ends(&entry.distribution).iter().map(|value| value_changes(entry, value).collect()).collect()
+    };
     variations.presets.iter().map(choices).chain(variations.vary.iter().map(ends)).collect()
 }
 

@@ -13,7 +13,10 @@ use serde_json::Value;
 use crate::format::{FormatWriter, writers};
 use crate::records::{Records, record_name};
 use crate::request::{self, DatasetRequest};
-use crate::{done_samples::CompleteSamples, draw::SampleVariation, observer::SampleObserver, picture, record::SampleRecord, set::Set};
+use crate::{
+    done_samples::CompleteSamples, draw::SampleVariation, observer::SampleObserver, picture, record::SampleRecord,
+    set::Set,
+};
 
 /// File of the set's facts.
 const SET_FILE: &str = "dataset.json";
@@ -43,7 +46,8 @@ pub fn dataset(
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
     check_folder(&set, root, existing)?;
     let remaining = samples_left(&set, &writers, &folder, existing, &request.samples, observer)?;
-    let mut run = DatasetRun { request, remaining: left: remaining, set: &set, writers: &writers, folder: &mut folder, observer, completed: 0 };
+    let mut run =
+        DatasetRun { request, remaining, set: &set, writers: &writers, folder: &mut folder, observer, completed: 0 };
     let written = run.samples();
     let completed = run.completed;
     if written.is_err() {

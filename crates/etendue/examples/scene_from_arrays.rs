@@ -5,7 +5,7 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, MeshTriangles, Unobserved};
+use etendue::{Error, JobRequest, MemoryFiles, MeshTriangles, RenderOptions, Unobserved};
 
 /// Vertices along each side of the sheet.
 const SIDE: u32 = 65;

@@ -16,7 +16,7 @@ use super::lamps;
 use super::moving::{MovingNodes, add_moving, part_of, to_world};
 use super::naming::{UniqueNames, path_between};
 use super::without::{even_sky, whole_view};
-use super::written::{ImportedCamera, View, ImportFiles, pose_of, size_of, import_files};
+use super::written::{ImportFiles, ImportedCamera, View, import_files, pose_of, size_of};
 
 pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {
     let stage = read_gltf_stage(file).map_err(Error::input)?;
@@ -92,7 +92,12 @@ fn emits_light(mesh: &MeshAsset) -> bool {
 }
 
 /// `None` for a light of zero intensity.
-fn light_of(light: &GltfLight, node_frames: &NodeFrames<'_>, names: &mut UniqueNames, report: &mut Vec<String>) -> Option<Light> {
+fn light_of(
+    light: &GltfLight,
+    node_frames: &NodeFrames<'_>,
+    names: &mut UniqueNames,
+    report: &mut Vec<String>,
+) -> Option<Light> {
     let name = names.take(&light.name, "light");
     // The specification multiplies linear sRGB by the intensity: a coloured light has the luminance of its colour times that of a white one.
     let luminance: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
@@ -150,7 +155,12 @@ fn cameras_of(
     }
 }
 
-fn camera_of(camera: &GltfCamera, node_frames: &NodeFrames<'_>, names: &mut UniqueNames, report: &mut Vec<String>) -> ImportedCamera {
+fn camera_of(
+    camera: &GltfCamera,
+    node_frames: &NodeFrames<'_>,
+    names: &mut UniqueNames,
+    report: &mut Vec<String>,
+) -> ImportedCamera {
     let name = names.take(&camera.name, "camera");
     let (view, aspect, message) = match camera.projection {
         GltfProjection::Perspective { yfov_rad, aspect } => {

@@ -48,7 +48,10 @@ pub(super) fn add_moving(
     report: &mut Vec<String>,
 ) -> Result<MovingNodes, String> {
     let shown = motion.animated_nodes.iter().filter(|mover| mover.has_mesh).count();
-    motion.parts.check_size(if motion.animated_nodes.is_empty() { 0 } else { shown + 1 }).map_err(|problem| problem.words)?;
+    motion
+        .parts
+        .check_size(if motion.animated_nodes.is_empty() { 0 } else { shown + 1 })
+        .map_err(|problem| problem.words)?;
     let mut moving = MovingNodes { frames: Vec::new() };
     for (number, mover) in motion.animated_nodes.iter().enumerate() {
         let name = names.take(&mover.name, "mover");
@@ -59,12 +62,18 @@ pub(super) fn add_moving(
         let mut frame = Frame::new(name.as_str(), mover_motion.placement(times.first().copied().unwrap_or(0.0)));
         if times.len() > 1 {
             frame = Frame::new(name.as_str(), FramePlacement::default());
-            frame.keys =
-                times.iter().map(|time_s| FrameKey::new(ExactTime::from(*time_s), mover_motion.placement(*time_s))).collect();
+            frame.keys = times
+                .iter()
+                .map(|time_s| FrameKey::new(ExactTime::from(*time_s), mover_motion.placement(*time_s)))
+                .collect();
         }
         frame.parent = mover.parent.map(|parent| moving.frames[parent].0.as_str().into());
         scene.frames.push(frame);
-        report.push(format!("node \"{name}\" moves: a frame with {} keys{}", times.len(), mover_motion.approximation_note(&times)));
+        report.push(format!(
+            "node \"{name}\" moves: a frame with {} keys{}",
+            times.len(),
+            mover_motion.approximation_note(&times)
+        ));
         let total_scale = above * scale;
         if mover.has_mesh {
             let own = if mover.scale.is_some() { DVec3::ONE } else { mover.rest.2 };
@@ -90,7 +99,8 @@ pub(super) fn add_moving(
 /// Part as a file in `meshes/`.
 pub(super) fn part_of(motion: &GltfMotion, mover: Option<(usize, [f64; 3])>, source: &Path, folder: &Path) -> Vec<u8> {
     let source_folder = source.parent().unwrap_or(Path::new(""));
-    let path_of = |name: &str| path_between(&folder.join("meshes"), &source_folder.join(name)).to_string_lossy().into_owned();
+    let path_of =
+        |name: &str| path_between(&folder.join("meshes"), &source_folder.join(name)).to_string_lossy().into_owned();
     motion.parts.part(mover, BLOB, &path_of)
 }
 

@@ -15,7 +15,8 @@ impl UniqueNames {
     /// Returns a unique name similar to `wish`: only its letters, digits, `-` and `_`, or `fallback` if it has none.
     pub(super) fn take(&mut self, preferred: &str, fallback: &str) -> String {
         const MAX: usize = 60;
-        let plain: String = preferred.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
+        let plain: String =
+            preferred.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
         let plain: String = plain.trim_matches('-').chars().take(MAX).collect();
         let stem = if plain.is_empty() { fallback.to_owned() } else { plain };
         let mut name = stem.clone();

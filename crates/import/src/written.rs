@@ -100,7 +100,12 @@ impl View {
 }
 
 /// `scene.toml` and `job.toml`, with the report at the head of the scene.
-pub(super) fn import_files(source: &Path, scene: &Scene, cameras: &[ImportedCamera], report: Vec<String>) -> ImportFiles {
+pub(super) fn import_files(
+    source: &Path,
+    scene: &Scene,
+    cameras: &[ImportedCamera],
+    report: Vec<String>,
+) -> ImportFiles {
     let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut head = format!("Converted from {name} by etendue import. Conversion report:");
     for line in &report {

@@ -166,7 +166,10 @@ fn is_preview(file: &ExrFile, name: &str) -> bool {
 
 fn origin(file: &ExrFile) -> VarianceOrigin {
     let stated = |key| file.attributes.get(key).and_then(|text| text.parse().ok()).unwrap_or(1);
-    VarianceOrigin { replicates: stated("etendue:replicates"), correlated_block_px: stated("etendue:correlated_block_px") }
+    VarianceOrigin {
+        replicates: stated("etendue:replicates"),
+        correlated_block_px: stated("etendue:correlated_block_px"),
+    }
 }
 
 fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<ChannelPair, Error> {
@@ -211,12 +214,16 @@ fn compare_images(a: &Path, b: &Path) -> Result<ComparedFiles, Error> {
     }
     let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));
     let names = if of_a.len() == 1 { &["grey"][..] } else { &["R", "G", "B", "A"] };
-    let channels = names
-        .iter()
-        .zip(of_a)
-        .zip(of_b)
-        .map(|((name, a), b)| ChannelPair { name: (*name).to_owned(), content: PairContent::Number { a, b, variance: None } });
-    Ok(ComparedFiles { width, height, channels: channels.collect(), origin: (VarianceOrigin::NONE, VarianceOrigin::NONE) })
+    let channels = names.iter().zip(of_a).zip(of_b).map(|((name, a), b)| ChannelPair {
+        name: (*name).to_owned(),
+        content: PairContent::Number { a, b, variance: None },
+    });
+    Ok(ComparedFiles {
+        width,
+        height,
+        channels: channels.collect(),
+        origin: (VarianceOrigin::NONE, VarianceOrigin::NONE),
+    })
 }
 
 /// Kind of an image's pixels, in words.
@@ -303,7 +310,8 @@ mod tests {
         let byte = image::DynamicImage::ImageLuma8(image::ImageBuffer::from_pixel(1, 1, image::Luma([7])));
         let message = read_pair(&a, &written("c.png", &byte)).expect_err("another kind").to_string();
         assert!(
-            message.ends_with("c.png: contains 8-bit grey, the other file 16-bit grey; compare images of the same kind"),
+            message
+                .ends_with("c.png: contains 8-bit grey, the other file 16-bit grey; compare images of the same kind"),
             "{message}"
         );
     }

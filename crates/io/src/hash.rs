@@ -80,7 +80,8 @@ impl FileDigest {
     /// Returns true if `path` is a regular file of this content; a link is not.
     #[must_use]
     pub fn matches(&self, path: &Path) -> bool {
-        let is_of_size = path.symlink_metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == self.bytes);
+        let is_of_size =
+            path.symlink_metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == self.bytes);
         is_of_size && Self::new(path).is_ok_and(|digest| digest == *self)
     }
 }

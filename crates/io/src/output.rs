@@ -105,11 +105,11 @@ impl OutputFolder {
         lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, FolderError>,
     ) -> Result<Self, FolderError> {
         let (created, pending, locks) = (CreatedFolders::default(), Vec::new(), Arc::default());
-        let mut folder = Self { root: root.to_path_buf(), existing, created: made: created, pending, mark: None, locks };
+        let mut folder = Self { root: root.to_path_buf(), existing, created, pending, mark: None, locks };
         folder.created.make(root)?;
         folder.locks = Arc::new(lock(&mut folder)?);
-        let mark =
-            RunMark::set(root).map_err(|cause| FolderError::from_io(root, "this output folder cannot be written to", &cause))?;
+        let mark = RunMark::set(root)
+            .map_err(|cause| FolderError::from_io(root, "this output folder cannot be written to", &cause))?;
         folder.mark = Some(mark);
         // With the mark in it, the folder stays: the locked folder must still have the name.
         match folder.locks.iter().all(FolderLock::is_still_named) {

@@ -354,7 +354,11 @@ mod tests {
             encoding(&[profile, (b"gAMA", &45_455_u32.to_be_bytes())]),
             Some(Encoding::Gamma(100_000.0 / 45_455.0))
         );
-        assert!(stated_encoding(&png(&[(b"cICP", &[9, 16, 0, 1])])).not_understood.is_some_and(|name| name.ends_with(" 16")));
+        assert!(
+            stated_encoding(&png(&[(b"cICP", &[9, 16, 0, 1])]))
+                .not_understood
+                .is_some_and(|name| name.ends_with(" 16"))
+        );
         assert!(stated_encoding(&png(&[(b"gAMA", &[0; 4])])).not_understood.is_some());
     }
 

@@ -87,8 +87,12 @@ impl TrajectoryColumns {
         let has_any = |wanted: &[&str]| wanted.iter().any(|name| names.contains(name));
         let rotation = match (has_any(&QUATERNION), has_any(&ANGLES)) {
             (false, false) => RotationColumns::None,
-            (true, false) => RotationColumns::Quaternion(find_columns(names, QUATERNION).ok_or_else(|| missing_columns(names, &QUATERNION))?),
-            (false, true) => RotationColumns::Angles(find_columns(names, ANGLES).ok_or_else(|| missing_columns(names, &ANGLES))?),
+            (true, false) => RotationColumns::Quaternion(
+                find_columns(names, QUATERNION).ok_or_else(|| missing_columns(names, &QUATERNION))?,
+            ),
+            (false, true) => {
+                RotationColumns::Angles(find_columns(names, ANGLES).ok_or_else(|| missing_columns(names, &ANGLES))?)
+            }
             (true, true) => {
                 let both = [QUATERNION.join(", "), ANGLES.join(", ")];
                 return Err(format!("rotations are given twice, as {} and as {}; remove one", both[0], both[1]));
@@ -181,7 +185,8 @@ fn read_json(file: &Path, text: &str) -> Result<ParsedTrajectory, Error> {
             let name = names[column];
             entry.get(name).ok_or_else(|| format!("lacks \"{name}\", which the first object has"))
         };
-        let wrong = |column: usize, actual: &Value| format!("found {actual} as \"{}\"; expected a number", names[column]);
+        let wrong =
+            |column: usize, actual: &Value| format!("found {actual} as \"{}\"; expected a number", names[column]);
         let value = |column: usize| {
             let json = entry_value(column)?;
             json.as_f64().ok_or_else(|| wrong(column, json))

@@ -79,7 +79,9 @@ impl<'a> Events<'a> {
     fn next(&mut self) -> Read<(Event<'a>, Span)> {
         match self.parser.next_event() {
             Some(Ok(event)) => Ok(event),
-            Some(Err(cause)) => Err(TreeError::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info()))),
+            Some(Err(cause)) => {
+                Err(TreeError::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info())))
+            }
             None => Err(TreeError::at(0, "not YAML or JSON: the file ends too early")),
         }
     }
@@ -87,7 +89,10 @@ impl<'a> Events<'a> {
     fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<TreeNode> {
         let line = span.start.line();
         if depth > MAX_DEPTH {
-            return Err(TreeError::at(line, format!("nested more than {MAX_DEPTH} levels deep, which is not supported")));
+            return Err(TreeError::at(
+                line,
+                format!("nested more than {MAX_DEPTH} levels deep, which is not supported"),
+            ));
         }
         let value = match event {
             Event::Scalar(text, style, ..) => NodeValue::Scalar(plain(&text, style)),
@@ -190,8 +195,9 @@ impl TreeNode {
     pub(crate) fn count(&self) -> Read<usize> {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-        count
-            .ok_or_else(|| TreeError::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
+        count.ok_or_else(|| {
+            TreeError::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1"))
+        })
     }
 
     /// Items of a list; `None` for other nodes.

@@ -261,8 +261,10 @@ fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec
     drop(green);
     let mut plane = vec![[0.0; 3]; samples.len()];
     plane.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-        let around =
-            Neighbourhood3 { mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)), green: [-1, 0, 1].map(|dy| padded.row(y, dy)) };
+        let around = Neighbourhood3 {
+            mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)),
+            green: [-1, 0, 1].map(|dy| padded.row(y, dy)),
+        };
         for (x, rgb) in out.iter_mut().enumerate() {
             *rgb = around.colours(x + HAMILTON_ADAMS_MARGIN, tile.at(x, y), tile.at(x + 1, y));
         }

@@ -32,7 +32,7 @@ pub use colour_matrix::{ColourMatrix, FitError, MatrixError, NOISE_OF_OTHER_CHAN
 pub use correction::{Defects, Shading, ShadingError};
 pub use demosaic::Demosaic;
 pub use detail::{Bilateral, DetailError, NoiseReduction, UnsharpMask};
-pub use develop::{Colour, DevelopError, DevelopmentResult, DevelopmentReport, Processing, develop};
+pub use develop::{Colour, DevelopError, DevelopmentReport, DevelopmentResult, Processing, develop};
 pub use raw::{BlackLevel, Filter, MAX_CHANNELS, Mosaic, MosaicError, RawImage, Tile};
 pub use tone::{Oecf, SCurve, Table, ToneCurve, ToneError};
 pub use white_balance::{NoResponse, WhiteBalance, white_balance_from_illuminant};

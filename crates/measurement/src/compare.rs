@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use etendue_io::compare::{ChannelPair, PairContent, VarianceOrigin, ComparedFiles, read_pair};
+use etendue_io::compare::{ChannelPair, ComparedFiles, PairContent, VarianceOrigin, read_pair};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{ExistingFiles, OutputFolder, inspect::Preview};
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
@@ -111,7 +111,12 @@ fn finding(channel: &ChannelPair, pair: &ComparedFiles, level: f64) -> Result<Ch
 }
 
 fn estimated<'a>(mean: &'a [f32], variance_of_mean: &'a [f32], origin: VarianceOrigin) -> EstimatedPlane<'a> {
-    EstimatedPlane { mean, variance_of_mean, replicates: origin.replicates, correlated_pixels: origin.correlated_block_px }
+    EstimatedPlane {
+        mean,
+        variance_of_mean,
+        replicates: origin.replicates,
+        correlated_pixels: origin.correlated_block_px,
+    }
 }
 
 /// Writes `a.png`, `b.png` and `difference.png` (|a − b|) of the first channel that differs most.
@@ -131,7 +136,9 @@ pub(crate) fn write(pair: &ComparedFiles, folder: &Path) -> Result<(), Error> {
 fn worst(pair: &ComparedFiles) -> Option<(Vec<f32>, Vec<f32>)> {
     let numbers = pair.channels.iter().map(|channel| match &channel.content {
         PairContent::Number { a, b, .. } => (a.clone(), b.clone()),
-        PairContent::Identity { a, b } => (a.iter().map(|v| *v as f32).collect(), b.iter().map(|v| *v as f32).collect()),
+        PairContent::Identity { a, b } => {
+            (a.iter().map(|v| *v as f32).collect(), b.iter().map(|v| *v as f32).collect())
+        }
     });
     numbers.max_by(|x, y| distance(&x.0, &x.1).total_cmp(&distance(&y.0, &y.1)))
 }

@@ -49,7 +49,11 @@ pub(crate) fn assert_coverage(measurement: &str, measured: impl Fn(u64) -> Cover
     let quantities: Vec<Coverage> = (0..runs[0].len()).map(|k| coverage(&runs, k)).collect();
     if is_whole {
         let is_fair = |quantity: &&Coverage| !ALLOWED_COUNTS.contains(&quantity.covered);
-        let unfair: Vec<_> = quantities.iter().filter(is_fair).map(|quantity| (quantity.quantity, quantity.covered, quantity.spread)).collect();
+        let unfair: Vec<_> = quantities
+            .iter()
+            .filter(is_fair)
+            .map(|quantity| (quantity.quantity, quantity.covered, quantity.spread))
+            .collect();
         assert!(unfair.is_empty(), "{measurement}: of {SEEDS} seeds are covered {unfair:?}");
     }
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/data/coverage.csv");
@@ -108,9 +112,9 @@ fn with_rows(table: &str, measurement: &str, quantities: &[Coverage]) -> String 
     let mut lines = table.lines();
     let heading = lines.next().unwrap_or_default().to_owned();
     let mut rows: Vec<String> = lines.filter(|line| !line.starts_with(&own)).map(str::to_owned).collect();
-    rows.extend(
-        quantities.iter().map(|quantity| format!("{}{},{:.3}", head(measurement, quantity.quantity), quantity.covered, quantity.spread)),
-    );
+    rows.extend(quantities.iter().map(|quantity| {
+        format!("{}{},{:.3}", head(measurement, quantity.quantity), quantity.covered, quantity.spread)
+    }));
     rows.sort();
     core::iter::once(heading).chain(rows).map(|line| line + "\n").collect()
 }

@@ -45,7 +45,9 @@ pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) 
         Alignment::None => 1.0,
         Alignment::Median => median_ratio(estimate, truth, &edges).ok_or(DepthError::Nothing)?,
     };
-    let sums = |includes: &dyn Fn(usize, f64) -> bool| DepthSums::from_pixels(estimate, truth, scale, settings, includes).errors();
+    let sums = |includes: &dyn Fn(usize, f64) -> bool| {
+        DepthSums::from_pixels(estimate, truth, scale, settings, includes).errors()
+    };
     let all = sums(&|i, _| !edges[i]);
     if all.pixels == 0 {
         return Err(DepthError::Nothing);

@@ -71,7 +71,10 @@ mod tests {
                     [re + a, im + b]
                 });
                 // Rounding: about fifty operations on values up to 10 · 64.
-                assert!((actual[0] - expected[0]).abs() < 1e-11 && (actual[1] - expected[1]).abs() < 1e-11, "{length} {k}");
+                assert!(
+                    (actual[0] - expected[0]).abs() < 1e-11 && (actual[1] - expected[1]).abs() < 1e-11,
+                    "{length} {k}"
+                );
             }
         }
     }

@@ -148,7 +148,8 @@ mod tests {
                 normal.sample(&mut NoiseStream::new(5, 0, frame, 0, pixel, purpose))
             };
             let sample = |i: usize| {
-                (200.0 + 4.0 * noise_at(i, frame, NoiseDraw::Read) + 3.0 * noise_at(i, 0, NoiseDraw::PixelOffset)) as f32
+                (200.0 + 4.0 * noise_at(i, frame, NoiseDraw::Read) + 3.0 * noise_at(i, 0, NoiseDraw::PixelOffset))
+                    as f32
             };
             let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
             stack.push(&image).expect("a frame");

@@ -59,8 +59,11 @@ pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     let deviations = Deviations::from_patch(patch);
     // Few blocks look like lines: rendered images have no line noise except the sensor's.
     let lines = if shared_px > 1 { LineVariances::default() } else { LineVariances::from_deviations(&deviations) };
-    let correlation =
-        if shared_px > 1 { block_correlation_sum(patch, &deviations, shared_px) } else { correlation_sum(&deviations, MAX_DISTANCE_PX, lines) };
+    let correlation = if shared_px > 1 {
+        block_correlation_sum(patch, &deviations, shared_px)
+    } else {
+        correlation_sum(&deviations, MAX_DISTANCE_PX, lines)
+    };
     let line_correlation = lines.rows / patch.height() as f64 + lines.columns / patch.width() as f64;
     PatchStatistics {
         mean: Estimate::new(moments.mean(), (variance * (correlation / count + line_correlation)).sqrt()),
@@ -238,7 +241,8 @@ mod tests {
         let test_image =
             |f: &dyn Fn(usize) -> f32| Image::from_samples(96, 96, (0..96 * 96).map(f).collect()).expect("a square");
         let (single, double) = (test_image(&|i| noise(i % 96, i / 96)), test_image(&|i| noise(i % 96 / 2, i / 96 / 2)));
-        let [one, four] = [&single, &double].map(|image| correlation_sum(&Deviations::from_patch(image), MAX_DISTANCE_PX, LineVariances::default()));
+        let [one, four] = [&single, &double]
+            .map(|image| correlation_sum(&Deviations::from_patch(image), MAX_DISTANCE_PX, LineVariances::default()));
         assert!((four / one - 4.0).abs() < 1.0, "{four} {one}");
         let [a, b] = [patch_statistics(&single, 1), patch_statistics(&double, 1)].map(|e| e.mean.standard_uncertainty);
         assert!((b / a - 2.0).abs() < 0.3, "{a} {b}");

@@ -177,7 +177,10 @@ mod tests {
                 Disc { centre: -2.0, radius: 9.0 },
             ] {
                 // 16 Gauss points on an analytic integrand.
-                assert!((clipped_etendue_sr(&VIEW, x, [Some(aperture), None]) / exact - 1.0).abs() < 1e-9, "{aperture:?}");
+                assert!(
+                    (clipped_etendue_sr(&VIEW, x, [Some(aperture), None]) / exact - 1.0).abs() < 1e-9,
+                    "{aperture:?}"
+                );
             }
         }
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport};
 pub use camera_file::open_camera;
-pub use effect::{EffectReport, OmissionReport, EffectStatusReport};
+pub use effect::{EffectReport, EffectStatusReport, OmissionReport};
 pub use memory::{CameraMemoryReport, MemoryReport, StageReport};
 pub use remark::{NoteReport, NoteSeverity};
 pub use scene::{SceneReport, SkyReport};

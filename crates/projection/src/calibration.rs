@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
-use crate::model::{Model, DirectionAndSolidAngle, field_angle};
+use crate::model::{DirectionAndSolidAngle, Model, field_angle};
 use crate::raster::CameraMatrix;
 
 /// Error of a calibration.

@@ -21,6 +21,8 @@ mod root;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use model::Model;
-pub use radial::{DistortionError, DistortionFit, RadialDistortion, RadialPolynomial, RadiusScales, RadiusUnit, DistortionDirection};
+pub use radial::{
+    DistortionDirection, DistortionError, DistortionFit, RadialDistortion, RadialPolynomial, RadiusScales, RadiusUnit,
+};
 pub use raster::{CameraMatrix, Raster, RasterError};
 pub use rectilinear::Rectilinear;

@@ -6,7 +6,7 @@ use crate::samples::{self, Cube, Sample, plane};
 use crate::watch::run;
 use etendue::{CameraResults, GroundTruth, Light, MotionTruth, RayTable};
 use etendue_core::quantity::{Disparity, Identity, Quantity};
-use etendue_core::{StoredCube, Plane};
+use etendue_core::{Plane, StoredCube};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyRange};
 use std::sync::Arc;
@@ -63,7 +63,11 @@ impl Camera {
     }
 
     /// Plane of the ground truth.
-    fn truth_plane<'py, Q>(&self, py: Python<'py>, plane_of: fn(&GroundTruth) -> &Plane<Q>) -> PyResult<Bound<'py, PyAny>>
+    fn truth_plane<'py, Q>(
+        &self,
+        py: Python<'py>,
+        plane_of: fn(&GroundTruth) -> &Plane<Q>,
+    ) -> PyResult<Bound<'py, PyAny>>
     where
         Q: Quantity,
         Q::Sample: Sample,
@@ -260,7 +264,11 @@ impl Camera {
     #[getter]
     fn disparity<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let disparity_planes = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
-        disparity_planes.as_ref().as_ref().map(|(disparity, _)| plane(py, disparity, Arc::clone(&disparity_planes) as _)).transpose()
+        disparity_planes
+            .as_ref()
+            .as_ref()
+            .map(|(disparity, _)| plane(py, disparity, Arc::clone(&disparity_planes) as _))
+            .transpose()
     }
 
     /// Visibility of each point in that camera: uint32, (height, width), the numbers of docs/ground-truth.md. None if the job names none.

@@ -8,9 +8,9 @@ use pyo3::types::PyAny;
 pub(crate) fn exception(py: Python<'_>, error: Error) -> PyErr {
     let instance = match error {
         Error::Input(errors) => instance_of(py, "InputError", |class| class.call1((error_fields(errors),))),
-        Error::Run(reason) => {
-            instance_of(py, "RunError", |class| class.call1((terminal_text(reason.trim_start_matches("error: ").trim_end()),)))
-        }
+        Error::Run(reason) => instance_of(py, "RunError", |class| {
+            class.call1((terminal_text(reason.trim_start_matches("error: ").trim_end()),))
+        }),
     };
     instance.map_or_else(|failure| failure, PyErr::from_value)
 }
@@ -23,7 +23,8 @@ fn instance_of<'py>(
     make(py.import("etendue._errors")?.getattr(class)?)
 }
 
-type ErrorFields = (String, Option<String>, Option<u32>, Option<u32>, Option<String>, &'static str, String, Option<String>);
+type ErrorFields =
+    (String, Option<String>, Option<u32>, Option<u32>, Option<String>, &'static str, String, Option<String>);
 
 /// Fields of `_errors.Fault`.
 fn error_fields(errors: Vec<InputError>) -> Vec<ErrorFields> {

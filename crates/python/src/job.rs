@@ -244,7 +244,8 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
 
 /// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
-    let type_error = || PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames");
+    let type_error =
+        || PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames");
     let Some(frames) = frames else { return Ok(0..1) };
     if let Ok(frame) = frames.extract::<u32>() {
         return Ok(frame..frame.checked_add(1).ok_or_else(type_error)?);
@@ -259,5 +260,6 @@ fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
 fn parse_word<T: Copy>(word: &str, option_name: &str, words: &[(&str, T)]) -> PyResult<T> {
     let matching = words.iter().find(|(name, _)| *name == word).map(|(_, value)| *value);
     let known: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
-    matching.ok_or_else(|| PyValueError::new_err(format!("{option_name}={word:?}: expected one of {}", known.join(", "))))
+    matching
+        .ok_or_else(|| PyValueError::new_err(format!("{option_name}={word:?}: expected one of {}", known.join(", "))))
 }

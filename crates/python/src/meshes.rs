@@ -33,7 +33,10 @@ pub(crate) fn files(
 }
 
 /// Items of an argument that is a mapping, by name.
-fn named<'py>(argument: &str, argument_value: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+fn named<'py>(
+    argument: &str,
+    argument_value: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
     let Some(value) = argument_value else { return Ok(Vec::new()) };
     let type_error = || PyTypeError::new_err(format!("{argument}: expected a dict from names to values"));
     let value = toml::mapping(value)?.ok_or_else(type_error)?;
@@ -44,7 +47,9 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
     let array_dict = toml::mapping(mesh)?.ok_or_else(|| {
         PyTypeError::new_err(format!("meshes[{name:?}]: expected a dict of arrays: {}", ARRAYS.join(", ")))
     })?;
-    if let Some(unknown_key) = array_dict.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {
+    if let Some(unknown_key) =
+        array_dict.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str()))
+    {
         return Err(PyValueError::new_err(format!(
             "meshes[{name:?}]: unknown array {unknown_key:?}; expected {}",
             ARRAYS.join(", ")
@@ -92,7 +97,13 @@ fn indices(NamedArray { array, place: told }: NamedArray<'_>) -> PyResult<Vec<[u
 }
 
 /// Two-dimensional array with rows of `n` numbers of one of these kinds.
-fn rows<'py>(array_like: &Bound<'py, PyAny>, n: usize, kinds: &str, content: &str, place: &str) -> PyResult<Bound<'py, PyAny>> {
+fn rows<'py>(
+    array_like: &Bound<'py, PyAny>,
+    n: usize,
+    kinds: &str,
+    content: &str,
+    place: &str,
+) -> PyResult<Bound<'py, PyAny>> {
     let array = array_like.py().import("numpy")?.call_method1("asarray", (array_like,))?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if !matches!(shape[..], [_, columns] if columns == n) {

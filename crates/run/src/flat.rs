@@ -8,10 +8,10 @@ use clap::{ArgMatches, Args, Command, FromArgMatches};
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::failure::{check_number, check_integer};
+use etendue_io::failure::{check_integer, check_number};
 use etendue_io::paths::camera_stem;
 use etendue_io::{ExistingFiles, OutputFolder, Provenance};
-use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, FrameStack};
+use etendue_pipeline::flat::{self, FlatLight, FrameStack, PhotonTransfer};
 use etendue_pipeline::plan::{CameraBody, Products, default_raw_format};
 use etendue_plan_report::camera_facts;
 use etendue_plan_report::open_camera;
@@ -266,11 +266,16 @@ impl FlatRun<'_> {
     /// Single frames of one light; `given` is its description in the facts.
     fn single(&self, light: FlatLight, key: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let files = ResultFiles::for_products(&self.products(), self.body, &self.request.frames);
-        files.keys().map(String::as_str).chain([ResultFiles::SIDECAR]).try_for_each(|file| writer.check_absent(file))?;
+        files
+            .keys()
+            .map(String::as_str)
+            .chain([ResultFiles::SIDECAR])
+            .try_for_each(|file| writer.check_absent(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(electrons_e) = electrons.samples().iter().find(|e| **e > MAX_E) {
-            let why =
-                format!("gives {electrons_e:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
+            let why = format!(
+                "gives {electrons_e:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light"
+            );
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{key}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
@@ -313,7 +318,12 @@ impl FlatRun<'_> {
     }
 
     /// Writes the frames of a stack; returns their size.
-    fn stack(&self, stack: &FrameStack, light: FlatLight, writer: &mut ResultWriter<'_>) -> Result<(usize, usize), Error> {
+    fn stack(
+        &self,
+        stack: &FrameStack,
+        light: FlatLight,
+        writer: &mut ResultWriter<'_>,
+    ) -> Result<(usize, usize), Error> {
         let light_factor = f64::from(u8::from(stack.photons > 0.0));
         let light = FlatLight { irradiance_w_m2: light_factor * light.irradiance_w_m2, ..light };
         let electrons = flat::electrons(self.body, light).expect("it has electronics");

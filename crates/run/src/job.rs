@@ -3,7 +3,7 @@
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
 use crate::memory_limits;
-use crate::results::{CameraResults, Results, FrameSequence};
+use crate::results::{CameraResults, FrameSequence, Results};
 use crate::rig;
 use crate::run::Run;
 use crate::run::films::check_frames;

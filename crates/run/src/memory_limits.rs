@@ -105,7 +105,8 @@ fn remedies(camera: &CameraPlan) -> String {
         (products.undistorted.is_some(), "no output.undistorted"),
         (products.signal_breakdown, "output.signal_breakdown = false"),
     ];
-    let product_keys = products_of_film.into_iter().filter(|(is_requested, _)| *is_requested).map(|(_, key)| key.to_owned());
+    let product_keys =
+        products_of_film.into_iter().filter(|(is_requested, _)| *is_requested).map(|(_, key)| key.to_owned());
     let size = format!("smaller width_px and height_px of [sensor] of camera {name}");
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();

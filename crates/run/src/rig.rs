@@ -17,7 +17,7 @@ use etendue_optics::{Front, Lens};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, TimeDependence};
 use etendue_projection::model::Perspective;
 use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, CameraMatrix, Model, DistortionDirection};
+use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -140,8 +140,12 @@ fn add_kalibr(calibrated: &[CalibratedCamera<'_>], none: &[String], rig: &mut Ri
         let (mut links, mut left_out) = (Vec::new(), none.to_vec());
         for camera in calibrated.iter().filter(|camera| camera.plan.mount.frame.as_deref() == frame) {
             match (camera.plan.mount.pose, kalibr::intrinsics(&camera.named())) {
-                (Some(pose), Ok(intrinsics)) => links.push(kalibr::ChainLink { camera: camera.named(), intrinsics, pose }),
-                (None, _) => left_out.push(format!("camera {}: {}", camera.plan.name, moving_reason(frame.unwrap_or(WORLD)))),
+                (Some(pose), Ok(intrinsics)) => {
+                    links.push(kalibr::ChainLink { camera: camera.named(), intrinsics, pose })
+                }
+                (None, _) => {
+                    left_out.push(format!("camera {}: {}", camera.plan.name, moving_reason(frame.unwrap_or(WORLD))))
+                }
                 (_, Err(why)) => left_out.push(omit(rig, &camera.plan.name, &why)),
             }
         }
@@ -292,7 +296,8 @@ fn farthest_px(body: &CameraBody, calibration: &Calibration) -> f64 {
     let raster = &body.raster;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);
     let last = f64::from(TEST_POSITIONS - 1);
-    let places = (0..TEST_POSITIONS * TEST_POSITIONS).map(|i| DVec2::new(f64::from(i % TEST_POSITIONS), f64::from(i / TEST_POSITIONS)) / last * size);
+    let places = (0..TEST_POSITIONS * TEST_POSITIONS)
+        .map(|i| DVec2::new(f64::from(i % TEST_POSITIONS), f64::from(i / TEST_POSITIONS)) / last * size);
     let off = |at_px: DVec2| {
         let direction = body.lens.direction(raster.sensor_mm(at_px))?;
         Some(calibration.project(direction).map_or(f64::INFINITY, |image_px| (image_px - at_px).length()))

@@ -8,7 +8,7 @@ use etendue_core::random::Pixel;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
-use etendue_pipeline::render::{FilmStorage, LightRequest, FrameCapture, light};
+use etendue_pipeline::render::{FilmStorage, FrameCapture, LightRequest, light};
 use etendue_pipeline::tile::{Tile, tiles};
 use etendue_sensor::{Sensor, TemporalNoise};
 use etendue_tracer::accel::Simd;
@@ -101,7 +101,8 @@ impl Job {
         settings.tile_px = settings.blocks.tile_px(sampling.tile_px);
         // Only of a few tiles; the others take no memory.
         let keeping = FilmStorage::Memory;
-        let request = LightRequest { frame_capture: FrameCapture::default(), simd, shard: sampling.shard.shard()?, keeping };
+        let request =
+            LightRequest { frame_capture: FrameCapture::default(), simd, shard: sampling.shard.shard()?, keeping };
         let film = light(self.plan(), &camera, request, &SilentObserver(observer));
         let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
         check_textures(self.plan())?;
@@ -203,13 +204,14 @@ impl SignalReader {
         let p = sensor.parameters();
         let width = p.cfa.width();
         let filter = [width as u32, (p.cfa.channels().len() / width) as u32];
-        let of_bands = camera.settings.bands.filter(|_| !camera.settings.accumulates_electrons).map_or_else(Vec::new, |bands| {
-            let rates = sensor.rate_responsivities();
-            let of = |channel: &usize| {
-                rates[*channel].band_means(bands).iter().map(|mean| mean * bands.width_nm()).collect()
-            };
-            p.cfa.channels().iter().map(of).collect()
-        });
+        let of_bands =
+            camera.settings.bands.filter(|_| !camera.settings.accumulates_electrons).map_or_else(Vec::new, |bands| {
+                let rates = sensor.rate_responsivities();
+                let of = |channel: &usize| {
+                    rates[*channel].band_means(bands).iter().map(|mean| mean * bands.width_nm()).collect()
+                };
+                p.cfa.channels().iter().map(of).collect()
+            });
         Self { exposure_s: p.exposure.exposure_s, filter, margin_px, band_response: of_bands }
     }
 

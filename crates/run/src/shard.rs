@@ -84,7 +84,8 @@ impl Job {
     pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
         let mut names = Vec::new();
         for group in self.plan().by_light() {
-            names.extend(shots_of(group[0], frames).into_iter().map(|frame_capture| film_name(group[0], frame_capture)));
+            names
+                .extend(shots_of(group[0], frames).into_iter().map(|frame_capture| film_name(group[0], frame_capture)));
         }
         names
     }
@@ -144,8 +145,11 @@ impl Job {
         let mut names = self.film_names(&request.frames);
         if let Some(unknown) = request.films.iter().find(|name| !names.contains(name)) {
             let some = names.iter().take(MAX_NAMED_FILMS).cloned().collect::<Vec<_>>().join(", ");
-            let more =
-                names.len().checked_sub(MAX_NAMED_FILMS + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
+            let more = names
+                .len()
+                .checked_sub(MAX_NAMED_FILMS + 1)
+                .map(|n| format!(" and {} more", n + 1))
+                .unwrap_or_default();
             return Err(Error::argument(
                 "films",
                 format!("`films` {unknown}: no film of these frames; available: {some}{more}"),

@@ -91,8 +91,11 @@ fn apply_weather(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Res
     })?;
     let moment = TimeInterval::at(stored.provenance.time_s)
         .ok_or_else(|| refuse("its time is not finite; expected radiance that etendue rendered"))?;
-    let image =
-        StoredRadianceImage { projection: &stored.projection, radiance: &stored.radiance, distance: stored.distance.as_ref() };
+    let image = StoredRadianceImage {
+        projection: &stored.projection,
+        radiance: &stored.radiance,
+        distance: stored.distance.as_ref(),
+    };
     weather.apply(&image, &pose, moment).map_err(|why| refuse(&why.to_string()))
 }
 
@@ -113,9 +116,14 @@ fn files(weathered: &WeatheredImage, stored: &StoredRadiance) -> Vec<(&'static s
 fn attenuated_variance(variance: &SpectralCube<Variance>, weathered: &WeatheredImage) -> SpectralCube<Variance> {
     let mut dimmed = variance.clone();
     for (plane, transmittances) in dimmed.planes_mut().iter_mut().zip(weathered.transmittance.planes()) {
-        let samples: Vec<f32> =
-            plane.samples().iter().zip(transmittances.samples()).map(|(variance, transmittance)| variance * transmittance * transmittance).collect();
-        *plane = Plane::from_samples(transmittances.width(), transmittances.height(), samples).expect("as many samples as pixels");
+        let samples: Vec<f32> = plane
+            .samples()
+            .iter()
+            .zip(transmittances.samples())
+            .map(|(variance, transmittance)| variance * transmittance * transmittance)
+            .collect();
+        *plane = Plane::from_samples(transmittances.width(), transmittances.height(), samples)
+            .expect("as many samples as pixels");
     }
     dimmed
 }

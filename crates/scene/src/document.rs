@@ -8,7 +8,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::line_index::LineIndex;
 use crate::place::Place;
 
@@ -127,7 +127,12 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, description_errors: &mut Descr
     let builder = Builder { spots: PlaceResolver::File { file: file.clone(), lines: LineIndex::new(text) } };
     for error in errors.iter().take(MAX_SYNTAX_ERRORS) {
         let place = builder.spots.place(error.span().map_or(0, |s| s.start), &"".into());
-        description_errors.add(ErrorCode::InvalidToml, &place, format!("invalid TOML: {}", error.message()), "correct the syntax");
+        description_errors.add(
+            ErrorCode::InvalidToml,
+            &place,
+            format!("invalid TOML: {}", error.message()),
+            "correct the syntax",
+        );
     }
     let table = builder.table(table.into_inner(), &"".into());
     Node { place: Place::file_head(file.clone()), value: Value::Table(table) }

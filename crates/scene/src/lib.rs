@@ -28,7 +28,9 @@ mod schema;
 mod suggest;
 pub mod written;
 
-pub use fault::{ErrorCode, Example, ExampleContext, Explanation, DescriptionError, DescriptionErrors, Problem, key_with_place};
+pub use fault::{
+    DescriptionError, DescriptionErrors, ErrorCode, Example, ExampleContext, Explanation, Problem, key_with_place,
+};
 pub use load::named_files;
 pub use load::{
     CameraSetup, Description, ReadText, Trigger, UnusedNames, edit, load_camera, load_datasheet, load_laboratory,

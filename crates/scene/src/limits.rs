@@ -76,7 +76,7 @@ pub static ALL: [&Limit; 7] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &
 
 impl Limit {
     const fn new(name: &'static str, meaning: &'static str, default: u64, highest: u64) -> Self {
-        Self { name, meaning: about: meaning, default, highest, raised: AtomicU64::new(0) }
+        Self { name, meaning, default, highest, raised: AtomicU64::new(0) }
     }
 
     /// Current value, in its unit.

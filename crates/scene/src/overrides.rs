@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::document::{Entry, Node, Table, Value, join, parse_override};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Place;
 use crate::suggest::nearest;
 
@@ -325,7 +325,12 @@ fn entry_or_table<'n>(table: &'n mut Table, part: &str, place: &Place) -> &'n mu
     &mut table.entries[index].node
 }
 
-fn entry_of_list<'n>(list: &'n mut [Node], part: &str, place: &Place, errors: &mut DescriptionErrors) -> Option<&'n mut Node> {
+fn entry_of_list<'n>(
+    list: &'n mut [Node],
+    part: &str,
+    place: &Place,
+    errors: &mut DescriptionErrors,
+) -> Option<&'n mut Node> {
     let entry = find_entry(list, part);
     if entry.is_none() {
         note_missing_entry(list, part, place, errors);

@@ -55,7 +55,8 @@ fn head(schema: &mut Json, title: &str) {
 
 /// A file that is complete, or extends another.
 fn file_with_base<T: Record>(title: &str) -> Json {
-    let mut schema = json!({ "if": { "required": ["base"] }, "then": partial_file::<T>(), "else": record_at_head::<T>() });
+    let mut schema =
+        json!({ "if": { "required": ["base"] }, "then": partial_file::<T>(), "else": record_at_head::<T>() });
     head(&mut schema, title);
     schema
 }

@@ -1,7 +1,7 @@
 //! From a cube of spectral irradiance to mean electrons.
 
 use etendue_core::quantity::{Irradiance, MeanElectrons};
-use etendue_core::{Bands, StoredCube, Plane, SpectralCube};
+use etendue_core::{Bands, Plane, SpectralCube, StoredCube};
 use rayon::prelude::*;
 
 use crate::sensor::Sensor;

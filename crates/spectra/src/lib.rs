@@ -21,4 +21,4 @@ mod table;
 pub mod upsample;
 
 pub use spectrum::Spectrum;
-pub use table::{Extrapolation, TablePlace, SpectrumError};
+pub use table::{Extrapolation, SpectrumError, TablePlace};

@@ -117,7 +117,8 @@ mod tests {
 
     #[test]
     fn a_lamp_takes_the_luminance_asked_for_and_infrared_none() {
-        let spectrum = with_luminance(illuminant::by_name("sodium-low-pressure").expect("a lamp"), 250.0).expect("bright");
+        let spectrum =
+            with_luminance(illuminant::by_name("sodium-low-pressure").expect("a lamp"), 250.0).expect("bright");
         assert!((luminance(&spectrum) / 250.0 - 1.0).abs() < 1e-6);
         let infrared = [(900.0, 1.0), (1000.0, 1.0)];
         let infrared = Spectrum::from_points(&infrared, Extrapolation::Zero).expect("a table");

@@ -3,7 +3,7 @@
 use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_core::{Bands, Spectral, Wavelengths};
 
-use crate::table::{self, Extrapolation, TablePlace, SpectrumError, rows};
+use crate::table::{self, Extrapolation, SpectrumError, TablePlace, rows};
 
 /// Nodes of the grid: 300, 301, … 1 100 nm.
 pub(crate) const NODES: usize = 801;

@@ -227,7 +227,10 @@ mod tests {
         assert_eq!([300.0, 550.0, 1100.0].map(|nm| held.at(nm)), [0.3; 3]);
         let error = Spectrum::from_csv("550.5,0.3\n", Extrapolation::Zero).expect_err("no width").to_string();
         assert!(error.starts_with("the table has one point, 550.5 nm, and light"), "{error}");
-        assert_eq!(Spectrum::from_points(&[(550.5, 0.3)], Extrapolation::Zero), Err(SpectrumError::NoWidth { nm: 550.5 }));
+        assert_eq!(
+            Spectrum::from_points(&[(550.5, 0.3)], Extrapolation::Zero),
+            Err(SpectrumError::NoWidth { nm: 550.5 })
+        );
     }
 
     #[test]

@@ -72,7 +72,11 @@ impl Moments {
         let (fraction, difference) = (other.count as f64 / count as f64, other.mean() - self.mean());
         let between = difference * difference * self.count as f64 * fraction;
         let squares = self.squares.total() + other.squares.total() + between;
-        Self { count, mean: CompensatedSum::new(self.mean() + difference * fraction), squares: CompensatedSum::new(squares) }
+        Self {
+            count,
+            mean: CompensatedSum::new(self.mean() + difference * fraction),
+            squares: CompensatedSum::new(squares),
+        }
     }
 
     /// Number of values.

@@ -189,8 +189,9 @@ fn evaluate(runs: &[PixelRun], correlated_pixels: [u32; 2], pooled_pixels: usize
     let all_pixels = (runs.len() > 1).then(|| (PixelRun::total(runs), correlated_pixels.map(f64::from)));
     let within = correlated_pixels.map(|m| f64::from(m).min(pooled_pixels as f64));
     let all = runs.iter().map(|run| (*run, within)).chain(all_pixels);
-    let tests: Vec<(usize, f64, f64)> =
-        all.filter_map(|(run, correlated_pixels)| run.test(correlated_pixels).map(|(z, p)| (run.first_pixel, z, p))).collect();
+    let tests: Vec<(usize, f64, f64)> = all
+        .filter_map(|(run, correlated_pixels)| run.test(correlated_pixels).map(|(z, p)| (run.first_pixel, z, p)))
+        .collect();
     let level = chi_square::sidak_level(significance, tests.len());
     let certain: usize = runs.iter().map(|r| r.certain_differences).sum();
     let not_finite = runs.iter().map(|r| r.not_finite).sum();
@@ -259,7 +260,7 @@ mod tests {
         let alarms = |correlated_pixels| {
             let differs = |seed: &u64| {
                 let (a, b) = (blocks(*seed), blocks(seed + 1000));
-                let stated = |image| EstimatedPlane { correlated_pixels: alike: correlated_pixels, ..plane(image, 8) };
+                let stated = |image| EstimatedPlane { correlated_pixels, ..plane(image, 8) };
                 compare(&stated(&a), &stated(&b), 0.05).expect("sizes").verdict == Verdict::Differ
             };
             (0..100).filter(differs).count()

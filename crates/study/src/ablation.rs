@@ -66,7 +66,9 @@ pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observ
                 });
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
-            Some(None) => retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() }),
+            Some(None) => {
+                retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() })
+            }
             None => {}
         }
     }
@@ -93,7 +95,13 @@ pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observ
     observer.progress(Progress { heading: "done", frame: None, unit: ProgressUnit::Pilots, done: total, total });
     drop(edges);
     let cpu_s = with.seconds(renderer.job_spp);
-    Ok(Ablation { spp: spp * (1 + SECOND_SAMPLES_RATIO), cpu_s, camera: renderer.camera, dropped: dropped_effects, kept: retained })
+    Ok(Ablation {
+        spp: spp * (1 + SECOND_SAMPLES_RATIO),
+        cpu_s,
+        camera: renderer.camera,
+        dropped: dropped_effects,
+        kept: retained,
+    })
 }
 
 /// The table of an ablation.

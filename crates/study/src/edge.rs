@@ -122,11 +122,13 @@ fn edges_in_table(table: &Table) -> Vec<EdgeResult> {
         |key: &str| table.columns.iter().position(|(own, _)| *own == key).expect("a column of the measurement");
     let [at, direction, field, mtf50] = ["at_px", "direction", "field_percent", "mtf50_cycles_per_px"].map(column);
     let of_row = |row: &Vec<Cell>| match (&row[at], &row[direction], &row[field], &row[mtf50]) {
-        (Cell::Text(at), Cell::Text(direction), Cell::Number(field_percent, _), Cell::Estimate(e)) => Some(EdgeResult {
-            position_and_direction: [at.clone(), direction.clone()],
-            field_percent: *field_percent,
-            mtf50: Estimate { value: e.value, uncertainty: e.standard_uncertainty },
-        }),
+        (Cell::Text(at), Cell::Text(direction), Cell::Number(field_percent, _), Cell::Estimate(e)) => {
+            Some(EdgeResult {
+                position_and_direction: [at.clone(), direction.clone()],
+                field_percent: *field_percent,
+                mtf50: Estimate { value: e.value, uncertainty: e.standard_uncertainty },
+            })
+        }
         _ => None,
     };
     table.rows.iter().filter_map(of_row).collect()
@@ -134,8 +136,11 @@ fn edges_in_table(table: &Table) -> Vec<EdgeResult> {
 
 /// Means of two captures over the edges that both contain, with weights of both, so that an edge missing in one affects neither.
 fn means_of_common_edges(without: &[EdgeResult], with: &[EdgeResult]) -> [Mtf50; 2] {
-    let pair =
-        |edge: &EdgeResult| with.iter().find(|other| other.position_and_direction == edge.position_and_direction).map(|other| [edge.clone(), other.clone()]);
+    let pair = |edge: &EdgeResult| {
+        with.iter()
+            .find(|other| other.position_and_direction == edge.position_and_direction)
+            .map(|other| [edge.clone(), other.clone()])
+    };
     let pairs: Vec<[EdgeResult; 2]> = without.iter().filter_map(pair).collect();
     let mean = |is_in: &dyn Fn(f64) -> bool| {
         let inside = pairs.iter().filter(|[edge, _]| is_in(edge.field_percent));
@@ -158,7 +163,8 @@ fn weighted_means(pairs: impl Iterator<Item = [Estimate; 2]>) -> Option<[Estimat
             variances[i] += weight * weight * e.uncertainty * e.uncertainty;
         }
     }
-    let mean = |i: usize| Estimate { value: weighted[i] / total_weight, uncertainty: variances[i].sqrt() / total_weight };
+    let mean =
+        |i: usize| Estimate { value: weighted[i] / total_weight, uncertainty: variances[i].sqrt() / total_weight };
     (total_weight > 0.0).then(|| [0, 1].map(mean))
 }
 

@@ -85,7 +85,11 @@ pub struct ErrorMetrics<T> {
 impl<T> ErrorMetrics<T> {
     /// Applies a function to each metric.
     pub fn map<U>(&self, each: impl Fn(&T) -> U) -> ErrorMetrics<U> {
-        ErrorMetrics { relative: each(&self.relative), sensor: self.sensor.as_ref().map(&each), patch: each(&self.patch) }
+        ErrorMetrics {
+            relative: each(&self.relative),
+            sensor: self.sensor.as_ref().map(&each),
+            patch: each(&self.patch),
+        }
     }
 
     /// Combines each metric with that of another value.

@@ -6,7 +6,7 @@ use crate::study::StudyRequest;
 use crate::way::{SAMPLE_KEYS, without_keys};
 use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions, Word as _};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
-use etendue_core::{StoredCube, Plane};
+use etendue_core::{Plane, StoredCube};
 
 /// Ratio of samples of the second render to those of the first.
 pub(crate) const SECOND_SAMPLES_RATIO: u32 = 3;
@@ -77,7 +77,11 @@ impl<'a> FrameRenderer<'a> {
     ///
     /// # Errors
     /// The job is invalid or has no such camera.
-    pub(crate) fn open(request: &'a StudyRequest, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
+    pub(crate) fn open(
+        request: &'a StudyRequest,
+        clock: &'a dyn Clock,
+        observer: &'a dyn Observer,
+    ) -> Result<Self, Error> {
         let job = request.job.clone().open()?;
         let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
         let settings = job.camera_plan(&camera)?.settings;
@@ -113,7 +117,11 @@ impl<'a> FrameRenderer<'a> {
     /// # Errors
     /// The job is invalid, the observer cancels, or bands on disk cannot be read.
     pub(crate) fn render_pair(&self, job: &JobRequest, spp: u32) -> Result<RenderPair, Error> {
-        Ok(RenderPair { few_samples: self.render(job, spp, 1)?, many: self.render(job, SECOND_SAMPLES_RATIO * spp, 2)?, spp })
+        Ok(RenderPair {
+            few_samples: self.render(job, spp, 1)?,
+            many: self.render(job, SECOND_SAMPLES_RATIO * spp, 2)?,
+            spp,
+        })
     }
 
     fn render(&self, job: &JobRequest, spp: u32, k: u32) -> Result<FrameRender, Error> {

@@ -116,7 +116,9 @@ pub(crate) fn point(measured: &ConfigurationMeasurement, spp: u32, frame: FrameO
 /// Pareto front: the points that no other configuration beats in both time and error, by the deciding metric, shortest first.
 pub(crate) fn front(configurations: &[ConfigurationMeasurement], frame: FrameOverhead) -> Vec<FrontPoint> {
     let counts = FRONT_POWERS.map(|power| (1_u32 << power).next_multiple_of(frame.replicates));
-    let mut points: Vec<_> = counts.flat_map(|spp| configurations.iter().map(move |configuration| point(configuration, spp, frame))).collect();
+    let mut points: Vec<_> = counts
+        .flat_map(|spp| configurations.iter().map(move |configuration| point(configuration, spp, frame)))
+        .collect();
     points.sort_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
     let mut min_error = f64::INFINITY;
     points.retain(|point| {
@@ -129,8 +131,14 @@ pub(crate) fn front(configurations: &[ConfigurationMeasurement], frame: FrameOve
 }
 
 /// The fastest configuration that reaches a target; the one with the smallest error if none does.
-pub(crate) fn recommend(configurations: &[ConfigurationMeasurement], target: ErrorTarget, frame: FrameOverhead) -> Option<Recommendation> {
-    let reaching = configurations.iter().filter_map(|configuration| Some(point(configuration, samples_for(configuration, target, frame)?, frame)));
+pub(crate) fn recommend(
+    configurations: &[ConfigurationMeasurement],
+    target: ErrorTarget,
+    frame: FrameOverhead,
+) -> Option<Recommendation> {
+    let reaching = configurations
+        .iter()
+        .filter_map(|configuration| Some(point(configuration, samples_for(configuration, target, frame)?, frame)));
     let quickest = reaching.min_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
     let best = || {
         let max_samples = MAX_SPP as u32 / frame.replicates * frame.replicates;
@@ -189,7 +197,8 @@ mod tests {
 
     #[test]
     fn cheap_configurations_win_for_low_targets() {
-        let configurations = [configuration(Integrator::Path, 1.0, 0.04, 0.0), configuration(Integrator::Direct, 0.25, 0.04, 1e-4)];
+        let configurations =
+            [configuration(Integrator::Path, 1.0, 0.04, 0.0), configuration(Integrator::Direct, 0.25, 0.04, 1e-4)];
         let of = |error: f64| {
             recommend(&configurations, ErrorTarget { name: "draft", sensor: None, relative: Some(error) }, FRAME)
                 .map(|r| (r.point.way.paths.integrator, r.point.spp))
@@ -198,22 +207,25 @@ mod tests {
         assert_eq!(of(0.05), Some((Integrator::Direct, 20)));
         // For 1e-4 the bias alone exhausts the target.
         assert_eq!(of(0.01), Some((Integrator::Path, 400)));
-        let seconds = recommend(&configurations, ErrorTarget { name: "draft", sensor: None, relative: Some(0.01) }, FRAME)
-            .map(|r| r.point.seconds.value);
+        let seconds =
+            recommend(&configurations, ErrorTarget { name: "draft", sensor: None, relative: Some(0.01) }, FRAME)
+                .map(|r| r.point.seconds.value);
         assert!(seconds.is_some_and(|s| (s - 401.0).abs() < 1e-9), "{seconds:?}");
     }
 
     #[test]
     fn an_unreachable_target_is_reported() {
         let configurations = [configuration(Integrator::Flat, 0.1, 0.04, 0.3)];
-        let table = recommend(&configurations, ErrorTarget { name: "reference", sensor: None, relative: Some(0.01) }, FRAME)
-            .expect("the best there is");
+        let table =
+            recommend(&configurations, ErrorTarget { name: "reference", sensor: None, relative: Some(0.01) }, FRAME)
+                .expect("the best there is");
         assert!(!table.is_reached && table.point.error.relative.value > 0.5);
     }
 
     #[test]
     fn the_front_falls() {
-        let configurations = [configuration(Integrator::Path, 1.0, 0.04, 0.0), configuration(Integrator::Direct, 0.25, 0.04, 1e-4)];
+        let configurations =
+            [configuration(Integrator::Path, 1.0, 0.04, 0.0), configuration(Integrator::Direct, 0.25, 0.04, 1e-4)];
         let front = front(&configurations, FRAME);
         assert!(
             front

@@ -3,7 +3,7 @@
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
 use crate::way::{is_of, studied_keys};
-use etendue::{Error, JobRequest, JobRenderSettings, Word as _, relative_path};
+use etendue::{Error, JobRenderSettings, JobRequest, Word as _, relative_path};
 use std::path::{Component, Path, PathBuf};
 
 /// Text of a job file in `folder` that renders `camera` of a job as recommended.

@@ -32,13 +32,13 @@ pub use ablation::{Ablation, DroppedEffect, RetainedEffect, ablation, ablation_t
 pub use change::FrameChange;
 pub use edge::Mtf50;
 pub use error::{ErrorMetrics, Estimate};
-pub use front::{FrontPoint, Recommendation, ErrorTarget};
+pub use front::{ErrorTarget, FrontPoint, Recommendation};
 pub use job_file::job_file;
 pub use measured::{Bias, ConfigurationMeasurement, PowerLaw, Role};
 pub use pictures::{ImageComparison, pictures};
 pub use report::{plot, table};
-pub use study::{StudyRequest, Study, study};
-pub use variation::{VariationStudy, VariationResult, variation_table, variations};
+pub use study::{Study, StudyRequest, study};
+pub use variation::{VariationResult, VariationStudy, variation_table, variations};
 pub use way::Configuration;
 
 /// A monotonic clock.

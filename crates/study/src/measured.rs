@@ -118,7 +118,8 @@ impl Times {
     /// Times from pilots of few and of many samples of a fraction of the frame's tiles: samples use all threads, the rest a single one.
     pub(crate) fn new(few: SampledPilot<'_>, many: SampledPilot<'_>, tile_fraction: f64, threads: usize) -> Self {
         let median = |seconds: &[f64]| upper_median(seconds.iter().copied()).unwrap_or(f64::NAN);
-        let (SampledPilot { spp: few, pilot: estimate_few }, SampledPilot { spp: many, pilot: estimate_many }) = (few, many);
+        let (SampledPilot { spp: few, pilot: estimate_few }, SampledPilot { spp: many, pilot: estimate_many }) =
+            (few, many);
         let (short_s, long_s) = (median(&estimate_few.processor_s), median(&estimate_many.processor_s));
         let step = f64::from(many - few);
         let slope_s = ((long_s - short_s) / step).max(1e-12);
@@ -129,12 +130,19 @@ impl Times {
             (FRAC_PI_2 * variance / seconds.len() as f64).sqrt()
         };
         let uncertainty = hypot(spread(&estimate_few.processor_s), spread(&estimate_many.processor_s)) / step;
-        Self { frame_s, sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / (tile_fraction * threads as f64)) }
+        Self {
+            frame_s,
+            sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / (tile_fraction * threads as f64)),
+        }
     }
 }
 
 /// Variances from pilots of few and of many samples.
-pub(crate) fn variance(pixels: &SampledPixels, few: SampledPilot<'_>, many: SampledPilot<'_>) -> ErrorMetrics<PowerLaw> {
+pub(crate) fn variance(
+    pixels: &SampledPixels,
+    few: SampledPilot<'_>,
+    many: SampledPilot<'_>,
+) -> ErrorMetrics<PowerLaw> {
     let (low, high) = (pixels.variance(&few.pilot.planes), pixels.variance(&many.pilot.planes));
     low.with(&high, |a, b| PowerLaw::from_two_pilots(few.spp, *a, many.spp, *b))
 }

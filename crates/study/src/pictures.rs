@@ -1,7 +1,7 @@
 //! Images of approximations: the exact form, the approximation, and their difference side by side.
 
 use crate::measured::{ConfigurationMeasurement, Role};
-use crate::study::{StudyRequest, Study};
+use crate::study::{Study, StudyRequest};
 use crate::way::Configuration;
 use etendue::{Error, Job, Observer, RenderOptions, display_jpeg};
 use etendue_core::Plane;
@@ -49,7 +49,11 @@ pub fn pictures(study: &Study, request: &StudyRequest, observer: &dyn Observer) 
     Ok(compared)
 }
 
-fn developed_image(job: &Job, request: &StudyRequest, observer: &dyn Observer) -> Result<Option<Plane<Display>>, Error> {
+fn developed_image(
+    job: &Job,
+    request: &StudyRequest,
+    observer: &dyn Observer,
+) -> Result<Option<Plane<Display>>, Error> {
     let options = RenderOptions { simd: request.simd, ..RenderOptions::default() };
     let results = job.render(&options, observer)?;
     Ok(results.cameras()[0].display_image())

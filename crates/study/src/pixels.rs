@@ -63,7 +63,9 @@ impl SampledPixels {
 
     /// Square of the mean over independent planes, corrected for the contribution of their scatter.
     pub(crate) fn squared_mean(&self, planes: Planes<'_>) -> ErrorMetrics<Estimate> {
-        self.error_metrics(planes, |moments| moments.mean() * moments.mean() - variance(moments) / moments.count() as f64)
+        self.error_metrics(planes, |moments| {
+            moments.mean() * moments.mean() - variance(moments) / moments.count() as f64
+        })
     }
 
     fn error_metrics(&self, planes: Planes<'_>, of: impl Fn(&Moments) -> f64) -> ErrorMetrics<Estimate> {

@@ -10,11 +10,11 @@ use crate::pixels::SampledPixels;
 use crate::plan::pixel_fraction;
 use crate::stint::WorkTimer;
 use crate::trial::TrialContext;
-use crate::way::{EXACT_BOUNCES, Configuration};
+use crate::way::{Configuration, EXACT_BOUNCES};
 use clap::Args;
 use etendue::{
     Accelerator, Error, ErrorCode, ExistingFiles, Integrator, Job, JobRequest, LightSignal, Observer, PathSettings,
-    Progress, RenderOptions, Simd, ProgressUnit, Word as _,
+    Progress, ProgressUnit, RenderOptions, Simd, Word as _,
 };
 use etendue_core::LightSampling;
 use etendue_core::maths::f64::hypot;
@@ -90,7 +90,12 @@ pub struct Study {
 ///
 /// # Errors
 /// The job is invalid or has no such camera, the observer cancels, or `scratch` cannot be written.
-pub fn study(request: &StudyRequest, scratch: &Path, clock: &dyn Clock, observer: &dyn Observer) -> Result<Study, Error> {
+pub fn study(
+    request: &StudyRequest,
+    scratch: &Path,
+    clock: &dyn Clock,
+    observer: &dyn Observer,
+) -> Result<Study, Error> {
     if scratch.exists() {
         let problem =
             "already exists, and a study writes a frame there and removes it; move it away, or give another folder";
@@ -142,7 +147,11 @@ pub fn study(request: &StudyRequest, scratch: &Path, clock: &dyn Clock, observer
             LightSignal::Irradiance => "irradiance",
             LightSignal::Radiance => "radiance",
         },
-        share: pixel_fraction(&job, &camera, bench.pilots_by_configuration.first().map_or(0, |(_, pilot)| pilot.pixels.len()))?,
+        share: pixel_fraction(
+            &job,
+            &camera,
+            bench.pilots_by_configuration.first().map_or(0, |(_, pilot)| pilot.pixels.len()),
+        )?,
         rest_s,
         as_stated: point(&measured_configurations[0], spp, frame),
         front: front(&eligible, frame),
@@ -229,7 +238,8 @@ impl StudyRun<'_> {
         let disperses = self.job.camera_plan(self.pilots.camera)?.disperses();
         let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
         let wavelengths = wavelengths.map(|wavelengths| Configuration { wavelengths, ..job_configuration });
-        let block_sizes_px: &[u32] = if job_configuration.paths.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
+        let block_sizes_px: &[u32] =
+            if job_configuration.paths.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
         let of_paths = |path_reuse_px, branches| Configuration {
             paths: PathSettings { branches, ..job_configuration.paths },
             path_reuse_px,
@@ -237,24 +247,41 @@ impl StudyRun<'_> {
         };
         let branches = block_sizes_px.iter().map(|branches| of_paths(1, *branches));
         let reuse = block_sizes_px.iter().map(|px| of_paths(*px, 1));
-        let trees =
-            Accelerator::WORDS.iter().map(|(_, accelerator)| Configuration { accelerator: *accelerator, ..job_configuration });
+        let trees = Accelerator::WORDS
+            .iter()
+            .map(|(_, accelerator)| Configuration { accelerator: *accelerator, ..job_configuration });
         let lights = LightSampling::WORDS.iter().map(|(_, light_sampling)| Configuration {
             paths: PathSettings { light_sampling: *light_sampling, ..job_configuration.paths },
             ..job_configuration
         });
-        Ok(wavelengths.chain(reuse).chain(branches).chain(lights).chain(trees).filter(|configuration| *configuration != job_configuration).collect())
+        Ok(wavelengths
+            .chain(reuse)
+            .chain(branches)
+            .chain(lights)
+            .chain(trees)
+            .filter(|configuration| *configuration != job_configuration)
+            .collect())
     }
 
     /// Runs a configuration with which others are compared.
-    fn measure_reference(&mut self, configuration: Configuration, role: Role, against: Option<Configuration>) -> Result<(), Error> {
+    fn measure_reference(
+        &mut self,
+        configuration: Configuration,
+        role: Role,
+        against: Option<Configuration>,
+    ) -> Result<(), Error> {
         let pilot = self.measure(configuration, role, against)?;
         self.pilots_by_configuration.extend(pilot.map(|pilot| (configuration, pilot)));
         Ok(())
     }
 
     /// Runs an unbiased alternative to the configuration `from`, whose bias it has.
-    fn measure_alternative(&mut self, configuration: Configuration, from: Configuration, against: Option<Configuration>) -> Result<(), Error> {
+    fn measure_alternative(
+        &mut self,
+        configuration: Configuration,
+        from: Configuration,
+        against: Option<Configuration>,
+    ) -> Result<(), Error> {
         if self.measure(configuration, Role::Choice, against)?.is_some() {
             let bias = self.measured.iter().find(|m| m.way == from).map(|m| m.bias_squares);
             let alternative = self.measured.last_mut().expect("just looked at");
@@ -264,13 +291,24 @@ impl StudyRun<'_> {
     }
 
     /// Runs a configuration and compares it with a stored one; returns its long pilot. A configuration runs only once.
-    fn measure(&mut self, configuration: Configuration, role: Role, against: Option<Configuration>) -> Result<Option<Pilot>, Error> {
+    fn measure(
+        &mut self,
+        configuration: Configuration,
+        role: Role,
+        against: Option<Configuration>,
+    ) -> Result<Option<Pilot>, Error> {
         if self.measured.iter().any(|measured| measured.way == configuration) {
             return Ok(None);
         }
         let (done, total) = (self.measured.len(), (TYPICAL_CONFIGURATIONS as usize).max(self.measured.len() + 1));
         let heading = configuration.label();
-        self.pilots.observer.progress(Progress { heading: &heading, frame: None, unit: ProgressUnit::Pilots, done, total });
+        self.pilots.observer.progress(Progress {
+            heading: &heading,
+            frame: None,
+            unit: ProgressUnit::Pilots,
+            done,
+            total,
+        });
         let clock = self.pilots.clock;
         let timer = WorkTimer::start(clock);
         let job = configuration.request(&self.request.job, self.pilots.camera).open()?;
@@ -292,12 +330,23 @@ impl StudyRun<'_> {
         let few_pilot = SampledPilot { spp: FEW_SAMPLES, pilot: &few };
         let estimate_many = SampledPilot { spp: MANY_SAMPLES, pilot: &many };
         let times = Times::new(few_pilot, estimate_many, tile_fraction, clock.threads());
-        let exact = against.and_then(|against| self.pilots_by_configuration.iter().find(|(configuration, _)| *configuration == against));
+        let exact = against.and_then(|against| {
+            self.pilots_by_configuration.iter().find(|(configuration, _)| *configuration == against)
+        });
         let bias = exact.map(|(against, exact)| Bias { against: *against, squares: bias(pixels, &many, exact) });
         let variance = variance(pixels, few_pilot, estimate_many);
         let bias_squares = self.total_bias(bias.as_ref(), &variance.map(|_| Estimate::default()));
         let Times { frame_s, sample_s } = times;
-        self.measured.push(ConfigurationMeasurement { way: configuration, role, load_s, frame_s, sample_s, variance, bias, bias_squares });
+        self.measured.push(ConfigurationMeasurement {
+            way: configuration,
+            role,
+            load_s,
+            frame_s,
+            sample_s,
+            variance,
+            bias,
+            bias_squares,
+        });
         Ok(Some(many))
     }
 
@@ -366,7 +415,8 @@ impl StudyRun<'_> {
             let (path_reuse_px, branches) = if traces { (shared.path_reuse_px, shared.paths.branches) } else { (1, 1) };
             let paths = PathSettings { branches, light_sampling, ..configuration.paths };
             let combined = Configuration { paths, path_reuse_px, wavelengths, accelerator };
-            let base = self.measured.iter().find(|m| m.way == configuration).and_then(|m| m.bias.as_ref()).map(|b| b.against);
+            let base =
+                self.measured.iter().find(|m| m.way == configuration).and_then(|m| m.bias.as_ref()).map(|b| b.against);
             self.measure_alternative(combined, configuration, base)?;
         }
         Ok(())
@@ -375,7 +425,8 @@ impl StudyRun<'_> {
     /// Configurations that may be recommended: of the choices derived from the job's own configuration those that gain both per pixel and per patch.
     fn eligible(&self, spp: u32, frame: FrameOverhead) -> Vec<ConfigurationMeasurement> {
         let job_configuration = self.measured[0].way;
-        let is_of_own = |m: &ConfigurationMeasurement| m.role == Role::Choice && m.way.paths.has_mean_of(&job_configuration.paths);
+        let is_of_own =
+            |m: &ConfigurationMeasurement| m.role == Role::Choice && m.way.paths.has_mean_of(&job_configuration.paths);
         let gains = |m: &&ConfigurationMeasurement| !is_of_own(m) || cost(m, &self.measured[0], spp, frame) < 1.0;
         self.measured.iter().filter(gains).cloned().collect()
     }

@@ -3,7 +3,7 @@
 //! the same tiles in turn. The reported time is the ratio of both, times the pilots' result for the other configuration.
 
 use crate::error::Estimate;
-use crate::front::{RecommendationTest, Recommendation};
+use crate::front::{Recommendation, RecommendationTest};
 use crate::measured::ConfigurationMeasurement;
 use crate::pilot::{Pilots, seed};
 use crate::pixels::SampledPixels;
@@ -42,7 +42,13 @@ struct TestExtent {
 impl TestExtent {
     /// Part of a recommendation of `spp` samples that can be rendered when only the fraction `affordable` is: reduces tiles first, then samples. `None` for
     /// images of too few tiles.
-    fn within(affordable: f64, spp: u32, replicates: u32, pilot_plan: PilotPlan, [columns, rows]: [u32; 2]) -> Option<Self> {
+    fn within(
+        affordable: f64,
+        spp: u32,
+        replicates: u32,
+        pilot_plan: PilotPlan,
+        [columns, rows]: [u32; 2],
+    ) -> Option<Self> {
         let all = columns * rows;
         let plan = pilot_plan.other_tiles(columns, (1.0 / affordable).ceil() as u32, all / MIN_TILES);
         let tiles = all / plan.shard.count;
@@ -87,7 +93,8 @@ impl TrialContext<'_> {
             return Ok(None);
         };
         let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
-        let [job, other] = [measured, control].map(|configuration| configuration.way.request(self.job.request(), camera).open());
+        let [job, other] =
+            [measured, control].map(|configuration| configuration.way.request(self.job.request(), camera).open());
         let (job, other) = (job?, other?);
         let own = job.camera_plan(camera)?.settings.seed;
         let (mut planes, mut pixels) = (Vec::new(), Vec::new());
@@ -119,7 +126,12 @@ fn samples_time(took_s: &Moments, measured: &ConfigurationMeasurement) -> Estima
 }
 
 /// Noise of the planes over the estimate for `samples` samples, in the deciding metric; `None` without an estimate.
-fn noise(pixels: &SampledPixels, planes: &[Vec<f32>], measured: &ConfigurationMeasurement, samples: u32) -> Option<Estimate> {
+fn noise(
+    pixels: &SampledPixels,
+    planes: &[Vec<f32>],
+    measured: &ConfigurationMeasurement,
+    samples: u32,
+) -> Option<Estimate> {
     let (variances, laws) = (pixels.variance(planes), &measured.variance);
     let (variance, law) = match (variances.sensor, laws.sensor) {
         (Some(variance), Some(law)) => (variance, law),

@@ -56,7 +56,8 @@ mod tests {
     fn truth_passes_and_a_shift_beyond_the_allowance_fails() {
         let mean: Vec<f32> = (0..64).map(|i| 1.0 + if i % 2 == 0 { 0.01 } else { -0.01 }).collect();
         let variance = vec![1e-4; 64];
-        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
+        let estimate =
+            EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
         assert!(compare_with_truth(estimate, |_| 1.0, |_| 0.0).is_ok());
         assert!(compare_with_truth(estimate, |_| 1.1, |_| 0.1).is_ok());
         assert!(compare_with_truth(estimate, |_| 1.1, |_| 0.0).is_err());
@@ -68,7 +69,8 @@ mod tests {
     #[test]
     fn without_a_variance_only_the_allowance_counts() {
         let (mean, variance) = (vec![1.0; 4], vec![0.0; 4]);
-        let estimate = EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
+        let estimate =
+            EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: 16, correlated_pixels: 1 };
         assert!(compare_with_truth(estimate, |_| 1.0 + 1e-6, |_| 2e-6).is_ok());
         assert!(compare_with_truth(estimate, |_| 1.0 + 1e-5, |_| 2e-6).is_err());
     }

@@ -143,8 +143,9 @@ impl BlockGrid {
     }
 
     fn means(&self, samples: &Samples) -> Samples {
-        let mean =
-            |value_at: &dyn Fn(usize) -> f64| self.each().map(|block| mean_of_finite(block.map(value_at))).collect::<Vec<_>>();
+        let mean = |value_at: &dyn Fn(usize) -> f64| {
+            self.each().map(|block| mean_of_finite(block.map(value_at))).collect::<Vec<_>>()
+        };
         match samples {
             Samples::Bytes(all) => Samples::Bytes(mean(&|i| all[i].into()).iter().map(|v| v.round() as u8).collect()),
             Samples::Words(all) => Samples::Words(mean(&|i| all[i].into()).iter().map(|v| v.round() as u16).collect()),
@@ -251,7 +252,10 @@ pub(crate) mod tests {
     fn whole_numbers_and_exact_floats_come_back() {
         assert_eq!(decoded_values(Samples::Bytes(vec![0, 7, 255])), [0.0, 7.0, 255.0]);
         assert_eq!(decoded_values(Samples::Words(vec![0, 258, 65_535])), [0.0, 258.0, 65_535.0]);
-        assert_eq!(decoded_values(Samples::Integers(vec![1, 16_909_060, u32::MAX])), [1.0, 16_909_060.0, 4_294_967_295.0]);
+        assert_eq!(
+            decoded_values(Samples::Integers(vec![1, 16_909_060, u32::MAX])),
+            [1.0, 16_909_060.0, 4_294_967_295.0]
+        );
         let exact = decoded_values(Samples::Exact(vec![-0.1, 3e-42, f32::INFINITY, f32::NAN]));
         assert_eq!(exact[..3], [f64::from(-0.1_f32), f64::from(3e-42_f32), f64::INFINITY]);
         assert!(exact[3].is_nan());
@@ -290,7 +294,10 @@ pub(crate) mod tests {
         assert!(means[5].is_nan());
         // The mean of two errors of 3 has √18 / 2.
         let two_pixel_error = 4.5_f64.sqrt() as f32;
-        assert_eq!(errors.samples, Samples::Exact(vec![1.5, 1.5, two_pixel_error, two_pixel_error, two_pixel_error, 3.0]));
+        assert_eq!(
+            errors.samples,
+            Samples::Exact(vec![1.5, 1.5, two_pixel_error, two_pixel_error, two_pixel_error, 3.0])
+        );
     }
 
     #[test]

@@ -6,7 +6,7 @@ use etendue::{Error, ExistingFiles, Unobserved};
 use etendue_core::quantity::{Identity, Length, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
-use etendue_io::exr::{GroundTruth, ExrLayer, encode_ground_truth, encode_layers, encode_spectral};
+use etendue_io::exr::{ExrLayer, GroundTruth, encode_ground_truth, encode_layers, encode_spectral};
 use etendue_io::inspect::Preview;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -133,7 +133,10 @@ fn the_page_has_the_numbers_of_the_files() {
         let written = cube.planes().iter().map(Plane::samples);
         for (decoded, written) in decoded.iter().zip(written) {
             for (decoded, written) in decoded.iter().zip(written) {
-                assert!((decoded - f64::from(*written)).abs() <= f64::from(*written) / 2048.0, "{decoded} for {written}");
+                assert!(
+                    (decoded - f64::from(*written)).abs() <= f64::from(*written) / 2048.0,
+                    "{decoded} for {written}"
+                );
             }
         }
         assert!(
@@ -176,7 +179,8 @@ fn layers_that_are_too_large_are_reduced_equally_in_both_results() {
     };
     let (a, b) = (write("a", 1.0), write("b", 2.0));
     let request = ViewRequest { beside: Some(b), max_mb: 1, ..ViewRequest::new(a) };
-    let page = view(&request, Some(&place.path().join("page.html")), ExistingFiles::Refuse, &Unobserved).expect("a page");
+    let page =
+        view(&request, Some(&place.path().join("page.html")), ExistingFiles::Refuse, &Unobserved).expect("a page");
     let facts = facts(&page);
     assert_eq!(facts["results"], serde_json::json!(["a", "b"]));
     for result in [0, 1] {

@@ -58,7 +58,13 @@ pub fn view(
         if observer.cancelled() {
             return Err(Error::run("cancelled; nothing was written"));
         }
-        observer.progress(Progress { heading: "view", frame: None, unit: ProgressUnit::Images, done, total: pairs.len() });
+        observer.progress(Progress {
+            heading: "view",
+            frame: None,
+            unit: ProgressUnit::Images,
+            done,
+            total: pairs.len(),
+        });
         build.pair(pair)?;
     }
     observer.progress(Progress {
@@ -218,7 +224,8 @@ fn same_sizes((a, layers_a): (&ResultFile, &[Layer]), (b, layers_b): (&ResultFil
     for layer in layers_b {
         let Some(other) = layers_a.iter().find(|other| other.name == layer.name) else { continue };
         if other.size != layer.size {
-            let ([w, h], [other_width, other_height]) = (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
+            let ([w, h], [other_width, other_height]) =
+                (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
             return Err(Error::coded(
                 ErrorCode::NotComparable,
                 format!(

@@ -59,7 +59,11 @@ fn word(input: &[u8], random: &mut Random) -> Option<Range<usize>> {
 fn replacement<'a>(old: &[u8], material: Material<'a>, random: &mut Random) -> &'a str {
     let is_number = old.first().is_some_and(|b| b.is_ascii_digit() || matches!(b, b'-' | b'.'));
     let from_words = if is_number { random.one_in(6) } else { !random.one_in(4) };
-    if from_words && !material.words.is_empty() { random.choose::<&str>(material.words) } else { random.choose::<&str>(&TEXTS) }
+    if from_words && !material.words.is_empty() {
+        random.choose::<&str>(material.words)
+    } else {
+        random.choose::<&str>(&TEXTS)
+    }
 }
 
 fn replace_word(input: &mut Vec<u8>, material: Material<'_>, random: &mut Random) {

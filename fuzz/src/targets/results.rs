@@ -20,7 +20,9 @@ pub(super) const SIDE_CAR: Target = Target {
         write(folder, "raw.0000.png", image);
         stored("side-car")
     },
-    read: |file| result_text(read_photograph(&file.with_file_name("raw.0000.png"))) + "; " + &result_text(inspect(file)),
+    read: |file| {
+        result_text(read_photograph(&file.with_file_name("raw.0000.png"))) + "; " + &result_text(inspect(file))
+    },
     words: &[
         "{",
         "}",
@@ -115,7 +117,8 @@ fn shard(folder: &Path) -> [Vec<u8>; 2] {
     write(folder, "job.toml", JOB);
     let job = Job::open(folder.join("job.toml")).expect("the job is legal");
     let all_frames = ShardRequest::all_films(ShardSpec { index: 0, count: 1 }, 0..1);
-    job.save_shard(&all_frames, RenderOptions::default().simd, folder, ExistingFiles::Replace, &Unobserved).expect("a shard");
+    job.save_shard(&all_frames, RenderOptions::default().simd, folder, ExistingFiles::Replace, &Unobserved)
+        .expect("a shard");
     ["front.film.exr", "shard.json"].map(|name| fs::read(folder.join(name)).expect("of the shard"))
 }
 

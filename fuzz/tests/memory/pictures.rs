@@ -50,7 +50,13 @@ fn packed_exr(name: &str, compression: Compression, half: bool) -> PackedImage {
     PackedImage(format!("EXR {name} {depth}"), "exr", 3, bytes.into_inner())
 }
 
-fn packed_image(name: &str, target: &'static str, numbers: u64, format: ImageFormat, image: &DynamicImage) -> PackedImage {
+fn packed_image(
+    name: &str,
+    target: &'static str,
+    numbers: u64,
+    format: ImageFormat,
+    image: &DynamicImage,
+) -> PackedImage {
     let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, format).expect("a picture");
     PackedImage(name.to_owned(), target, numbers, bytes.into_inner())

@@ -31,7 +31,8 @@ fn relative(c_deg: f64, gamma_deg: f64) -> f64 {
 fn relative_flux() -> f64 {
     const FINE_STEPS: usize = 720;
     let (d_gamma, d_c) = (90.0 / FINE_STEPS as f64, 360.0 / FINE_STEPS as f64);
-    let cells = (0..FINE_STEPS * FINE_STEPS).map(|i| (((i % FINE_STEPS) as f64 + 0.5) * d_gamma, ((i / FINE_STEPS) as f64 + 0.5) * d_c));
+    let cells = (0..FINE_STEPS * FINE_STEPS)
+        .map(|i| (((i % FINE_STEPS) as f64 + 0.5) * d_gamma, ((i / FINE_STEPS) as f64 + 0.5) * d_c));
     let solid = d_gamma.to_radians() * d_c.to_radians();
     cells.map(|(gamma, c)| bilinear(c, gamma) * maths::sin(gamma.to_radians()) * solid).sum()
 }

@@ -54,7 +54,8 @@ pub(crate) fn files_of_all() -> BTreeSet<String> {
 fn every_patch_is_listed() {
     let names = std::fs::read_dir(root().join("tests/additions")).expect("the folder").filter_map(Result::ok);
     let names = names.filter_map(|entry| entry.file_name().into_string().ok());
-    let listed_files: BTreeSet<String> = names.filter_map(|name| name.strip_suffix(".patch").map(str::to_owned)).collect();
+    let listed_files: BTreeSet<String> =
+        names.filter_map(|name| name.strip_suffix(".patch").map(str::to_owned)).collect();
     let listed: BTreeSet<String> = ADDITIONS.iter().map(|addition| addition.patch.to_owned()).collect();
     assert_eq!(listed_files, listed);
 }

@@ -115,7 +115,11 @@ fn figures_of_the_code_base_do_not_rise() {
     let tuples: usize = sources.iter().map(|(_, text)| tuple_functions(&tokens::read(text).0)).sum();
     let counts = [
         RepositoryFigure { name: "functions with a tuple parameter", value: tuples, limit: 10 },
-        RepositoryFigure { name: "files of under 40 lines of code, ‰", value: 1000 * short / sources.len(), limit: 170 },
+        RepositoryFigure {
+            name: "files of under 40 lines of code, ‰",
+            value: 1000 * short / sources.len(),
+            limit: 170,
+        },
         RepositoryFigure { name: "lines of code that are `use`, ‰", value: 1000 * uses / all, limit: 54 },
     ];
     check(&counts);

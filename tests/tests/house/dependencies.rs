@@ -105,7 +105,8 @@ fn expressions_of_licences_are_read() {
 fn everything_comes_from_the_registry_of_the_policy() {
     let allowed: BTreeSet<String> = policy("allow-registry").iter().map(|index| format!("registry+{index}")).collect();
     let strange = |source: &String| !allowed.contains(source);
-    let violations: Vec<_> = locked().into_iter().filter(|(_, _, source)| source.as_ref().is_some_and(strange)).collect();
+    let violations: Vec<_> =
+        locked().into_iter().filter(|(_, _, source)| source.as_ref().is_some_and(strange)).collect();
     assert!(violations.is_empty(), "{violations:?}");
 }
 

@@ -68,7 +68,8 @@ fn electrons_of(sensor: &Sensor, channel: usize, light: &Spectrum, patch: Option
 fn electrons(sensor: &Sensor, light: &Spectrum, chart: &[&Spectrum]) -> Plane<MeanElectrons> {
     let white = (0..3).map(|c| electrons_of(sensor, c, light, None)).fold(0.0, f64::max);
     let scale = WHITE * sensor.parameters().charge.full_well.capacity_e / white;
-    let patch_electrons = |patch: &&Spectrum| [0, 1, 2].map(|c| (scale * electrons_of(sensor, c, light, Some(patch))) as f32);
+    let patch_electrons =
+        |patch: &&Spectrum| [0, 1, 2].map(|c| (scale * electrons_of(sensor, c, light, Some(patch))) as f32);
     let patches: Vec<[f32; 3]> = chart.iter().map(patch_electrons).collect();
     let width = SIDE * COLUMNS;
     let samples = (0..width * SIDE * 4).map(|i| {
@@ -99,7 +100,8 @@ fn lab_patches(name: &str, light: &str, demosaic: &str, chart: &[&Spectrum]) -> 
     let (body, spectrum) = (body(name, light, demosaic), illuminant::by_name(light).expect("an illuminant"));
     let electrons = electrons(body.sensor.as_ref().expect("electronics"), spectrum, chart);
     let address = FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
-    let (_, frame) = capture(&body, SensorState::default(), CaptureLight::steady(&electrons), address).expect("a frame");
+    let (_, frame) =
+        capture(&body, SensorState::default(), CaptureLight::steady(&electrons), address).expect("a frame");
     let image = frame.picture.expect("a picture").linear;
     (0..24).map(|i| colour(&image, i)).collect()
 }

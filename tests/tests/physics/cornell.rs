@@ -74,7 +74,8 @@ fn every_wall_is_as_bright_as_mitsubas_in_every_band() {
         let pixels = inside(&ids, i as u32 + 1);
         assert_eq!(pixels.len() as u64, wall["pixels"], "pixels of {}", wall["name"]);
         for (band, mitsuba_mean) in wall["mean"].as_array().expect("a list").iter().enumerate() {
-            let mitsuba = (mitsuba_mean.as_f64().expect("a number"), wall["standard_error"][band].as_f64().expect("a number"));
+            let mitsuba =
+                (mitsuba_mean.as_f64().expect("a number"), wall["standard_error"][band].as_f64().expect("a number"));
             let own = mean_of(&shot, band, &pixels);
             let error = (own.1 * own.1 + mitsuba.1 * mitsuba.1).sqrt();
             let (difference, known) = ((own.0 - mitsuba.0).abs(), error / mitsuba.0);

@@ -23,7 +23,8 @@ fn body() -> CameraBody {
         assets.spectra.insert(name.into(), SpectrumAsset { points, hash: [0; 32] });
     }
     let small = Overrides::new(&["sensor.width_px=256".to_owned(), "sensor.height_px=256".to_owned()]);
-    let camera = load_camera(Path::new("camera.toml"), &|_: &Path| Ok(datasheet_camera.camera.clone()), &small).expect("a camera");
+    let camera = load_camera(Path::new("camera.toml"), &|_: &Path| Ok(datasheet_camera.camera.clone()), &small)
+        .expect("a camera");
     flat::bare(&compile_camera(&camera, &assets).expect("it compiles")).expect("electronics")
 }
 

@@ -98,9 +98,13 @@ fn displaced_samples_put_light_where_the_film_puts_it() {
         (sum, first / sum)
     };
     let (samples, film, without_effects) = (job_with("samples"), job_with("film"), small(""));
-    let ((sum, at), (film_sum, film_at), (plain_sum, plain_at)) = (moments(&samples), moments(&film), moments(&without_effects));
+    let ((sum, at), (film_sum, film_at), (plain_sum, plain_at)) =
+        (moments(&samples), moments(&film), moments(&without_effects));
     // All light but what leaves the picture; 256 samples of a lamp that fills few pixels.
-    assert!((sum / film_sum - 1.0).abs() < 0.01 && (sum / plain_sum - 1.0).abs() < 0.02, "{sum} {film_sum} {plain_sum}");
+    assert!(
+        (sum / film_sum - 1.0).abs() < 0.01 && (sum / plain_sum - 1.0).abs() < 0.02,
+        "{sum} {film_sum} {plain_sum}"
+    );
     assert!((film_at - plain_at).length() > 0.15, "coma is to one side: {film_at} {plain_at}");
     assert!((at - film_at).length() < 0.05, "{at} for {film_at}, without {plain_at}");
 }

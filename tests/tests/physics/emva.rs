@@ -6,7 +6,7 @@
 use etendue_core::maths::f64::{exp, pow};
 use etendue_io::load_assets;
 use etendue_pipeline::compile_camera;
-use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, FrameStack};
+use etendue_pipeline::flat::{self, FlatLight, FrameStack, PhotonTransfer};
 use etendue_pipeline::plan::CameraBody;
 use etendue_scene::{Overrides, load_camera, named_files};
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
@@ -156,7 +156,10 @@ fn fitted(levels: &[Level]) -> &[Level] {
 }
 
 fn near(name: &str, quantity: &str, actual: f64, expected: f64, relative: f64) {
-    assert!((actual / expected - 1.0).abs() <= relative, "{name}: {quantity} {actual}, expected {expected} ± {relative}");
+    assert!(
+        (actual / expected - 1.0).abs() <= relative,
+        "{name}: {quantity} {actual}, expected {expected} ± {relative}"
+    );
 }
 
 /// One per cent, as is asked. The standard uncertainties of gain, efficiency and PRNU (pixels and levels as they are) are 0.1 to 0.3 %; of the

@@ -137,7 +137,8 @@ fn a_declared_illuminance_arrives_on_the_ground() {
         let job = plane(&sun).replacing(ONE_BAND, "wavelength_range_nm = [360, 830]\nband_width_nm = 5");
         // What bands of 5 nm cost: the band means of observer and lamp are multiplied instead of their product
         // integrated. Computed from the spectra alone; a lamp of lines pays more than the sun, all stay below 0.5 %.
-        let lamp = if name == "solar" { &illuminant::solar().direct } else { illuminant::by_name(name).expect("known") };
+        let lamp =
+            if name == "solar" { &illuminant::solar().direct } else { illuminant::by_name(name).expect("known") };
         let means: Vec<f32> = lamp.band_means(bands).iter().map(|v| *v as f32).collect();
         let band_illuminance = observer::xyz_of_bands(&means, bands)[1] / observer::luminance(lamp);
         assert!((band_illuminance - 1.0).abs() < 5e-3, "{name}: {band_illuminance}");
@@ -158,8 +159,11 @@ fn a_constant_picture_is_a_uniform_environment() {
     let rgb = [0.8_f32, 0.5, 0.3];
     let uniform_image =
         "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
-    let image =
-        plane(uniform_image).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
+    let image = plane(uniform_image)
+        .replacing(ONE_BAND, visible)
+        .with_image("sky.hdr", 16, 8, vec![rgb; 128])
+        .shot()
+        .radiance();
     // The luminance of linear sRGB: Rec. 709's row of Y.
     let luminance = 1000.0 * (0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]));
     let uniform = format!("[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = {luminance}\nrgb = {rgb:?}");
@@ -182,7 +186,11 @@ fn a_disc_over_a_plane() {
         // A polygon of 256 sides and the same area as the circle: their second moments differ by 2e-9.
         let samples = plane(&lamp).shot().radiance();
         let axis = DVec3::new(3.5, -7.5, 0.0);
-        assert_lit(&samples, |p| 3.0 * disc(height, (p - axis).length(), radius), &format!("radius {radius} at {height}"));
+        assert_lit(
+            &samples,
+            |p| 3.0 * disc(height, (p - axis).length(), radius),
+            &format!("radius {radius} at {height}"),
+        );
         // The pixel below the middle is on the axis: E = π L R²/(R² + h²).
         let below = (0..64).find(|i| (point(*i) - axis).length() < 1e-9).expect("a pixel below the middle");
         let on_axis = 3.0 * PI * radius * radius / (radius * radius + height * height);
@@ -212,7 +220,8 @@ fn a_flux_is_shared_by_the_area_of_each_object() {
         let (a, b) = (flux_lamp(&by_flux, object).shot(), flux_lamp(&by_radiance, object).shot());
         let radiances = |shot: &etendue_tests::Shot| shot.radiance().mean.clone();
         // The same paths; a spectrum scaled twice in f32.
-        let max_difference = radiances(&a).iter().zip(radiances(&b)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
+        let max_difference =
+            radiances(&a).iter().zip(radiances(&b)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
         assert!(max_difference < 1e-6 && radiances(&a)[0] > 0.0, "{object}: {max_difference}");
     }
 }

@@ -4,7 +4,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::Unobserved;
 use etendue_pipeline::photograph::{Light, capture};
-use etendue_pipeline::render::{LightRequest, FrameCapture as Picture, light};
+use etendue_pipeline::render::{FrameCapture as Picture, LightRequest, light};
 use etendue_pipeline::truth::ground_truth;
 use etendue_sensor::{CaptureLight, FrameAddress, SensorState};
 use etendue_tests::{Job, Shot};

@@ -127,7 +127,8 @@ fn what_no_opening_can_be_is_refused_where_it_stands() {
     let message = measured("line.ies", &lm63(1, [0.0, 1.2, 0.0]));
     assert!(message.contains("the opening is 1.2 × 0 × 0 m"), "{message}");
     let beam = "type = \"head_lamp\"\nbeam = \"high_beam\"\nposition_m = [0, 0, 0]\naim_down_deg = 1\n";
-    let job = job_seen_by(&format!("{beam}opening = {{ shape = \"disc\", radius_m = 0.04 }}"), &from_below(&[(0.0, 0.0)]));
+    let job =
+        job_seen_by(&format!("{beam}opening = {{ shape = \"disc\", radius_m = 0.04 }}"), &from_below(&[(0.0, 0.0)]));
     assert!(job.compiled().is_ok(), "a head lamp's disc faces forward");
     let bright = "type = \"point\"\nintensity_cd = 1e33\nposition_m = [0, 0, 0]\nopening = { shape = \"sphere\", radius_m = 0.001 }";
     let message = job_seen_by(bright, &from_below(&[(0.0, 0.0)])).compiled().map(|_| ()).expect_err("refused");

@@ -73,7 +73,10 @@ fn the_sun_s_radiance_is_the_model_s_at_its_centre_and_towards_its_limb() {
             // 16 wavelengths in strata of 2 nm on a spectrum that changes by up to 1 % a nm: 5e-4.
             assert_near(*actual, disc + sky, 1e-3, &format!("{nm} nm, pixel {i}, µ = {mu:.3}"));
         }
-        assert!(radiances[4] > 1.25 * radiances[0] && radiances[4] > 1.25 * radiances[8], "{nm} nm: the limb is darker");
+        assert!(
+            radiances[4] > 1.25 * radiances[0] && radiances[4] > 1.25 * radiances[8],
+            "{nm} nm: the limb is darker"
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 use etendue_core::maths::f64::sin;
 use etendue_pipeline::Unobserved;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::render::{LightRequest, FrameCapture as Picture, light};
+use etendue_pipeline::render::{FrameCapture as Picture, LightRequest, light};
 use etendue_tests::{Job, Shot};
 
 /// A wall lit by one lamp without a size, seen by a narrow pinhole: every sample of a pixel finds the lamp.

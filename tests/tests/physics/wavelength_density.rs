@@ -282,7 +282,8 @@ fn page(rows: &[Row]) -> String {
         let [uniform, room] = [Place::Even, Place::Room].map(|place| saved_range(rows, place, sensor, light));
         let row = rows.iter().find(|row| row.sensor == sensor && row.light == light).expect("a row");
         let emphasis = if row.is_default { "**" } else { "" };
-        writeln!(page, "| {sensor} | {light} | {uniform} | {room} | {emphasis}{:.2}{emphasis} |", row.gain.mean).expect("text");
+        writeln!(page, "| {sensor} | {light} | {uniform} | {room} | {emphasis}{:.2}{emphasis} |", row.gain.mean)
+            .expect("text");
     }
     page + TAIL
 }
@@ -292,8 +293,9 @@ fn saved_range(rows: &[Row], place: Place, sensor: &str, light: &str) -> String 
     let is_own = |row: &&Row| row.place == place && row.sensor == sensor && row.light == light;
     let mut own: Vec<&Row> = rows.iter().filter(is_own).collect();
     own.sort_by(|a, b| a.variance_ratio().total_cmp(&b.variance_ratio()));
-    let figure =
-        |row: &Row| with_error(row.variance_ratio(), row.saved_error()).split(' ').next().unwrap_or_default().to_owned();
+    let figure = |row: &Row| {
+        with_error(row.variance_ratio(), row.saved_error()).split(' ').next().unwrap_or_default().to_owned()
+    };
     match own[..] {
         [] => String::new(),
         [only] => figure(only),
@@ -312,7 +314,8 @@ fn table(rows: &[Row]) -> String {
         let ratio_text = with_error(row.variance_ratio(), row.saved_error());
         let follows = if row.is_default { "yes" } else { "no" };
         let Row { sensor, colour, light, gain, .. } = row;
-        writeln!(table, "{place},{sensor},{colour},{light},{cells},{ratio_text},{:.2},{follows}", gain.mean).expect("text");
+        writeln!(table, "{place},{sensor},{colour},{light},{cells},{ratio_text},{:.2},{follows}", gain.mean)
+            .expect("text");
     }
     table
 }

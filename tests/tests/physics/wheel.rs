@@ -44,7 +44,8 @@ fn angles(light: &Plane<MeanElectrons>, reference_angle: f64) -> (f64, f64) {
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
         let at_px = DVec2::new(x as f64, y as f64) + 0.5;
         if (10.0..22.0).contains(&(at_px - HUB).length()) {
-            let (weight, angle) = (f64::from(light.at(x, y)) / falloff(x, y), angle_near(at_px, reference_angle) - reference_angle);
+            let (weight, angle) =
+                (f64::from(light.at(x, y)) / falloff(x, y), angle_near(at_px, reference_angle) - reference_angle);
             sums[0] += weight;
             sums[1] += weight * angle;
             sums[2] += weight * angle * angle;
@@ -100,7 +101,10 @@ fn rows_of_a_rolling_shutter_see_the_angle_of_their_own_time() {
             // and row differs from the tangent of the mean by h (ωT)²/12 tan″/2 < 0.003 px.
             assert!((actual - expected).abs() < 0.1, "row {y}: {actual} for {expected}");
             let truth_centre = centre(&|x| f64::from(truth.at(x, y).min(1)));
-            assert!((truth_centre - expected).abs() < 0.51, "row {y}: {truth_centre} for {expected}, by pixels' middles");
+            assert!(
+                (truth_centre - expected).abs() < 0.51,
+                "row {y}: {truth_centre} for {expected}, by pixels' middles"
+            );
             rows += 1;
             max_bend_px = max_bend_px.max((expected - HUB.x).abs());
         }

@@ -36,7 +36,8 @@ pub(crate) fn declared(place: &Path, measurements: &Value) -> Result<BTreeMap<St
     declared.extend(ABSENT.map(|key| (key.to_owned(), 0.0)));
     for kind in ["ptc", "calibrate", "vignetting"] {
         for (quantity, value) in quantities(place, kind, &measurements[kind])? {
-            let known = DECLARED.iter().filter(|(measured_quantity, name, ..)| *measured_quantity == kind && quantity == *name);
+            let known =
+                DECLARED.iter().filter(|(measured_quantity, name, ..)| *measured_quantity == kind && quantity == *name);
             declared.extend(known.map(|(_, _, key, factor)| ((*key).to_owned(), factor * value)));
         }
     }

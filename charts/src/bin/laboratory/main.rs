@@ -71,8 +71,9 @@ fn run(arguments: &[String]) -> Result<Vec<String>, Error> {
             eprintln!("{name}: seed {} of {seeds}", seed.seed);
         }
         page += &table(name, &rows);
-        broken
-            .extend(rows.iter().filter_map(|(key, row)| row.broken(seeds).map(|reason| format!("{name}: {key}: {reason}"))));
+        broken.extend(
+            rows.iter().filter_map(|(key, row)| row.broken(seeds).map(|reason| format!("{name}: {key}: {reason}"))),
+        );
     }
     let file = folder.join("coverage.md");
     write_file(&file, page.as_bytes(), ExistingFiles::Replace)?;

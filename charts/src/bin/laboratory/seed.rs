@@ -60,7 +60,8 @@ impl SeededLaboratory<'_> {
         let report: Value = serde_json::from_str(&text).map_err(Error::run)?;
         let value_and_uncertainty = |value: &Value| json!([value["value"], value["standard_uncertainty"]]);
         let parameters = report["parameters"].as_object().into_iter().flatten();
-        let values: serde_json::Map<String, Value> = parameters.map(|(key, value)| (key.clone(), value_and_uncertainty(value))).collect();
+        let values: serde_json::Map<String, Value> =
+            parameters.map(|(key, value)| (key.clone(), value_and_uncertainty(value))).collect();
         Ok(json!({ "found": values, "declared": declared(place, &report["measurements"])? }))
     }
 }

@@ -29,7 +29,8 @@ impl Checkerboard {
         let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), inks);
         // The corners between squares: the lower right corners of all but the last columns and rows.
         let corners = (1..grid.rows).flat_map(|row| (1..grid.columns).map(move |column| (column, row)));
-        let corner = |(column, row)| Feature::at(FeatureKind::Corner, [column - 1, row - 1], lattice.cell(column, row)[2]);
+        let corner =
+            |(column, row)| Feature::at(FeatureKind::Corner, [column - 1, row - 1], lattice.cell(column, row)[2]);
         drawing.features = corners.map(corner).collect();
         drawing.note("squares", vec![grid.columns, grid.rows]);
         drawing.note("inner_corners", vec![grid.columns - 1, grid.rows - 1]);

@@ -60,7 +60,8 @@ impl DeadLeaves {
         let (leaves, leaf_count) = leaves(texels as usize, smallest * texels, largest * texels, seed);
         let mean = leaves.iter().map(|v| f64::from(*v)).sum::<f64>() / leaves.len() as f64 / 65_535.0;
         let lattice = Lattice::framed(1, 1, 2.0 * half, footprint.outer_mm * BLEED);
-        let sheet = lattice.sheet(|column, row| CellContent::Plain(Fill::Ink(usize::from(lattice.is_inside(column, row)))));
+        let sheet =
+            lattice.sheet(|column, row| CellContent::Plain(Fill::Ink(usize::from(lattice.is_inside(column, row)))));
         let inks = vec![
             Ink::grey("ground", (GREYS.0 + GREYS.1) / 2.0),
             Ink::new("leaves", Paint::Texture { texture: 0, mean }),

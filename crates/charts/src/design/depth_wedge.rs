@@ -79,7 +79,15 @@ impl DepthWedge {
             let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.random(), random.random());
             let place_mm = (corner, corner + tile);
             let values = values.clone();
-            drawing.textures.push(Texture { name, file, panel: i, position_mm: place_mm, width: SIDE, height: SIDE, values });
+            drawing.textures.push(Texture {
+                name,
+                file,
+                panel: i,
+                position_mm: place_mm,
+                width: SIDE,
+                height: SIDE,
+                values,
+            });
             drawing.inks.push(Ink::new(panel.name.clone(), Paint::Texture { texture: i, mean }));
             let half = panel.sheet.size_mm / 2.0;
             panel.sheet = Sheet::plain(panel.sheet.size_mm, i);

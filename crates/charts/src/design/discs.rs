@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{BLACK, BLEED, WHITE, checkerboard::Grid};
 use crate::drawing::{Drawing, Feature, FeatureKind};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, disc};
+use crate::shape::{CellContent, Fill, Lattice, ZoneFigure, disc};
 use crate::{ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Corners of a disc: its outline departs from the circle by 2e-4 of its radius.
@@ -14,7 +14,12 @@ const CORNERS: usize = 128;
 
 /// Discs of a diameter (a fraction of the distance between cells) in the cells of a grid that `here` selects by column and row;
 /// the white extends beyond the edge of the image.
-pub(super) fn draw(footprint: &Footprint, grid: &Grid, dot_fraction: f64, includes: impl Fn(usize, usize) -> bool) -> Drawing {
+pub(super) fn draw(
+    footprint: &Footprint,
+    grid: &Grid,
+    dot_fraction: f64,
+    includes: impl Fn(usize, usize) -> bool,
+) -> Drawing {
     let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), footprint.outer_mm * BLEED);
     let radius_mm = dot_fraction * grid.pitch_mm / 2.0;
     let mut features = Vec::new();

@@ -18,7 +18,7 @@ use glam::DVec2;
 use super::{BLEED, GridSize, discs};
 use crate::drawing::{Drawing, Feature, FeatureKind};
 use crate::ink::{Ink, Paint};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, disc};
+use crate::shape::{CellContent, Fill, Lattice, ZoneFigure, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Minimum number of dots of a chart with marks.
@@ -42,7 +42,8 @@ impl Dots {
         if !(0.05..=0.9).contains(&self.dot_ratio) {
             return Err(ChartError::option("dot_ratio", self.dot_ratio, "expected 0.05 … 0.9"));
         }
-        let grid = self.size.fit_into(footprint.outer_mm, usual_columns(footprint.outer_mm.x / footprint.pixel_mm), 3)?;
+        let grid =
+            self.size.fit_into(footprint.outer_mm, usual_columns(footprint.outer_mm.x / footprint.pixel_mm), 3)?;
         let marks = marks(grid.columns, grid.rows);
         // Cells are numbered from 1.
         let is_dot = |column: usize, row: usize| !marks.contains(&[column.wrapping_sub(1), row.wrapping_sub(1)]);

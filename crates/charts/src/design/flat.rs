@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::{BLEED, GridSize, WHITE, reflectance_option};
 use crate::drawing::{Cavity, Drawing, Patch};
 use crate::ink::{Ink, Paint};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Sheet, Zone, disc, rectangle};
+use crate::shape::{CellContent, Fill, Lattice, Sheet, Zone, ZoneFigure, disc, rectangle};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// A white sheet.
@@ -95,7 +95,10 @@ impl Flare {
         drawing.note("pitch_mm", grid.pitch_mm);
         drawing.note("opening_mm", 2.0 * radius);
         drawing.note("depth_mm", depth_mm);
-        drawing.note("luminance_of_a_trap_s_bottom_over_white_about", TRAP_REFLECTANCE / (1.0 + 4.0 * TRAP_DEPTH * TRAP_DEPTH) / WHITE);
+        drawing.note(
+            "luminance_of_a_trap_s_bottom_over_white_about",
+            TRAP_REFLECTANCE / (1.0 + 4.0 * TRAP_DEPTH * TRAP_DEPTH) / WHITE,
+        );
         Ok(drawing)
     }
 }

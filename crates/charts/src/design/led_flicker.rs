@@ -59,7 +59,12 @@ impl LedFlicker {
     }
 }
 
-fn check(option: &'static str, values: &[f64], expected: &str, is_valid: impl Fn(f64) -> bool) -> Result<(), ChartError> {
+fn check(
+    option: &'static str,
+    values: &[f64],
+    expected: &str,
+    is_valid: impl Fn(f64) -> bool,
+) -> Result<(), ChartError> {
     if !(1..=MAX_GRID).contains(&values.len()) {
         return Err(ChartError::option(option, format!("{} numbers", values.len()), format!("expected {expected}")));
     }

@@ -20,7 +20,9 @@ pub(super) fn reflectance_option(option: &'static str, value: f64) -> Result<f64
 /// An angle by which edges are rotated, degrees, in radians.
 pub(super) fn angle(degrees: f64) -> Result<f64, ChartError> {
     let is_valid = (-45.0..=45.0).contains(&degrees);
-    is_valid.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
+    is_valid
+        .then_some(degrees.to_radians())
+        .ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
 }
 
 /// True if an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.

@@ -14,7 +14,7 @@ use serde_json::json;
 use super::{BLEED, GridSize};
 use crate::drawing::{Drawing, Patch};
 use crate::ink::{Ink, Paint};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Sheet, Zone, disc};
+use crate::shape::{CellContent, Fill, Lattice, Sheet, Zone, ZoneFigure, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Size of the patches' field relative to the fully visible rectangle.
@@ -83,7 +83,13 @@ impl ContrastPatches {
 }
 
 /// Patches row by row from the top left, with the inks from the second on, on a ground of the first.
-pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, footprint: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
+pub(super) fn rows(
+    columns: usize,
+    rows: usize,
+    pitch_mm: f64,
+    footprint: &Footprint,
+    inks: &[Ink],
+) -> (Sheet, Vec<Patch>) {
     let lines = |count: usize, edge: f64| -> Vec<f64> {
         let first = -pitch_mm * (count as f64 - 1.0) / 2.0;
         let sides = (0..count).flat_map(|i| [-0.5, 0.5].map(|s| first + pitch_mm * (i as f64 + s * SIDE)));

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::BLEED;
 use crate::drawing::{Drawing, Feature, FeatureKind, Patch};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Zone, disc};
+use crate::shape::{CellContent, Fill, Lattice, Zone, ZoneFigure, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Steps per cycle.
@@ -61,7 +61,9 @@ impl SiemensStar {
         });
         let mut drawing = Drawing::printed(Panel::facing("chart", sheet, footprint.distance_m), self.inks());
         drawing.features.push(Feature::at(FeatureKind::Centre, [0, 0], DVec2::ZERO));
-        drawing.features.push(Feature { points_mm: edge_points, ..Feature::at(FeatureKind::Outline, [0, 0], DVec2::ZERO) });
+        drawing
+            .features
+            .push(Feature { points_mm: edge_points, ..Feature::at(FeatureKind::Outline, [0, 0], DVec2::ZERO) });
         drawing.patches = patches;
         drawing.note("cycles", self.cycles);
         drawing.note("binary", self.binary);

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Patch};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, rectangle, rotated};
+use crate::shape::{CellContent, Fill, Lattice, ZoneFigure, rectangle, rotated};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Side of a square relative to the distance between centres.

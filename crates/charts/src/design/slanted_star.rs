@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, FeatureKind};
-use crate::shape::{CellContent, ZoneFigure, Fill, Lattice, Zone, disc};
+use crate::shape::{CellContent, Fill, Lattice, Zone, ZoneFigure, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Outer radius relative to the distance between centres.

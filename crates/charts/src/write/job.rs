@@ -7,7 +7,7 @@ use etendue_scene::{record::samples::SampleKeys, record::sensor::charge::NonUnif
 use etendue_spectra::colour::encode;
 
 use crate::drawing::{Drawing, Texture};
-use crate::light::{Light, CameraResponse};
+use crate::light::{CameraResponse, Light};
 use crate::ray_camera::{Footprint, RayCamera};
 use crate::{camera_station::CameraStation, design::Chart};
 

@@ -8,7 +8,7 @@ mod truth;
 
 use job::{print_name, print_of};
 
-pub use job::{ChartFile, Contents, ChartSpecification, camera_file};
+pub use job::{ChartFile, ChartSpecification, Contents, camera_file};
 pub use picture::chart_image;
 
 /// The files of a chart.

@@ -1,7 +1,7 @@
 //! The scene: inks as materials, uniform light from all directions or none.
 
 use etendue_core::ExactTime;
-use etendue_scene::record::light::modulation::{PwmModulation, ModulationTiming};
+use etendue_scene::record::light::modulation::{ModulationTiming, PwmModulation};
 use etendue_scene::record::material::{Diffuse, Emitter};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{
@@ -33,7 +33,8 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
 }
 
 fn texture(texture: &Texture, drawing: &Drawing) -> record::Texture {
-    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.position_mm.0, texture.position_mm.1);
+    let (scale, offset) =
+        mapping(drawing.panels[texture.panel].sheet.size_mm, texture.position_mm.0, texture.position_mm.1);
     record::Texture {
         wrap: Some(Wrap::Mirror.into()),
         uv_scale: Some(scale.into()),
@@ -79,7 +80,8 @@ fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> Material {
         }
         Paint::Luminous(fraction) => glowing(name, SurfaceEmission::new(emission(light, *fraction))),
         Paint::Pulses { fraction, frequency_hz, duty, delay_s } => {
-            let timing = ModulationTiming { delay_s: Some(ExactTime::from(*delay_s).into()), ..ModulationTiming::default() };
+            let timing =
+                ModulationTiming { delay_s: Some(ExactTime::from(*delay_s).into()), ..ModulationTiming::default() };
             let modulation = Some(Modulation::Pwm(PwmModulation::new(*frequency_hz, *duty, timing)));
             glowing(name, SurfaceEmission { modulation, ..SurfaceEmission::new(emission(light, *fraction)) })
         }

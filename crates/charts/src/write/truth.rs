@@ -176,10 +176,9 @@ fn camera(request: &ChartSpecification<'_>, station: &CameraStation, pose: &Came
         [row.x, row.y, row.z, pose.position_m[i]]
     });
     let exposure_s = station.exposure_s.or(request.response.map(|m| m.exposure_s));
-    let white = request
-        .response
-        .zip(exposure_s)
-        .map(|(response, exposure_s)| response.saturation_fraction(request.light.radiance()) * exposure_s / response.exposure_s);
+    let white = request.response.zip(exposure_s).map(|(response, exposure_s)| {
+        response.saturation_fraction(request.light.radiance()) * exposure_s / response.exposure_s
+    });
     let mut facts = Map::new();
     facts.insert("name".into(), json!(station.name));
     facts.insert("file".into(), json!(super::job::camera_file(station)));

@@ -4,7 +4,8 @@ use etendue_charts::design::{
     Backlit, Checkerboard, ColorChecker, DeadLeaves, DepthWedge, Dots, Flare, GridSize, SlantedEdges,
 };
 use etendue_charts::{
-    CameraStation, Chart, ChartFile, Contents, Light, CameraResponse, RasterRay, RayCamera, ChartSpecification, camera_stations, files,
+    CameraResponse, CameraStation, Chart, ChartFile, ChartSpecification, Contents, Light, RasterRay, RayCamera,
+    camera_stations, files,
 };
 use etendue_scene::{Description, Overrides};
 use etendue_spectra::Spectrum;

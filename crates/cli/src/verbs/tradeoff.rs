@@ -8,8 +8,8 @@ use clap::Args;
 use etendue::{Error, ErrorCode, ExistingFiles, Observer, OutputFolder};
 use etendue_arguments::whole;
 use etendue_study::{
-    Clock, DroppedEffect, StudyRequest, VariationResult, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
-    variations,
+    Clock, DroppedEffect, StudyRequest, VariationResult, ablation, ablation_table, job_file, pictures, plot, study,
+    table, variation_table, variations,
 };
 use std::path::Path;
 use std::time::Instant;
@@ -192,7 +192,11 @@ fn variation_picture(n: usize) -> String {
 }
 
 /// Study of one change after the other.
-fn run_variations(request: &StudyRequest, changes: &[KeyChanges], observer: &dyn Observer) -> Result<StudyOutput, Error> {
+fn run_variations(
+    request: &StudyRequest,
+    changes: &[KeyChanges],
+    observer: &dyn Observer,
+) -> Result<StudyOutput, Error> {
     let changes: Vec<_> = changes.iter().map(|KeyChanges(set)| set.clone()).collect();
     let output = variations(request, &changes, &Stopwatch::begin(), observer)?;
     let (text, json) = (variation_table(&output), to_json(&output)?);

@@ -110,13 +110,19 @@ fn samples_are_even_or_as_noise_says_but_not_both() {
         let job = job(place.path(), render);
         etendue(["plan", &job]).refused(phrases);
     };
-    assert_refused("noise_threshold = 0.5\nspp = 64\n", &["job.toml", "\"spp\" and \"noise_threshold\" exclude each other"]);
+    assert_refused(
+        "noise_threshold = 0.5\nspp = 64\n",
+        &["job.toml", "\"spp\" and \"noise_threshold\" exclude each other"],
+    );
     assert_refused("noise_threshold = 0\n", &["noise_threshold: found 0"]);
     assert_refused("min_spp = 16\n", &["\"min_spp\" has no effect without \"noise_threshold\""]);
     assert_refused(
         "noise_threshold = 0.5\nreplicates = 4\n",
         &["replicates that determine each other's samples", "give 5 or more"],
     );
-    assert_refused("noise_threshold = 0.5\nmin_spp = 20\n", &["20 samples cannot be divided equally among 8 replicates"]);
+    assert_refused(
+        "noise_threshold = 0.5\nmin_spp = 20\n",
+        &["20 samples cannot be divided equally among 8 replicates"],
+    );
     assert_refused("noise_threshold = 0.5\nmax_spp = 8\n", &["below the minimum of 16"]);
 }

@@ -112,7 +112,10 @@ fn drops_that_cannot_change_as_described() {
                  period_s = 1\n";
     plan(&format!("{DROPS}count = 4\n{wiper}"), "").ok();
     assert_refused(&wiper.replace("= 1\n", "= 0.9\n"), &["camera.toml:22", "wiper.period_s", "there and back, 1 s"]);
-    assert_refused(&wiper.replace("[50, 300]", "[300, 50]"), &["camera.toml:19", "wiper.blade_mm", "smaller distance first"]);
+    assert_refused(
+        &wiper.replace("[50, 300]", "[300, 50]"),
+        &["camera.toml:19", "wiper.blade_mm", "smaller distance first"],
+    );
     assert_refused(&wiper.replace("[-80, 20]", "[20, 20]"), &["camera.toml:20", "wiper.angles_deg", "differ"]);
     assert_refused(&wiper.replace("0.5", "0.05"), &["camera.toml:21", "wiper.sweep_s"]);
 }

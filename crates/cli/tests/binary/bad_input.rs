@@ -168,12 +168,7 @@ fn a_distortion_that_folds_the_picture() {
 fn a_focus_nearer_than_the_focal_length() {
     let job = ModifiedJob::new();
     job.replace_first("small.toml", "focus_distance_m = 5", "focus_distance_m = 0.005");
-    job.render(&[]).refused(&[
-        "small.toml:",
-        "cameras.front.lens",
-        "focus distance of 0.005 m",
-        "more than 0.006 m",
-    ]);
+    job.render(&[]).refused(&["small.toml:", "cameras.front.lens", "focus distance of 0.005 m", "more than 0.006 m"]);
 }
 
 #[test]

@@ -35,12 +35,7 @@ fn a_lamp_of_an_unknown_spectrum() {
     let lamp = LAMP.replace("LED-B3", "LED-B4").replace("\"measured\"", "\"point\"");
     let lamp = lamp.replace("file = \"street.ies\"", "luminous_flux_lm = 100");
     job.replace_first("small.toml", "[[scene.lights]]\ntype = \"sun\"", &lamp);
-    job.render(&[]).refused(&[
-        "small.toml:",
-        "scene.lights.street.illuminant",
-        "\"LED-B4\"",
-        "did you mean \"LED-B",
-    ]);
+    job.render(&[]).refused(&["small.toml:", "scene.lights.street.illuminant", "\"LED-B4\"", "did you mean \"LED-B"]);
 }
 
 #[test]
@@ -59,7 +54,11 @@ fn a_turbidity_out_of_range() {
 #[test]
 fn a_flux_of_what_has_no_area() {
     let job = ModifiedJob::new();
-    job.replace_first("small.toml", "type = \"image\"", "type = \"uniform\"\nluminous_flux_lm = 100\nilluminant = \"D65\"");
+    job.replace_first(
+        "small.toml",
+        "type = \"image\"",
+        "type = \"uniform\"\nluminous_flux_lm = 100\nilluminant = \"D65\"",
+    );
     job.replace_first("small.toml", "file = \"sky.hdr\"\n", "");
     job.replace_first("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
     job.render(&[]).refused(&["small.toml:", "scene.environment.luminous_flux_lm", "the sky has no area"]);

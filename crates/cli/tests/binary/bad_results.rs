@@ -90,7 +90,8 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
 /// An EXR file of four samples of `light`, with the variance of each.
 fn four_sample_image(place: &Path, name: &str, light: [f32; 4], variance: [f32; 4]) -> String {
     let eight = Provenance { further: [("replicates".to_owned(), "8".to_owned())].into(), ..Provenance::default() };
-    let layers = [("light".to_owned(), ExrLayer::Float(&light)), ("variance.light".to_owned(), ExrLayer::Float(&variance))];
+    let layers =
+        [("light".to_owned(), ExrLayer::Float(&light)), ("variance.light".to_owned(), ExrLayer::Float(&variance))];
     let file = place.join(name);
     fs::write(&file, encode_layers(2, 2, &layers, &eight).expect("a picture")).expect("written");
     text(&file)

@@ -37,7 +37,8 @@ fn a_table_of_efficiencies_above_all() {
     for (table, phrase) in [("400,0.5\n550,1.4\n700,0.2\n", "1.4"), ("400,0.5\n550,-0.4\n700,0.2\n", "-0.4")] {
         let job = ModifiedJob::new();
         job.write("efficiency.csv", table);
-        let place = job.replace_first("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
+        let place =
+            job.replace_first("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
         refused(&job, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "from 0 to 1"]);
     }
 }

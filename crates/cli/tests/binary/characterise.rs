@@ -177,7 +177,10 @@ fn missing_data_is_reported_and_omitted_or_taken_from_a_base() {
     );
     assert!(report["stand_ins"].to_string().contains("lens.f_number"), "{report:#}");
     let camera_text = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
-    assert!(camera_text.contains("f_number = 4") && camera_text.contains("a placeholder: not measured"), "{camera_text}");
+    assert!(
+        camera_text.contains("f_number = 4") && camera_text.contains("a placeholder: not measured"),
+        "{camera_text}"
+    );
     let amplified = text(&root().join("scenes/cameras/web-night.toml"));
     let (output, _) = characterised(some.path(), &["--base", &amplified]);
     output.refused(&["web-night.toml", "sensor.analogue_gain", "which already includes it"]);

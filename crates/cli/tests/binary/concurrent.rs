@@ -81,7 +81,8 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
         text(&file)
     });
     let out = text(&place.path().join("out"));
-    let runs = cameras.each_ref().map(|camera| RunningProcess::begin(&[&["flat", camera, "-o", &out], &light[..]].concat()));
+    let runs =
+        cameras.each_ref().map(|camera| RunningProcess::begin(&[&["flat", camera, "-o", &out], &light[..]].concat()));
     for mut run in runs {
         assert!(run.0.wait().expect("a child").success());
     }
@@ -101,7 +102,8 @@ fn concurrent_runs_leave_all_files_or_none() -> Row {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
     let arguments = ["render", &small(), "-o", &text(&out), "--spp", "2"].map(str::to_owned);
-    let mut runs: Vec<RunningProcess> = (0..6).map(|_| RunningProcess::begin(&arguments.each_ref().map(String::as_str))).collect();
+    let mut runs: Vec<RunningProcess> =
+        (0..6).map(|_| RunningProcess::begin(&arguments.each_ref().map(String::as_str))).collect();
     let ends: Vec<_> = runs.iter_mut().map(|run| run.0.wait().expect("a child").code()).collect();
     let ended = |status| ends.iter().filter(|code| **code == Some(status)).count();
     // The others were refused: by the lock, or by the files of the first.

@@ -143,7 +143,8 @@ fn incomplete_samples_are_computed_again() {
     let place = TestFolder::new();
     place.run("out", &["--samples", "0..3", "--format", "coco,yolo"]).ok();
     let all_files = place.files("out");
-    let label = all_files.keys().find(|name| name.starts_with("yolo/labels") && name.contains("000001")).expect("a label");
+    let label =
+        all_files.keys().find(|name| name.starts_with("yolo/labels") && name.contains("000001")).expect("a label");
     let spoil = |name: &str, change: &dyn Fn(&Path)| change(&place.path(&format!("out/{name}")));
     let resume = |samples: &str| place.run("out", &["--samples", samples, "--format", "coco,yolo", "--resume"]);
     spoil(label, &|file| fs::remove_file(file).expect("it was there"));
@@ -204,7 +205,11 @@ fn a_disk_that_fills_keeps_whole_samples_and_a_run_goes_on() {
     assert!(stderr.contains(&format!("saved {expected}; to continue, use --resume")), "{stderr}");
     let part = place.files("part");
     assert_eq!(part.keys().filter(|name| name.starts_with("samples/")).count(), large);
-    assert!(part.iter().all(|(name, bytes)| all_files.get(name) == Some(bytes)), "whole files or none: {:?}", part.keys());
+    assert!(
+        part.iter().all(|(name, bytes)| all_files.get(name) == Some(bytes)),
+        "whole files or none: {:?}",
+        part.keys()
+    );
     let (status, stderr) = with_file_limit(1, &arguments("none", &[]));
     assert!(status == Some(1) && stderr.contains("nothing of this run was saved"), "{stderr}");
     assert!(!place.path("none").exists());

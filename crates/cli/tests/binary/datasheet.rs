@@ -113,7 +113,8 @@ fn small_differences_are_reported_and_accepted() {
 /// Many sheets state the wavelength without a value in photons.
 #[test]
 fn a_wavelength_that_nothing_needs_is_a_warning() {
-    let sheet = DataSheetJob::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);
+    let sheet =
+        DataSheetJob::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);
     sheet.run().ok().says(&["warning", "\"measured_at_nm\" is not used", "saturation_capacity_p"]);
 }
 

@@ -106,7 +106,8 @@ impl RenderedFrames {
         };
         let cameras = [("bayer", "dng"), ("mono", "tiff"), ("hdr", "png")].map(setup).concat();
         frames.write("job.toml", &format!("{JOB}\n{cameras}"));
-        etendue(["render", &frames.path("job.toml"), "-o", &frames.path("out"), "--frames", "0..2", "--seed", "9"]).ok();
+        etendue(["render", &frames.path("job.toml"), "-o", &frames.path("out"), "--frames", "0..2", "--seed", "9"])
+            .ok();
         frames
     }
 
@@ -237,7 +238,11 @@ fn raws_that_contradict_their_camera_are_refused() {
     assert_refused("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["earlier version", "render again"]);
     assert_refused("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that captured it"]);
     assert_refused("\"white_level_dn\": 4024.0", "\"white_level_dn\": 64.0", &["white must be above black"]);
-    assert_refused("        32,\n        24\n", "        32,\n        25\n", &["32 × 25 pixels at column 0", "32 × 24"]);
+    assert_refused(
+        "        32,\n        24\n",
+        "        32,\n        25\n",
+        &["32 × 25 pixels at column 0", "32 × 24"],
+    );
 }
 
 #[test]

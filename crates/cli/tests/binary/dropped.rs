@@ -70,7 +70,14 @@ fn a_missing_material_library_is_a_warning_and_grey_where_the_scene_says_nothing
     let output = rendered(&[("job.toml", &job), ("m.obj", &mesh)]).ok();
     let warnings: Vec<&str> = output.err.lines().collect();
     assert_eq!(warnings.len(), 1, "{}", output.err);
-    output.says(&["warning: ", "\"red\"", "\"blue\"", "line 1: the material library", "lost.mtl` does not exist", "grey"]);
+    output.says(&[
+        "warning: ",
+        "\"red\"",
+        "\"blue\"",
+        "line 1: the material library",
+        "lost.mtl` does not exist",
+        "grey",
+    ]);
     let no_library = mesh.replace("mtllib lost.mtl\n", "");
     let refused = rendered(&[("job.toml", &job), ("m.obj", &no_library)]);
     assert_eq!(refused.status, 2, "a file that names no library leaves the scene to say it: {}", refused.err);

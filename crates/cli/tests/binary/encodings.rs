@@ -78,7 +78,12 @@ fn pictures_of_any_encoding_give_one_response() {
         "gamma 1.8",
         "gAMA",
     );
-    same(&images.image_with_encoding("lying.png", &Encoding::Srgb, as_is), &["--encoding", "linear"], "linear", "--encoding");
+    same(
+        &images.image_with_encoding("lying.png", &Encoding::Srgb, as_is),
+        &["--encoding", "linear"],
+        "linear",
+        "--encoding",
+    );
     let table = images.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
     let bent = |l: f32| if l < 0.2 { 2.5 * l } else { 0.5 + 0.625 * (l - 0.2) };
     same(&images.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
@@ -94,7 +99,8 @@ fn a_side_car_goes_before_what_the_file_says_and_options_before_both() {
     let (truth, ..) = measured_encoding(&images.grey("linear.png", |l| l), &[]);
     let image = images.image_with_encoding("picture.0000.png", &Encoding::Srgb, |l| l);
     let sidecar = |encoding: &str| {
-        let sidecar_text = format!(r#"{{"program": "etendue", "files": {{"picture.0000.png": {{"encoding": {encoding}}}}}}}"#);
+        let sidecar_text =
+            format!(r#"{{"program": "etendue", "files": {{"picture.0000.png": {{"encoding": {encoding}}}}}}}"#);
         images.write("develop.json", sidecar_text.as_bytes());
     };
     sidecar("\"linear\"");

@@ -28,7 +28,9 @@ fn ended(status: i32, extreme: &str, expected: &str, output: &CommandOutput, fol
 
 /// A message as shown in a table.
 fn table_text(message: &str, folders: &[&Path]) -> String {
-    let short = folders.iter().fold(message.to_owned(), |shortened, folder| shortened.replace(&format!("{}/", text(folder)), ""));
+    let short = folders
+        .iter()
+        .fold(message.to_owned(), |shortened, folder| shortened.replace(&format!("{}/", text(folder)), ""));
     let cut = short.char_indices().nth(240).map_or(short.clone(), |(at, _)| format!("{}…", &short[..at]));
     cut.replace('|', "\\|").replace('<', "\\<")
 }

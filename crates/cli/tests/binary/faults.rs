@@ -98,7 +98,13 @@ fn assert_none_flagged(compared: &ComparedQuantities) {
 
 /// Asserts that the defect is flagged by its quantity, which the sound camera passes.
 #[track_caller]
-fn assert_flagged(defect: &str, seeded: &str, quantity: &str, defective: &ComparedQuantities, healthy: &ComparedQuantities) {
+fn assert_flagged(
+    defect: &str,
+    seeded: &str,
+    quantity: &str,
+    defective: &ComparedQuantities,
+    healthy: &ComparedQuantities,
+) {
     let (with, without) = (defective[quantity], healthy[quantity]);
     assert!(with.differs() && !without.differs(), "{defect}: {quantity} {with:?}, without it {without:?}");
     assert_row(defect, seeded, quantity, with, without);

@@ -103,7 +103,10 @@ fn imported(folder: &Path, file: &Value, name: &str) -> (CommandOutput, PathBuf)
     fs::write(folder.join("all numbers.bin"), bytes.concat()).expect("written");
     fs::write(folder.join(format!("{name}.gltf")), file.to_string()).expect("written");
     let imported_folder = folder.join(format!("{name} made"));
-    (etendue(["import", &text(&folder.join(format!("{name}.gltf"))), "-o", &text(&imported_folder)]), imported_folder.join("job.toml"))
+    (
+        etendue(["import", &text(&folder.join(format!("{name}.gltf"))), "-o", &text(&imported_folder)]),
+        imported_folder.join("job.toml"),
+    )
 }
 
 fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {

@@ -203,6 +203,7 @@ fn electrons_folded_and_beside_a_cube_agree() {
         format!("{output}/front/electrons.exr")
     };
     let cube = file("cube", &[]);
-    let accumulates_electrons = file("folded", &["--seed", "2", "--set", "output.radiance=false", "--set", "output.irradiance=false"]);
+    let accumulates_electrons =
+        file("folded", &["--seed", "2", "--set", "output.radiance=false", "--set", "output.irradiance=false"]);
     assert_eq!(etendue(["compare", &cube, &accumulates_electrons]).status, 0);
 }

@@ -71,9 +71,7 @@ fn identities(sidecar: &[u8]) -> impl Fn(&str) -> Vec<u32> + use<> {
 /// The palette image is used: red and purple houses, a green tree, not one grey.
 fn coloured(output: &str) {
     let image = etendue_io::picture::read_image(Path::new(&format!("{output}/front/picture.0000.png")));
-    let etendue_scene::asset::ImagePixels::Rgb8(pixels) = image.expect("the picture").pixels else {
-        panic!("8 bits")
-    };
+    let etendue_scene::asset::ImagePixels::Rgb8(pixels) = image.expect("the picture").pixels else { panic!("8 bits") };
     let strong = |a: usize, b: usize| pixels.iter().filter(|p| u16::from(p[a]) > 60 + u16::from(p[b])).count();
     for (name, a, b) in [("red over blue", 0, 2), ("blue over green", 2, 1), ("green over red", 1, 0)] {
         assert!(strong(a, b) > pixels.len() / 100, "{name}: {} pixels", strong(a, b));

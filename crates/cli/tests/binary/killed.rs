@@ -31,7 +31,7 @@ impl RunKind {
     fn new(name: &'static str, arguments: &[&str], repeat_arguments: &'static str) -> Self {
         let arguments: Vec<String> = arguments.iter().map(|word| (*word).to_owned()).collect();
         let refines = arguments.iter().any(|word| word == "--progressive");
-        Self { name, arguments, repeat_arguments: again: repeat_arguments, refines }
+        Self { name, arguments, repeat_arguments, refines }
     }
 
     fn all(shards: [&str; 2]) -> Vec<Self> {

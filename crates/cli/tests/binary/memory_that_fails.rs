@@ -107,8 +107,10 @@ fn no_allocation_that_fails_leaves_half_a_file() {
     let out = place.path().join("out");
     let mut ends = [0; 2];
     for kib in (20..=200).step_by(12).map(|mib| mib * 1024) {
-        let (status, stderr) =
-            with_address_space(kib, &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"]);
+        let (status, stderr) = with_address_space(
+            kib,
+            &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"],
+        );
         ends[usize::from(status == Some(0))] += 1;
         // Failed small allocations end the process at once (SIGABRT), as in Rust's standard library; below some limit the system does not even start
         // it.

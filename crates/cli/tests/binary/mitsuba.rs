@@ -118,7 +118,11 @@ fn max_deviation(ours: &BoxMeans, theirs: &BoxMeans, model_difference: ModelDiff
     for i in 0..ours.mean.len() {
         for channel in 0..3 {
             let difference = (ours.mean[i][channel] - theirs.mean[i][channel]).abs();
-            let own = model_difference.boxes.iter().find(|(place, _)| *place == i).map_or(model_difference.overall, |(_, own)| *own);
+            let own = model_difference
+                .boxes
+                .iter()
+                .find(|(place, _)| *place == i)
+                .map_or(model_difference.overall, |(_, own)| *own);
             let allowed = own * luminance(&theirs.mean[i]);
             let (own, other) = (ours.error[i][channel], theirs.error[i][channel]);
             let error = (own * own + other * other).sqrt();
@@ -145,7 +149,8 @@ fn assert_agrees_as(source: &Path, name: &str, model_difference: ModelDifference
     assert!(largest < critical, "{file}: {largest} standard errors, where {critical} are allowed");
     assert!(mean.abs() < overall, "{file}: the whole picture is {mean} brighter");
     // The test must be able to fail: light changed by a twentieth, and the image mirrored.
-    let brighter = BoxMeans { mean: ours.mean.iter().map(|m| m.map(|v| 1.05 * v)).collect(), error: ours.error.clone() };
+    let brighter =
+        BoxMeans { mean: ours.mean.iter().map(|m| m.map(|v| 1.05 * v)).collect(), error: ours.error.clone() };
     let mirrored = |list: &[[f64; 3]]| list.chunks(8).flat_map(|row| row.iter().rev().copied()).collect();
     let mirrored = BoxMeans { mean: mirrored(&ours.mean), error: mirrored(&ours.error) };
     assert!(max_deviation(&brighter, &theirs, model_difference).1.abs() > overall, "{file}: more light is found");
@@ -303,7 +308,9 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
         <shape type=\"sphere\"><float name=\"radius\" value=\"$r\"/></shape>\
         <shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>";
     fs::write(&file, format!("<scene version=\"3.0.0\">\n{body}</scene>")).expect("written");
-    for (definitions, radius) in [(&[][..], "2"), (&["-Dr=5"][..], "5"), (&["-D", "r=7"], "7"), (&["--define", "r=3"], "3")] {
+    for (definitions, radius) in
+        [(&[][..], "2"), (&["-Dr=5"][..], "5"), (&["-D", "r=7"], "7"), (&["--define", "r=3"], "3")]
+    {
         etendue(["import", &text(&file), "-o", &imported, "--overwrite"].iter().chain(definitions)).ok();
         let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
         assert!(scene.contains(&format!("radius_m = {radius}")), "{definitions:?}: {scene}");

@@ -33,10 +33,30 @@ struct ImageOrientation {
 }
 
 const ORIENTATIONS: [ImageOrientation; 4] = [
-    ImageOrientation { name: "as it is", corners: [[0., 0.], [1., 0.], [1., 1.], [0., 1.]], right: [1., 0.], top: [0., 1.] },
-    ImageOrientation { name: "mirrored", corners: [[1., 0.], [0., 0.], [0., 1.], [1., 1.]], right: [-1., 0.], top: [0., 1.] },
-    ImageOrientation { name: "upside down", corners: [[0., 1.], [1., 1.], [1., 0.], [0., 0.]], right: [1., 0.], top: [0., -1.] },
-    ImageOrientation { name: "turned by 90°", corners: [[0., 1.], [0., 0.], [1., 0.], [1., 1.]], right: [0., 1.], top: [-1., 0.] },
+    ImageOrientation {
+        name: "as it is",
+        corners: [[0., 0.], [1., 0.], [1., 1.], [0., 1.]],
+        right: [1., 0.],
+        top: [0., 1.],
+    },
+    ImageOrientation {
+        name: "mirrored",
+        corners: [[1., 0.], [0., 0.], [0., 1.], [1., 1.]],
+        right: [-1., 0.],
+        top: [0., 1.],
+    },
+    ImageOrientation {
+        name: "upside down",
+        corners: [[0., 1.], [1., 1.], [1., 0.], [0., 0.]],
+        right: [1., 0.],
+        top: [0., -1.],
+    },
+    ImageOrientation {
+        name: "turned by 90°",
+        corners: [[0., 1.], [0., 0.], [1., 0.], [1., 1.]],
+        right: [0., 1.],
+        top: [-1., 0.],
+    },
 ];
 
 fn maps_in(folder: &Path) {
@@ -168,7 +188,11 @@ fn maps_of_gltf_tilt_the_card() {
                     .ok();
                 let in_image = |[x, y]: [f64; 2]| if mirrored { [-x, y] } else { [x, y] };
                 let expected = expected(colour, in_image(right), in_image(top));
-                assert_same(luminance(&shrink_cameras(place.path()), "eye"), expected, &format!("{name}, {map}, mirrored {mirrored}"));
+                assert_same(
+                    luminance(&shrink_cameras(place.path()), "eye"),
+                    expected,
+                    &format!("{name}, {map}, mirrored {mirrored}"),
+                );
             }
         }
     }
@@ -211,7 +235,11 @@ fn maps_of_mitsuba_tilt_the_card() {
             let imported = text(&place.path().join("made"));
             etendue(["import", &text(&place.path().join("card.xml")), "-o", &imported, "--overwrite"]).ok();
             let expected = expected(colour, *right, across(*right));
-            assert_same(luminance(&place.path().join("made/job.toml"), "eye"), expected, &format!("{name}, {map}, {shape}"));
+            assert_same(
+                luminance(&place.path().join("made/job.toml"), "eye"),
+                expected,
+                &format!("{name}, {map}, {shape}"),
+            );
         }
     }
 }

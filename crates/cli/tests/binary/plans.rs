@@ -1,6 +1,6 @@
 //! The plan of every shipped job, word for word.
 
-use crate::support::{bless, etendue, root, tests, text, is_complete_run};
+use crate::support::{bless, etendue, is_complete_run, root, tests, text};
 use std::path::PathBuf;
 
 /// Every job below `scenes/`, `scenes/FOLDER/NAME.toml`, and its name.

@@ -217,8 +217,16 @@ fn files_that_make_no_table_are_reported() {
         "",
         &["psf-2.txt has the same distance", "psf-1.txt", "remove one"],
     );
-    assert_refused(&[axis.replace("2.000 µm", "5.100 µm")], "", &["effects.psf.files", "5.100 µm apart", "smaller spacing"]);
-    assert_refused(&[axis.replace("Data spacing is 2.000 µm", "")], "", &["psf-0.txt", "does not state the sample spacing"]);
+    assert_refused(
+        &[axis.replace("2.000 µm", "5.100 µm")],
+        "",
+        &["effects.psf.files", "5.100 µm apart", "smaller spacing"],
+    );
+    assert_refused(
+        &[axis.replace("Data spacing is 2.000 µm", "")],
+        "",
+        &["psf-0.txt", "does not state the sample spacing"],
+    );
     assert_refused(&[axis.replace("PSF", "MTF")], "", &["psf-0.txt", "not a listing of a point-spread function"]);
     assert_refused(
         &[axis.clone(), off.replace("Center coordinates", "X").replace("3.5763 (deg)", "95.0 (deg)")],
@@ -266,5 +274,8 @@ fn the_shipped_camera_has_its_point_spreads() {
     etendue(["chart", "dots", "--columns", "9", "--camera", &camera, "-o", &chart]).ok();
     let output = etendue(["plan", &format!("{chart}/job.toml")]).ok().out;
     let expected = "a table of 3 functions at 3 distances from the axis (0, 11, 22 mm), computed for 550 nm, the same at all wavelengths";
-    assert!(output.contains(expected) && !output.contains("the value at its border") && !output.contains("too fast"), "{output}");
+    assert!(
+        output.contains(expected) && !output.contains("the value at its border") && !output.contains("too fast"),
+        "{output}"
+    );
 }

@@ -191,7 +191,10 @@ fn what_cannot_be_done_is_refused() {
     assert_refused(&["--time", "nan"], &["--time NaN", "10 s or more"]);
     assert_refused(&["--time", "10", "--spp", "8"], &["--time", "cannot be used with"]);
     assert_refused(&["--progressive", "--shard", "0/2"], &["--progressive", "cannot be used with"]);
-    assert_refused(&["--progressive", "--set", "render.noise_threshold=0.5"], &["noise_threshold", "--progressive", "--spp"]);
+    assert_refused(
+        &["--progressive", "--set", "render.noise_threshold=0.5"],
+        &["noise_threshold", "--progressive", "--spp"],
+    );
     assert_refused(&["--set", "render.passes=[8, 6]", "--set", "render.replicates=4"], &["6 samples", "4 replicates"]);
     assert_refused(&["--set", "render.passes=[1.5]"], &["no pass samples all pixels"]);
     assert_refused(&["--set", "render.passes=[]"], &["render.passes", "a list of 1 or more"]);

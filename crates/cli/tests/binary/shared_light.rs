@@ -72,18 +72,29 @@ fn the_plan_says_whose_light_a_camera_sees_and_why_not() {
     for name in ["twin", "long", "other-look", "longer"] {
         let camera_block = block(&plan, name);
         assert!(camera_block.contains("light          that of camera first"), "{camera_block}");
-        assert!(camera_block.contains("cost           no separate paths: shares those of camera first"), "{camera_block}");
+        assert!(
+            camera_block.contains("cost           no separate paths: shares those of camera first"),
+            "{camera_block}"
+        );
     }
     let apart = |name: &str, why: &str| {
         let camera_block = block(&plan, name);
-        assert!(camera_block.contains("its own: camera") && camera_block.contains(why) && camera_block.contains("million paths"), "{camera_block}");
+        assert!(
+            camera_block.contains("its own: camera")
+                && camera_block.contains(why)
+                && camera_block.contains("million paths"),
+            "{camera_block}"
+        );
     };
     apart("half", "differs in the spectral response of the pixels");
     apart("spectral", "differs in the stored spectrum");
     assert!(!block(&plan, "wide").contains("light      "), "another lens is another light, which nobody wonders at");
     let alone = etendue(["plan", &job, "--camera", "long"]).ok().out;
     let camera_block = block(&alone, "long");
-    assert!(camera_block.contains("equal to that of camera first of the job") && camera_block.contains("million paths"), "{camera_block}");
+    assert!(
+        camera_block.contains("equal to that of camera first of the job") && camera_block.contains("million paths"),
+        "{camera_block}"
+    );
 }
 
 #[test]

@@ -51,7 +51,10 @@ fn what_the_script_cannot_do_is_refused_with_status_2() {
         (vec![&job, &out, "--spp", "4"], None, "--spp"),
     ] {
         let (status, output) = run(&arguments, task);
-        assert!(status == 2 && output.starts_with("error: ") && output.contains(expected), "{arguments:?}: {status}, {output}");
+        assert!(
+            status == 2 && output.starts_with("error: ") && output.contains(expected),
+            "{arguments:?}: {status}, {output}"
+        );
     }
     assert!(!Path::new(&out).exists());
     assert_eq!(run(&[&job, &out, "--spp", "4"], first).0, 0);

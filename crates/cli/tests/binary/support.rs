@@ -140,7 +140,10 @@ pub(crate) fn etendue_with<S: AsRef<std::ffi::OsStr>>(
 }
 
 /// Runs the binary in a folder.
-pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = S>) -> CommandOutput {
+pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(
+    folder: &Path,
+    arguments: impl IntoIterator<Item = S>,
+) -> CommandOutput {
     let mut command = Command::cargo_bin("etendue").expect("cargo builds the binary for its tests");
     command.current_dir(folder).env_remove("ETENDUE_SIMD").args(arguments);
     run(command)
@@ -149,7 +152,11 @@ pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: im
 fn run(mut command: Command) -> CommandOutput {
     let output = command.output().expect("the binary starts");
     let utf8 = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
-    CommandOutput { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }
+    CommandOutput {
+        status: output.status.code().expect("it ends by itself"),
+        out: utf8(output.stdout),
+        err: utf8(output.stderr),
+    }
 }
 
 /// Returns all files below a folder with their bytes, by relative name.

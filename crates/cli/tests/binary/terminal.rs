@@ -22,7 +22,8 @@ fn strange_exr() -> Vec<u8> {
         let length = (value.len() as u32).to_le_bytes();
         [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &length, value].concat()
     };
-    let channel = [CONTROL_CHARACTERS.as_bytes(), b"Y\0", &[2, 0, 0, 0, 0, 0, 0, 0], &[1, 0, 0, 0, 1, 0, 0, 0], b"\0"].concat();
+    let channel =
+        [CONTROL_CHARACTERS.as_bytes(), b"Y\0", &[2, 0, 0, 0, 0, 0, 0, 0], &[1, 0, 0, 0, 1, 0, 0, 0], b"\0"].concat();
     let mut head = [20_000_630_u32.to_le_bytes(), 2_u32.to_le_bytes()].concat();
     head.extend(attribute("channels", "chlist", &channel));
     head.extend(attribute("compression", "compression", &[0]));

@@ -123,7 +123,8 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
     let tiles = fs::read_dir(out.join(".texture-cache")).expect("tiles").count();
     assert_eq!(tiles, 3);
     let in_memory = rendered(&job, &[]);
-    in_memory.iter()
+    in_memory
+        .iter()
         .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|stored| stored == *bytes), "{name}"));
     // The job itself needs more than the limit: refused before an image is unpacked.
     let limited = ["--limit", "texture-cache-mib=10"];

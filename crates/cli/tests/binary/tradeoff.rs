@@ -41,8 +41,12 @@ fn a_study_reports_times_and_errors_and_writes_jobs() {
     let study: serde_json::Value = serde_json::from_slice(&files["tradeoff.json"]).expect("JSON");
     assert_eq!(study["signal"], "electrons");
     let configurations = study["ways"].as_array().expect("ways");
-    assert_eq!((&configurations[0]["way"]["integrator"], &configurations[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
-    let of = |integrator: &str| configurations.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
+    assert_eq!(
+        (&configurations[0]["way"]["integrator"], &configurations[0]["way"]["max_bounces"]),
+        (&"path".into(), &6.into())
+    );
+    let of =
+        |integrator: &str| configurations.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
     // A white floor and ball without shadows or mutual illumination: about 8 % of the light, most of it in two or three of twelve tiles around the
     // ball (all tiles are examined, so that it is the same every time).
     let bias = &of("flat")["bias"]["squares"]["relative"];
@@ -54,7 +58,8 @@ fn a_study_reports_times_and_errors_and_writes_jobs() {
     for (name, samples) in [("draft", 4), ("standard", 4), ("reference", 64)] {
         let file = text(&place.path().join(format!("out/{name}.toml")));
         let plan = etendue(["plan", &file]).ok().out;
-        let recommendation = study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
+        let recommendation =
+            study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
         let spp = recommendation.expect("recommended")["point"]["spp"].as_u64().expect("a number");
         assert!(spp >= samples, "{name}: {spp}");
         assert!(plan.contains(&format!("{spp} samples a pixel")), "{name}: {spp} in {plan}");
@@ -106,7 +111,10 @@ fn keys_are_varied_one_after_the_other() {
     assert_eq!(varied[0]["set"], serde_json::json!(["render.wavelengths_per_path=1", "render.max_bounces=5"]));
     // One bounce less than the job's six has little effect; five less remove the light from the floor on the ball.
     let (one_bounce, none) = (light(0), light(1));
-    assert!(one_bounce.0 < 0.02 + 3.0 * one_bounce.1 && none.0 > 0.02 && none.0 > 3.0 * none.1, "{one_bounce:?} {none:?}");
+    assert!(
+        one_bounce.0 < 0.02 + 3.0 * one_bounce.1 && none.0 > 0.02 && none.0 > 3.0 * none.1,
+        "{one_bounce:?} {none:?}"
+    );
     // The ball is lit equally, however its light is stored; sharp edges are distributed differently between their pixels.
     assert!(light(2).0 < 0.5, "{:?}", light(2));
     // The route at the pupil stores a spectrum for every pixel.

@@ -171,7 +171,11 @@ fn traps_and_stars_give_what_the_chart_sends() {
     for circle in circles {
         let (f, actual) = (value(&circle["cycles_per_px"]), value(&circle["response"]));
         let u = value(&circle["response"]["standard_uncertainty"]);
-        assert!((actual - aperture(f) / outermost).abs() < 0.005 + 4.0 * u, "{f}: {actual} ± {u}, {}", aperture(f) / outermost);
+        assert!(
+            (actual - aperture(f) / outermost).abs() < 0.005 + 4.0 * u,
+            "{f}: {actual} ± {u}, {}",
+            aperture(f) / outermost
+        );
     }
 }
 
@@ -245,7 +249,12 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
 }
 
 /// A raw image from a shot, each pixel from another position: its file, in a folder of its own.
-fn redrawn(shot: &RenderedChart, name: &str, size: [usize; 2], of: impl Fn([usize; 2], usize, usize) -> [usize; 2]) -> String {
+fn redrawn(
+    shot: &RenderedChart,
+    name: &str,
+    size: [usize; 2],
+    of: impl Fn([usize; 2], usize, usize) -> [usize; 2],
+) -> String {
     redrawn_into(shot, shot, name, size, of)
 }
 

@@ -33,7 +33,7 @@ impl ImportedScene {
         let messages = etendue(["import", &text(file), "-o", &text(&folder)]).ok().err;
         let read = |name: &str| fs::read_to_string(folder.join(name)).expect("written").parse().expect("TOML");
         let (scene, job) = (read("scene.toml"), read("job.toml"));
-        Self { _place: place, folder, scene, job, messages: told: messages }
+        Self { _place: place, folder, scene, job, messages }
     }
 
     /// An entry of a list, by its name.
@@ -119,7 +119,10 @@ fn check_meshes(scene: &ImportedScene, figures: &Value) {
         let area: f64 = areas.iter().map(|a| a.iter().map(|v| v * v).sum::<f64>().sqrt()).sum();
         let area_vector: Vec<f64> = (0..3).map(|i| areas.iter().map(|a| a[i]).sum()).collect();
         assert!((area - expected["area"].as_f64().expect("an area")).abs() < 1e-6, "{name}: {area} m²");
-        assert!(are_near(&area_vector, &numbers(&expected["along"]), 1e-6), "{name}: {area_vector:?} is the other side");
+        assert!(
+            are_near(&area_vector, &numbers(&expected["along"]), 1e-6),
+            "{name}: {area_vector:?} is the other side"
+        );
         if expected.get("uvs").is_some() {
             let lying: Vec<Vec<f64>> =
                 corners().map(|c| [&c.place[..], &c.uv.expect("texture coordinates")[..]].concat()).collect();

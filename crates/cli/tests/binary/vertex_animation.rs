@@ -82,8 +82,10 @@ fn the_plan_reports_moving_vertices_and_its_hash_covers_all_files() {
 
 #[test]
 fn a_file_that_is_not_there() {
-    BendingSquareJob::new("files = \"sheet-%d.obj\", count = 4, rate_hz = 12").refused(&["sheet-3.obj", "no such mesh file"]);
-    BendingSquareJob::new("files = \"sheet-%02d.obj\", count = 3, rate_hz = 12").refused(&["sheet-00.obj", "no such mesh file"]);
+    BendingSquareJob::new("files = \"sheet-%d.obj\", count = 4, rate_hz = 12")
+        .refused(&["sheet-3.obj", "no such mesh file"]);
+    BendingSquareJob::new("files = \"sheet-%02d.obj\", count = 3, rate_hz = 12")
+        .refused(&["sheet-00.obj", "no such mesh file"]);
 }
 
 #[test]
@@ -104,7 +106,10 @@ fn animations_that_are_none() {
     let assert_refused = |animation: &str, phrases: &[&str]| BendingSquareJob::new(animation).refused(phrases);
     assert_refused("files = \"sheet-%d.obj\", count = 1, rate_hz = 12", &["count", "found 1", "2"]);
     assert_refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 0", &["rate_hz", "found 0", "above 0"]);
-    assert_refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "placeholder for the file number", "%03d"]);
+    assert_refused(
+        "files = \"sheet-0.obj\", count = 3, rate_hz = 5",
+        &["files", "placeholder for the file number", "%03d"],
+    );
     assert_refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
     assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",

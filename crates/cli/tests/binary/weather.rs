@@ -59,7 +59,10 @@ fn fog_over_stored_radiance() {
     let (file, fog) = (path("fog.toml"), path("fog"));
     let weather = ["weather", &stored, "--weather", &file, "-o", &fog];
     let output = etendue(weather).ok();
-    assert!(["radiance.exr", "transmittance.exr", "airlight.exr"].iter().all(|file| output.out.contains(file)), "{output:?}");
+    assert!(
+        ["radiance.exr", "transmittance.exr", "airlight.exr"].iter().all(|file| output.out.contains(file)),
+        "{output:?}"
+    );
     let read = |file: &str| read_spectral(folder.path().join(file).as_path()).expect("readable");
     let (before, after, added) = (read(&format!("clear/{name}")), read("fog/radiance.exr"), read("fog/airlight.exr"));
     let cube = |image| match image {

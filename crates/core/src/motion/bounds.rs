@@ -9,7 +9,7 @@ use core::f64::consts::PI;
 
 use glam::{BVec3, DVec3};
 
-use super::{MotionChain, Motion, is_similarity};
+use super::{Motion, MotionChain, is_similarity};
 use crate::TimeInterval;
 use crate::track::{CurvatureBounds, Track};
 
@@ -134,7 +134,11 @@ impl Motion {
 
     fn parts(&self, start_s: f64, end_s: f64) -> u32 {
         let rate: f64 = self.links().iter().map(|link| link.turning_rate(start_s, end_s)).sum();
-        if start_s == end_s { 1 } else { (rate * (end_s - start_s) / MAX_PART_TURN_RAD).ceil().max(PARTS.0).min(PARTS.1) as u32 }
+        if start_s == end_s {
+            1
+        } else {
+            (rate * (end_s - start_s) / MAX_PART_TURN_RAD).ceil().max(PARTS.0).min(PARTS.1) as u32
+        }
     }
 
     /// Maximum deviation of a point's path from the chord between its places at two times without a key between them, including the rounding of places and of

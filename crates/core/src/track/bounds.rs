@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 
 use glam::{BVec3, DAffine3, DMat3, DVec3};
 
-use super::{KeyedTrack, TrackState, Track, span::Span};
+use super::{KeyedTrack, Track, TrackState, span::Span};
 use crate::TimeInterval;
 
 /// Tolerance for rounding, relative to the sum: at most some thirty operations of 1.1e-16 each.

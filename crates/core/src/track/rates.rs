@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{KeyedTrack, TrackState, Track, bounds::max_stretch, span::Span};
+use super::{KeyedTrack, Track, TrackState, bounds::max_stretch, span::Span};
 
 /// Transform and its time derivative.
 #[derive(Clone, Copy, Debug)]
@@ -95,9 +95,7 @@ impl Track {
     /// Returns a bound of the rotation rate, rad/s, from `start_s` to `end_s`, without a key between them.
     pub(crate) fn turning_rate(&self, start_s: f64, end_s: f64) -> f64 {
         let TrackState::Moving(keyed) = &self.0 else { return 0.0 };
-        keyed
-            .part_of(start_s, end_s)
-            .map_or(0.0, |(span, (u0, u1), length_s)| span.turn.max_rates(u0, u1).0 / length_s)
+        keyed.part_of(start_s, end_s).map_or(0.0, |(span, (u0, u1), length_s)| span.turn.max_rates(u0, u1).0 / length_s)
     }
 }
 

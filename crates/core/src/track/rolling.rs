@@ -12,7 +12,7 @@ use glam::{DAffine3, DVec3};
 
 use super::span::{Cubic, Pose, Span};
 use super::turn::{Turn, rolled};
-use super::{KeyedTrack, TrackState, Track};
+use super::{KeyedTrack, Track, TrackState};
 
 /// Maximum error of φ at the quarters of a polynomial, rad.
 const TOLERANCE_RAD: f64 = 1e-6;
@@ -138,7 +138,11 @@ fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<
 }
 
 /// Halves the pieces that miss the tolerance, as long as the times of their ends can be distinguished.
-fn halved(pieces: Vec<RollingPiece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<RollingPiece>, RollingError> {
+fn halved(
+    pieces: Vec<RollingPiece>,
+    end_s: f64,
+    rate_rad_s: &impl Fn(f64) -> f64,
+) -> Result<Vec<RollingPiece>, RollingError> {
     let mut ends_s: Vec<f64> = pieces.iter().skip(1).map(|piece| piece.start_s).chain([end_s]).collect();
     ends_s.reverse();
     let (mut waiting, mut finished) = (pieces, Vec::new());
@@ -153,7 +157,10 @@ fn halved(pieces: Vec<RollingPiece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f6
             finished.push(piece);
             continue;
         }
-        waiting.extend([RollingPiece::new(middle_s, end_s, rate_rad_s), RollingPiece::new(piece.start_s, middle_s, rate_rad_s)]);
+        waiting.extend([
+            RollingPiece::new(middle_s, end_s, rate_rad_s),
+            RollingPiece::new(piece.start_s, middle_s, rate_rad_s),
+        ]);
         ends_s.extend([end_s, middle_s]);
     }
     Ok(finished)
@@ -181,7 +188,8 @@ mod tests {
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
         let turns_of_pieces = pieces(0.0, 1.0, &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
         assert!(
-            turns_of_pieces.len() > MAX_UNIFORM_PIECES as usize && turns_of_pieces.len() < 2 * MAX_UNIFORM_PIECES as usize,
+            turns_of_pieces.len() > MAX_UNIFORM_PIECES as usize
+                && turns_of_pieces.len() < 2 * MAX_UNIFORM_PIECES as usize,
             "{}",
             turns_of_pieces.len()
         );

@@ -20,8 +20,8 @@ use etendue_io::png::{encode_depth16, encode_grey8, stored_depth};
 use glam::{DMat3, DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use crate::record::{ObjectRecord, ImageRecord, SampleRecord};
-use crate::records::{Records, FormatWriter, write};
+use crate::record::{ImageRecord, ObjectRecord, SampleRecord};
+use crate::records::{FormatWriter, Records, write};
 use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Bop {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use etendue::{Error, ErrorCode, GroundTruth, OutputFolder};
 use etendue_io::png::{encode_grey8, encode_grey16};
 
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::{picture::SampleImage, record::ImageRecord, set::Set};
 
 pub(super) struct Cityscapes {

@@ -18,7 +18,7 @@ use etendue::{Error, OutputFolder};
 use serde_json::{Value, json};
 
 use crate::record::{ImageRecord, SampleRecord};
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Coco;

@@ -5,7 +5,7 @@
 
 use etendue::{Error, OutputFolder};
 
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::{picture::SampleImage, set::Set};
 
 pub(super) struct Cryptomatte;

@@ -22,8 +22,8 @@ use etendue::{Error, OutputFolder};
 use etendue_core::maths::f64::atan2;
 use glam::{DQuat, DVec3};
 
-use crate::record::{ObjectRecord, ImageRecord, SampleRecord, SolidRecord};
-use crate::records::{Records, FormatWriter, write};
+use crate::record::{ImageRecord, ObjectRecord, SampleRecord, SolidRecord};
+use crate::records::{FormatWriter, Records, write};
 use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct Kitti;

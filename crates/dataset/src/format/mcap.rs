@@ -16,7 +16,7 @@ use std::{cell::RefCell, collections::BTreeMap};
 use etendue::{Error, ErrorCode, OutputFolder};
 
 use super::ros;
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::set::{Set, topic_name};
 use crate::{picture::SampleImage, record::SampleRecord};
 

@@ -20,8 +20,8 @@ use etendue_io::png::encode_grey8;
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
-use crate::record::{ObjectRecord, ImageRecord, Pose, SampleRecord};
-use crate::records::{Records, FormatWriter, write};
+use crate::record::{ImageRecord, ObjectRecord, Pose, SampleRecord};
+use crate::records::{FormatWriter, Records, write};
 use crate::{draw::Split, picture::SampleImage, set::Set};
 
 pub(super) struct NuScenes;

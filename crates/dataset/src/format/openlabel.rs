@@ -13,8 +13,8 @@ use etendue::{Error, OutputFolder};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use crate::record::{ObjectRecord, ImageRecord, Pose, SampleRecord};
-use crate::records::{Records, FormatWriter, write};
+use crate::record::{ImageRecord, ObjectRecord, Pose, SampleRecord};
+use crate::records::{FormatWriter, Records, write};
 use crate::{picture::SampleImage, set::Set};
 
 pub(super) struct OpenLabel;
@@ -109,7 +109,8 @@ fn frame(sample: u32, images: &[&ImageRecord]) -> Value {
         (image.camera.clone(), facts)
     });
     let transforms = images.iter().map(|image| {
-        let facts = json!({ "src": image.camera, "dst": WORLD, "transform_src_to_dst": { "matrix4x4": matrix(&image.pose) } });
+        let facts =
+            json!({ "src": image.camera, "dst": WORLD, "transform_src_to_dst": { "matrix4x4": matrix(&image.pose) } });
         (format!("{}_to_{WORLD}", image.camera), facts)
     });
     let mut objects: BTreeMap<u32, (Vec<Value>, Vec<Value>, Value)> = BTreeMap::new();

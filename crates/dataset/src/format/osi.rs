@@ -27,7 +27,7 @@ use etendue::{Error, OutputFolder, WorldObject};
 use etendue_core::{ExactTime, maths::f64::atan2};
 use glam::{DMat3, DVec3};
 
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::{picture::SampleImage, record::SampleRecord, set::Set};
 
 /// Version of the messages.

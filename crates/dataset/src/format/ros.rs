@@ -69,7 +69,8 @@ const QUATERNION: &str = "geometry_msgs/Quaternion";
 
 /// Definition of a message and of the types that it contains, in the form of ROS 2 files.
 pub(super) fn definition(name: &str) -> String {
-    let definition_of = |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
+    let definition_of =
+        |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
     let (_, fields, parts) = definition_of(name);
     let mut text = (*fields).to_owned();
     for part in *parts {
@@ -189,7 +190,12 @@ pub(super) fn point_cloud(
 }
 
 /// Camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
-pub(super) fn camera_info(at: MessageHeader<'_>, width: usize, height: usize, [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
+pub(super) fn camera_info(
+    at: MessageHeader<'_>,
+    width: usize,
+    height: usize,
+    [fx, skew, cx, fy, cy]: [f64; 5],
+) -> Vec<u8> {
     // ROS has pixel centres at whole numbers.
     let (cx, cy) = (cx - 0.5, cy - 0.5);
     let mut cdr = Cdr::with_header(at);

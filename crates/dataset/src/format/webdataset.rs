@@ -16,7 +16,7 @@ use etendue_core::quantity::{Identity, Length};
 use etendue_io::png::encode_grey16;
 use serde_json::json;
 
-use crate::records::{Records, FormatWriter, write};
+use crate::records::{FormatWriter, Records, write};
 use crate::{draw::Split, picture::SampleImage, record::SampleRecord, set::Set};
 
 pub(super) struct WebDataset {

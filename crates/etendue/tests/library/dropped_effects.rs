@@ -32,7 +32,8 @@ fn jobs() -> Vec<PathBuf> {
 fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String> {
     let joined = |errors: Vec<String>| errors.join("\n");
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
-    let description = Description::load(job, &read, &Overrides::new(set)).map_err(|description_errors| description_errors.to_string())?;
+    let description = Description::load(job, &read, &Overrides::new(set))
+        .map_err(|description_errors| description_errors.to_string())?;
     let complete =
         complete_assets(std::mem::take(assets), &description.assets(), &TextureMemory::default(), &Sandbox::NONE);
     *assets = complete.map_err(|errors| joined(errors.iter().map(ToString::to_string).collect()))?;

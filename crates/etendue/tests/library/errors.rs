@@ -2,7 +2,8 @@
 //! kept, and a resumed run ends as an uninterrupted one.
 
 use etendue::{
-    Error, ExistingFiles, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
+    Error, ExistingFiles, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions,
+    Unobserved,
 };
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -89,7 +90,11 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     let message = panicked(&job(false), &out, 10);
     assert!(message.contains("saved 2 complete frames; to continue, use `resume`"), "{message}");
     let stored = files(&out);
-    assert!(stored.len() > 2 && stored.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", stored.keys());
+    assert!(
+        stored.len() > 2 && stored.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)),
+        "{:?}",
+        stored.keys()
+    );
     job(false).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
     assert!(files(&out) == expected);
 }

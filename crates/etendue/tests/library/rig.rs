@@ -140,7 +140,12 @@ fn camera_info_and_fixed_transforms_see_what_the_program_sees() {
         assert_eq!(word(&info, "distortion_model: "), model, "{name}");
         let (k, d) = (list(&info, "camera_matrix"), list(&info, "distortion_coefficients"));
         for point in points(&job, name) {
-            let actual = opencv_image_px([k[0], k[4], k[2], k[5]], model, &d, into_camera(&transforms, name, to_car_frame(point)));
+            let actual = opencv_image_px(
+                [k[0], k[4], k[2], k[5]],
+                model,
+                &d,
+                into_camera(&transforms, name, to_car_frame(point)),
+            );
             assert_near(actual + 0.5, truth(&job, name, 0.0, point), name);
         }
     }
@@ -293,7 +298,8 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
 #[test]
 fn the_files_that_they_read_are_those_that_the_program_writes() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
-    let written = job.save_calibration_files(&(0..3), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
+    let written =
+        job.save_calibration_files(&(0..3), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
     assert_eq!(written.len(), 11);
     for path in written {
         let name = path.strip_prefix(folder.path()).expect("within");

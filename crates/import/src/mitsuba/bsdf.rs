@@ -187,7 +187,9 @@ impl<'a> Importer<'a> {
             (Some(_), None, Factor::Number(w)) => {
                 Ok(ConvertedSurface { opacity: constant(1.0 - w.value), ..self.convert(a, depth + 1)? })
             }
-            (None, Some(_), Factor::Number(w)) => Ok(ConvertedSurface { opacity: constant(w.value), ..self.convert(b, depth + 1)? }),
+            (None, Some(_), Factor::Number(w)) => {
+                Ok(ConvertedSurface { opacity: constant(w.value), ..self.convert(b, depth + 1)? })
+            }
             (None, Some(_), picture) => Ok(ConvertedSurface { opacity: Some(picture), ..self.convert(b, depth + 1)? }),
             (Some(_), None, _) => {
                 self.scenery.report.note("a blend with an invisible second surface is replaced by its first surface");

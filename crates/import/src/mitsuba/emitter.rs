@@ -104,7 +104,9 @@ impl<'a> Importer<'a> {
         let ahead = vector(element, "direction", to_world.matrix3.z_axis)?;
         let towards = (self.scenery.to_ours * -ahead).try_normalize();
         let towards = towards.ok_or_else(|| element.error("\"direction\" has zero length"))?;
-        let Some(lux) = self.note_light("directional", "lx, a sun disc of 0.01°", unit.luminance) else { return Ok(()) };
+        let Some(lux) = self.note_light("directional", "lx, a sun disc of 0.01°", unit.luminance) else {
+            return Ok(());
+        };
         let name = self.name(element);
         self.scenery.scene.lights.push(lamps::parallel(&name, towards, lux, unit.colour));
         Ok(())

@@ -10,7 +10,7 @@ use etendue_scene::record::medium::{Everywhere, MediumShape};
 use super::{access::all, camera, transform::TextureUsage};
 use crate::scenery::{Graphics, KnownTexture, SceneBuilder};
 use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
-use crate::written::{ImportedCamera, ImportFiles, import_files};
+use crate::written::{ImportFiles, ImportedCamera, import_files};
 
 /// Maximum depth of nested references and surfaces.
 pub(super) const MAX_DEPTH: usize = 32;

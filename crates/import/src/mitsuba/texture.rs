@@ -135,7 +135,8 @@ impl<'a> Importer<'a> {
         }
         let Some(layout) = self.uv_transform(element)? else { return Ok(None) };
         let channel = |i: usize| -> Vec<f32> {
-            let colour_at = |at: usize| colours[usize::from((at % SIDE < SIDE / 2) != (at / SIDE < SIDE / 2))][i] as f32;
+            let colour_at =
+                |at: usize| colours[usize::from((at % SIDE < SIDE / 2) != (at / SIDE < SIDE / 2))][i] as f32;
             (0..SIDE * SIDE).map(colour_at).collect()
         };
         let [r, g, b] = [0, 1, 2].map(channel);

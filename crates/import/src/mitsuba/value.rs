@@ -194,10 +194,13 @@ impl<'a> Importer<'a> {
     pub(super) fn reflectance_colour(&mut self, name: &str, value: &MitsubaValue<'a>) -> Option<Colour> {
         let scenery = &mut self.scenery;
         Some(match value {
-            MitsubaValue::Number(level) | MitsubaValue::Even(level) => Colour::Grey(scenery.limit_to_unit(name, *level).into()),
+            MitsubaValue::Number(level) | MitsubaValue::Even(level) => {
+                Colour::Grey(scenery.limit_to_unit(name, *level).into())
+            }
             MitsubaValue::Rgb(rgb) => scenery.reflectance_from_rgb(name, *rgb),
             MitsubaValue::Table(points) => {
-                let points: Vec<(f64, f64)> = points.iter().map(|(nm, v)| (*nm, scenery.limit_to_unit(name, *v))).collect();
+                let points: Vec<(f64, f64)> =
+                    points.iter().map(|(nm, v)| (*nm, scenery.limit_to_unit(name, *v))).collect();
                 Colour::Spectrum(scenery.spectrum_file(&points).as_str().into())
             }
             MitsubaValue::BlackBody(_) | MitsubaValue::D65(_) => {
@@ -278,6 +281,8 @@ mod tests {
         assert_eq!(points("0.5"), [(0.0, 0.5)]);
         assert_eq!(points("400:0.1, 700:0.4"), [(400.0, 0.1), (700.0, 0.4)]);
         assert!(stated_spectrum("700:1 400:2").is_err());
-        assert!(matches!(spectrum_from_file("# nm, value\n400 1\n500, 2 # end\n"), Ok(MitsubaValue::Table(p)) if p.len() == 2));
+        assert!(
+            matches!(spectrum_from_file("# nm, value\n400 1\n500, 2 # end\n"), Ok(MitsubaValue::Table(p)) if p.len() == 2)
+        );
     }
 }

@@ -84,7 +84,9 @@ impl SceneBuilder {
     pub(super) fn reflectance_colour(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
         let name = &parameter.name;
         match (&*parameter.kind, &parameter.values) {
-            ("rgb" | "color", PbrtValues::Numbers(numbers)) => Ok(self.reflectance_from_rgb(name, three(name, numbers)?)),
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
+                Ok(self.reflectance_from_rgb(name, three(name, numbers)?))
+            }
             ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
                 Ok(Colour::Grey(self.limit_to_unit(name, numbers[0]).into()))
             }

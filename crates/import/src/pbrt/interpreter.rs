@@ -5,7 +5,7 @@ use std::{collections::HashMap, path::Path, rc::Rc};
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 
-use super::camera::{PbrtFilm, PbrtCamera};
+use super::camera::{PbrtCamera, PbrtFilm};
 use super::parameters::Parameters;
 use crate::scenery::{Graphics, SceneBuilder};
 use crate::syntax::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};

@@ -17,7 +17,12 @@ fn image_axes() -> DMat3 {
 }
 
 impl<'a> Importer<'a> {
-    pub(super) fn dome(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, unit: LightUnit) -> Result<(), String> {
+    pub(super) fn dome(
+        &mut self,
+        prim: &'a UsdPrim,
+        state: &TraversalState<'a>,
+        unit: LightUnit,
+    ) -> Result<(), String> {
         let environment = match asset(prim, "inputs:texture:file") {
             None => {
                 self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));

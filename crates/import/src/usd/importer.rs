@@ -10,7 +10,7 @@ use super::transform::transform_of;
 use crate::scenery::{KnownTexture, SceneBuilder};
 use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
 use crate::without::{even_sky, whole_view};
-use crate::written::{ImportedCamera, ImportFiles, import_files};
+use crate::written::{ImportFiles, ImportedCamera, import_files};
 
 /// Maximum visited prims, counting those of each instance.
 const MAX_VISITS: usize = 1_000_000;

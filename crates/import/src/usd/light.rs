@@ -127,7 +127,14 @@ impl<'a> Importer<'a> {
         self.scenery.scene.lights.push(lamps::point(&name, position, candela, colour));
     }
 
-    fn spot(&mut self, prim: &'a UsdPrim, state: &TraversalState<'a>, cone: [f64; 2], candela: f64, colour: LightColour) {
+    fn spot(
+        &mut self,
+        prim: &'a UsdPrim,
+        state: &TraversalState<'a>,
+        cone: [f64; 2],
+        candela: f64,
+        colour: LightColour,
+    ) {
         if candela <= 0.0 {
             self.note_dark_point();
             return;

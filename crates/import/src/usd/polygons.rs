@@ -86,7 +86,12 @@ impl<'a> Importer<'a> {
     }
 
     /// Adds the faces of a mesh with one material.
-    fn part(&mut self, mesh_prim: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
+    fn part(
+        &mut self,
+        mesh_prim: &mut MeshPrim<'_, 'a>,
+        material: Option<&str>,
+        faces: Vec<usize>,
+    ) -> Result<(), String> {
         let (graphics, material) = self.graphics(mesh_prim.prim, mesh_prim.state, material)?;
         let (mut triangles, refused) = mesh_prim.triangles(faces, material.primvar())?;
         if material.has_images() && triangles.uvs.is_empty() {
@@ -110,7 +115,13 @@ impl<'a> Importer<'a> {
     }
 
     /// Light of a mesh; with "normalize" divided by the area of all its faces in the world of the stage.
-    fn normalised_light(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &TraversalState<'a>) -> Rc<AreaLight> {
+    fn normalised_light(
+        &self,
+        light: Rc<AreaLight>,
+        mesh: &PolygonMesh<'a>,
+        prim: &UsdPrim,
+        state: &TraversalState<'a>,
+    ) -> Rc<AreaLight> {
         if !flag(prim, "inputs:normalize", false) {
             return light;
         }

@@ -89,7 +89,8 @@ impl<'a> Importer<'a> {
             for _ in 0..MAX_STEPS {
                 match self.plain_text(node, "info:id").unwrap_or_default() {
                     "UsdPrimvarReader_float2" => {
-                        primvars.extend(self.plain_text(node, "inputs:varname").filter(|name| !primvars.contains(name)));
+                        primvars
+                            .extend(self.plain_text(node, "inputs:varname").filter(|name| !primvars.contains(name)));
                         break;
                     }
                     id => {
@@ -110,11 +111,18 @@ impl<'a> Importer<'a> {
     }
 
     /// Output of a node.
-    pub(super) fn image_input(&mut self, node: &'a UsdPrim, output: &str, input_name: &str) -> Result<ImageInput<'a>, String> {
+    pub(super) fn image_input(
+        &mut self,
+        node: &'a UsdPrim,
+        output: &str,
+        input_name: &str,
+    ) -> Result<ImageInput<'a>, String> {
         let input_name = input_name.trim_start_matches("inputs:");
         let id = self.plain_text(node, "info:id").unwrap_or_default();
         if id != "UsdUVTexture" {
-            self.scenery.report.note(format!("\"{input_name}\" of a node \"{id}\" is not supported: 0.5 is used instead"));
+            self.scenery
+                .report
+                .note(format!("\"{input_name}\" of a node \"{id}\" is not supported: 0.5 is used instead"));
             return Ok(ImageInput::Even([0.5; 3]));
         }
         let channel = ["r", "g", "b", "a"].iter().position(|name| *name == output);
@@ -191,11 +199,7 @@ impl<'a> Importer<'a> {
     }
 
     /// Numbers after a rule, as the red of a new image.
-    pub(super) fn numbers(
-        &mut self,
-        node: &ImageNode<'a>,
-        rule: &dyn Fn(f64) -> f64,
-    ) -> Result<KnownTexture, String> {
+    pub(super) fn numbers(&mut self, node: &ImageNode<'a>, rule: &dyn Fn(f64) -> f64) -> Result<KnownTexture, String> {
         // A rule is identified by its results for a few numbers.
         let probed: Vec<f64> = (0..=16).map(|i| rule(f64::from(i) / 16.0)).collect();
         let key = format!("numbers {probed:?} {}", node.key());

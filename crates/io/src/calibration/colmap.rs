@@ -9,7 +9,7 @@ use etendue_projection::model::{
 };
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, opencv::wrong};
+use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, opencv::wrong};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [
@@ -61,12 +61,18 @@ fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> Read<&
     match (cameras, camera) {
         ([], _) => Err(TreeError::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
         (all, Some(requested)) => all.iter().find(|c| c.id == requested).ok_or_else(|| {
-            TreeError::coded(ErrorCode::UnknownName, 0, format!("contains no camera \"{requested}\"; it contains {names}"))
+            TreeError::coded(
+                ErrorCode::UnknownName,
+                0,
+                format!("contains no camera \"{requested}\"; it contains {names}"),
+            )
         }),
         ([one], None) => Ok(one),
-        _ => {
-            Err(TreeError::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id")))
-        }
+        _ => Err(TreeError::coded(
+            ErrorCode::UnknownName,
+            0,
+            format!("contains the cameras {names}; select one by its id"),
+        )),
     }
 }
 
@@ -75,7 +81,10 @@ impl<'a> CameraLine<'a> {
         let mut words = text.split_whitespace();
         let mut word = |what: &str| {
             words.next().ok_or_else(|| {
-                TreeError::at(number, format!("the line ends before {what}; expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS…"))
+                TreeError::at(
+                    number,
+                    format!("the line ends before {what}; expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS…"),
+                )
             })
         };
         let (id, model) = (word("the id")?, word("the model")?);

@@ -20,7 +20,7 @@ use etendue_projection::model::{FTheta, FThetaSense};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::Affine};
 
 use super::yaml::{self, TreeNode};
-use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, opencv::wrong, passed_over};
+use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, opencv::wrong, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",
@@ -59,7 +59,9 @@ fn sensor<'a>(rig: &'a TreeNode, camera: Option<&str>) -> Read<(String, &'a Tree
     let cameras: Vec<(&str, &TreeNode)> = cameras.collect();
     let names = cameras.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let chosen = match (camera, &cameras[..]) {
-        (_, []) => return Err(TreeError::at(rig.line, "contains no f-theta camera (properties with Model = \"ftheta\")")),
+        (_, []) => {
+            return Err(TreeError::at(rig.line, "contains no f-theta camera (properties with Model = \"ftheta\")"));
+        }
         (None, [only]) => Some(only),
         (None, _) => {
             return Err(TreeError::coded(

@@ -4,7 +4,7 @@ use etendue_projection::{Calibration, CalibrationError, CameraMatrix};
 
 use super::yaml::TreeNode;
 use crate::ErrorCode;
-use crate::tree::{TreeError, Read};
+use crate::tree::{Read, TreeError};
 
 /// Result of a reader.
 pub(super) struct ReaderResult {
@@ -51,7 +51,10 @@ pub(super) fn numbers(node: &TreeNode) -> Read<Vec<f64>> {
 pub(super) fn camera(node: &TreeNode) -> Read<CameraMatrix> {
     let numbers = numbers(node)?;
     let [fx, skew, cx, zero, fy, cy, rest @ ..] = &numbers[..] else {
-        return Err(TreeError::at(node.line, format!("found {} numbers; expected a 3 × 3 camera matrix", numbers.len())));
+        return Err(TreeError::at(
+            node.line,
+            format!("found {} numbers; expected a 3 × 3 camera matrix", numbers.len()),
+        ));
     };
     if *zero != 0.0 || rest != [0.0, 0.0, 1.0] {
         return Err(TreeError::at(node.line, "expected a camera matrix fx s cx, 0 fy cy, 0 0 1"));

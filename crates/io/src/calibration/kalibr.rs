@@ -12,7 +12,7 @@ use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::{fisheye, unified, wrong};
 use super::yaml::{self, TreeNode, list};
-use super::{ErrorCode, TreeError, ReaderResult, Read, camera_error, passed_over};
+use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, passed_over};
 
 const KNOWN: [&str; 5] = ["camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "resolution"];
 
@@ -35,13 +35,15 @@ fn chosen<'a>(root: &'a TreeNode, camera: Option<&str>) -> Read<(&'a str, &'a Tr
     let names = root.keys();
     match (root.entries(), camera) {
         (entries, Some(requested)) => {
-            entries.iter().find(|(name, _)| name == requested).map(|(name, node)| (name.as_str(), node)).ok_or_else(|| {
-                TreeError::coded(
-                    ErrorCode::UnknownName,
-                    0,
-                    format!("contains no camera \"{requested}\"; it contains {}", list(&names)),
-                )
-            })
+            entries.iter().find(|(name, _)| name == requested).map(|(name, node)| (name.as_str(), node)).ok_or_else(
+                || {
+                    TreeError::coded(
+                        ErrorCode::UnknownName,
+                        0,
+                        format!("contains no camera \"{requested}\"; it contains {}", list(&names)),
+                    )
+                },
+            )
         }
         ([(name, node)], None) => Ok((name, node)),
         _ => Err(TreeError::coded(

@@ -27,7 +27,7 @@ use etendue_projection::Calibration;
 
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{TreeError, Read, passed_over};
+use crate::tree::{Read, TreeError, passed_over};
 use crate::{Error, ErrorCode, tree as yaml};
 use found::{ReaderResult, camera_error};
 
@@ -62,6 +62,7 @@ pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&
         CalibrationFormat::Ocam => ocam::read(text),
         CalibrationFormat::FTheta => f_theta::read(text, camera),
     };
-    let (name, calibration, notes) = read.and_then(|result| result.chosen(camera)).map_err(|error| error.in_file(file))?;
+    let (name, calibration, notes) =
+        read.and_then(|result| result.chosen(camera)).map_err(|error| error.in_file(file))?;
     Ok(ImportedCamera { name, calibration, notes, hash: hash::hash_bytes(&bytes) })
 }

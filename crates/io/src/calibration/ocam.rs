@@ -12,7 +12,7 @@
 
 use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
-use super::{TreeError, ReaderResult, Read, camera_error, opencv::wrong};
+use super::{Read, ReaderResult, TreeError, camera_error, opencv::wrong};
 
 const LINES: [&str; 5] = [
     "the direct polynomial: count a0 a1 …",
@@ -69,9 +69,10 @@ fn row(line: usize, what: &'static str, text: &str) -> Read<OcamRow> {
 fn counted(row: &OcamRow) -> Read<&[f64]> {
     match &row.numbers[..] {
         [count, rest @ ..] if *count == rest.len() as f64 => Ok(rest),
-        [count, rest @ ..] => {
-            Err(TreeError::at(row.line, format!("the count is {count}, but {} numbers follow: {}", rest.len(), row.what)))
-        }
+        [count, rest @ ..] => Err(TreeError::at(
+            row.line,
+            format!("the count is {count}, but {} numbers follow: {}", rest.len(), row.what),
+        )),
         [] => Err(TreeError::at(row.line, format!("expected {}", row.what))),
     }
 }

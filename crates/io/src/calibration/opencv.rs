@@ -18,7 +18,7 @@ use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified}
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
 use super::yaml::{self, TreeNode};
-use super::{ErrorCode, TreeError, ReaderResult, Read, found, camera_error, passed_over};
+use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, found, passed_over};
 
 const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
 const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
@@ -52,7 +52,8 @@ fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<
 }
 
 pub(super) fn fisheye(line: usize, k: &[f64]) -> Read<Model> {
-    let k = k.try_into().map_err(|_| TreeError::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
+    let k =
+        k.try_into().map_err(|_| TreeError::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
     KannalaBrandt::new(k).map(Model::KannalaBrandt).map_err(wrong(line))
 }
 

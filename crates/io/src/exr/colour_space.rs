@@ -231,9 +231,7 @@ mod tests {
             image.pixels,
             etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]])
         );
-        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = image.in_rec_709().pixels else {
-            panic!("colours")
-        };
+        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = image.in_rec_709().pixels else { panic!("colours") };
         let [r, g, b, a] = colours[0];
         assert!((r - 0.6).abs() < 5e-4 && (g - 0.2).abs() < 5e-4 && (b - 0.1).abs() < 5e-4 && a == 0.5, "{colours:?}");
     }

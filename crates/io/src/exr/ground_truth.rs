@@ -158,8 +158,9 @@ impl<'a> GroundTruth<'a> {
     /// Channels of the planes that are present.
     fn layers(&self) -> Vec<(String, TruthLayer<'a>)> {
         let lengths = [("depth.Z", self.depth), ("distance.Z", self.distance)];
-        let lengths =
-            lengths.into_iter().filter_map(|(name, plane)| Some((name.to_owned(), TruthLayer::Float(plane?.samples()))));
+        let lengths = lengths
+            .into_iter()
+            .filter_map(|(name, plane)| Some((name.to_owned(), TruthLayer::Float(plane?.samples()))));
         let vectors = [
             ("N", self.normal),
             ("P", self.position),
@@ -169,7 +170,8 @@ impl<'a> GroundTruth<'a> {
         ];
         let vectors = vectors.into_iter().filter_map(|(name, plane)| Some((name, plane?)));
         let components = vectors.flat_map(|(name, plane)| {
-            let component = move |(axis, letter)| (format!("{name}.{letter}"), TruthLayer::Component(plane.samples(), axis));
+            let component =
+                move |(axis, letter)| (format!("{name}.{letter}"), TruthLayer::Component(plane.samples(), axis));
             ["X", "Y", "Z"].into_iter().enumerate().map(component)
         });
         let identities =

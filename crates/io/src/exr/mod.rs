@@ -37,7 +37,7 @@ pub use colour_space::{SpectralChannel, Stokes, channel_name, parse_channel_name
 pub use cryptomatte::{CryptomatteLayer, cryptomatte_id, cryptomatte_image};
 pub use encode::{ExrImage, WAITING_BYTES};
 pub use ground_truth::{
-    GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_from_planes, rays_image,
+    GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_from_planes, ground_truth_image, rays_image,
 };
 pub use layers::{ExrLayer, encode_layers, encode_plane, layers_image, plane_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};

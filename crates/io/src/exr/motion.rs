@@ -97,7 +97,8 @@ impl MotionTruth<'_> {
         fn plane_size<Q: Quantity>(plane: &Plane<Q>) -> (usize, usize) {
             (plane.width(), plane.height())
         }
-        let neighbour = self.forward.or(self.backward).and_then(|n| n.flow.map(plane_size).or(n.scene_flow.map(plane_size)));
+        let neighbour =
+            self.forward.or(self.backward).and_then(|n| n.flow.map(plane_size).or(n.scene_flow.map(plane_size)));
         neighbour.or(self.motion_vector.map(plane_size)).or(self.velocity.map(plane_size)).or(self.time.map(plane_size))
     }
 }

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use etendue_core::quantity::{Length, Quantity, Radiance, Variance};
-use etendue_core::{Bands, StoredCube, Plane, SpectralCube, storage::BandReader};
+use etendue_core::{Bands, Plane, SpectralCube, StoredCube, storage::BandReader};
 use etendue_spectra::{colour::linear_srgb_from_xyz, observer::xyz_weights};
 
 use super::channel::{ChannelSource, EncodeError, SampleRows, Strips};
@@ -58,7 +58,10 @@ impl<'a> SpectralBands<'a> {
 
     /// Bands of cubes in memory or on the disk.
     #[must_use]
-    pub fn from_stored<Q: Quantity<Sample = f32>>(cube: &'a StoredCube<Q>, variance: Option<&'a StoredCube<Variance>>) -> Self {
+    pub fn from_stored<Q: Quantity<Sample = f32>>(
+        cube: &'a StoredCube<Q>,
+        variance: Option<&'a StoredCube<Variance>>,
+    ) -> Self {
         let variance = variance.map(StoredCube::reader);
         Self { bands: cube.bands(), size: (cube.width(), cube.height()), mean: cube.reader(), variance }
     }

@@ -70,7 +70,9 @@ pub fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
 fn own_facts(exr: &ExrFile) -> BTreeMap<String, String> {
     const VALUE_ATTRIBUTES: [&str; 6] = ["quantity", "units", "band_width_nm", "preview", "variance", "lengths"];
     let ours = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
-    ours.filter(|(name, _)| !VALUE_ATTRIBUTES.contains(name)).map(|(name, text)| (name.to_owned(), text.clone())).collect()
+    ours.filter(|(name, _)| !VALUE_ATTRIBUTES.contains(name))
+        .map(|(name, text)| (name.to_owned(), text.clone()))
+        .collect()
 }
 
 fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Result<&'static str, Error> {

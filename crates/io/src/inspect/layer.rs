@@ -52,10 +52,13 @@ fn vectors(name: &str, components: [&[f32]; 3]) -> (Vec<[u8; 3]>, String) {
 
 fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
     let (width, height) = (exr.width, exr.height);
-    let matching = exr.channels.iter().find(|c| c.name == name || c.name.rsplit_once('.').is_some_and(|(l, _)| l == name));
+    let matching =
+        exr.channels.iter().find(|c| c.name == name || c.name.rsplit_once('.').is_some_and(|(l, _)| l == name));
     let channel = matching?;
     let (rgb, message) = match &channel.samples {
-        ExrSamples::Uint(ids) => (draw_identities(ids), format!("the image shows {}, one colour per value", channel.name)),
+        ExrSamples::Uint(ids) => {
+            (draw_identities(ids), format!("the image shows {}, one colour per value", channel.name))
+        }
         samples if channel.name.ends_with(".Z") => lengths(&channel.name, &samples.to_floats()),
         samples => {
             let message = format!("the image shows channel {}", channel.name);

@@ -97,7 +97,10 @@ mod tests {
 
     #[test]
     fn a_large_image_is_subsampled_and_a_usual_one_is_not() {
-        assert_eq!([subsampling_step(4000, 3000), subsampling_step(8192, 4096), subsampling_step(20_000, 20_000)], [1, 1, 4]);
+        assert_eq!(
+            [subsampling_step(4000, 3000), subsampling_step(8192, 4096), subsampling_step(20_000, 20_000)],
+            [1, 1, 4]
+        );
         let picture =
             DynamicImage::ImageRgb8(image::ImageBuffer::from_fn(5, 3, |x, y| image::Rgb([x as u8, y as u8, 7])));
         let stored = StorageFormat::from_colour(picture.color());

@@ -29,11 +29,13 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     } else {
         Undistorted::Tangent
     };
-    let distance = |table: &ListingTable<'_>| wavelength_nm(&table.above).map_or(f64::INFINITY, |nm| (nm - GREEN_NM).abs());
+    let distance =
+        |table: &ListingTable<'_>| wavelength_nm(&table.above).map_or(f64::INFINITY, |nm| (nm - GREEN_NM).abs());
     let table = listing.tables.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let table = table.expect("a listing has a table");
     let points = points(listing, table, undistorted)?;
-    let focal_length_mm = listing.stated(table, "focal length").or_else(|| focal_length_from_heights(table, undistorted));
+    let focal_length_mm =
+        listing.stated(table, "focal length").or_else(|| focal_length_from_heights(table, undistorted));
     let mut notes = vec![match wavelength_nm(&table.above).or_else(|| wavelength_nm(&listing.head)) {
         Some(nm) => format!("distortion computed for {nm} nm, used for all wavelengths"),
         None => "distortion used for all wavelengths".to_owned(),

@@ -22,8 +22,9 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
             are cycles per mm\"";
         return Err(listing.error(0, problem));
     }
-    let is_limit =
-        |table: &ListingTable<'_>| table.above.iter().any(|(_, line)| line.to_lowercase().contains("diffraction limit"));
+    let is_limit = |table: &ListingTable<'_>| {
+        table.above.iter().any(|(_, line)| line.to_lowercase().contains("diffraction limit"))
+    };
     let tables: Vec<&ListingTable<'_>> = listing.tables.iter().filter(|table| !is_limit(table)).collect();
     let [table, others @ ..] = &tables[..] else {
         return Err(listing.error(

@@ -133,7 +133,8 @@ fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
 
 /// Position of the point on the sensor.
 fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> {
-    let (_, text) = head_entry(listing, "center coordinates").or_else(|| head_entry(listing, "reference coordinates"))?;
+    let (_, text) =
+        head_entry(listing, "center coordinates").or_else(|| head_entry(listing, "reference coordinates"))?;
     let unit = lens_unit_mm(text);
     if unit.is_none() {
         notes.push("its coordinates on the sensor are assumed to be in mm".to_owned());
@@ -175,7 +176,9 @@ fn point(
 }
 
 fn light(listing: &Listing<'_>, table: &ListingTable<'_>) -> Result<Vec<f32>, Error> {
-    if let Some((line, text)) = head_entry(listing, "values are").filter(|(_, text)| text.to_lowercase().contains("log")) {
+    if let Some((line, text)) =
+        head_entry(listing, "values are").filter(|(_, text)| text.to_lowercase().contains("log"))
+    {
         return Err(listing.error(line, format!("found \"Values are{text}\"; export with the type \"Linear\"")));
     }
     let mut light = Vec::with_capacity(table.rows.len() * table.rows[0].numbers.len());
@@ -216,7 +219,8 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
         ));
     }
     let computed = centroid.map(|moment| moment / sum * asset.spacing_um);
-    let stated = head_entry(listing, "centroid offset").map(|(_, text)| (numbers(text), lens_unit_mm(text).unwrap_or(1.0)));
+    let stated =
+        head_entry(listing, "centroid offset").map(|(_, text)| (numbers(text), lens_unit_mm(text).unwrap_or(1.0)));
     if let Some((stated, mm)) = stated.filter(|(stated, _)| stated.len() == 2) {
         let stated = [stated[0], stated[1]].map(|value| value * mm * 1e3);
         if computed.iter().zip(stated).any(|(coordinate, stated)| (coordinate - stated).abs() > asset.spacing_um) {

@@ -120,7 +120,8 @@ fn is_convex(flat: &[Point2]) -> bool {
 
 /// Returns true if two edges of the closed polygon cross at an interior point of both.
 pub(super) fn edges_cross(flat: &[Point2]) -> bool {
-    let edges: Vec<PolygonEdge> = (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
+    let edges: Vec<PolygonEdge> =
+        (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
     let mut active = BTreeSet::new();
     events(&edges).into_iter().any(|(_, ends, i)| {
         if ends { remove_edge(&mut active, &edges[i]) } else { insert_edge(&mut active, &edges[i]) }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::SlotMaterial;
 
-use super::mtl::{sibling_path, parse};
+use super::mtl::{parse, sibling_path};
 use super::{obj::Obj, texture_option::UvLayout};
 use crate::source::{decode_text, read_description_bytes};
 use crate::{Error, Sandbox};

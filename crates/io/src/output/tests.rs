@@ -89,7 +89,8 @@ fn one_run_at_a_time_has_a_folder() {
     sibling.write("x.txt", b"x").expect("write");
     sibling.commit().expect("commit");
     drop(again);
-    let parts = ["a", "b"].map(|part| OutputFolder::open_part(place.path(), part, ExistingFiles::Refuse).expect("free"));
+    let parts =
+        ["a", "b"].map(|part| OutputFolder::open_part(place.path(), part, ExistingFiles::Refuse).expect("free"));
     OutputFolder::open_part(place.path(), "b", ExistingFiles::Refuse).expect_err("taken");
     drop(parts);
     assert_eq!(listing(place.path()), ["x.txt"], "folders without results go");

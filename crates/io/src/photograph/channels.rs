@@ -69,7 +69,9 @@ pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> SourcedEncoding {
     match full_scale {
         None => from_floats(),
         Some(full) if full > 65_535.0 => SourcedEncoding::guessed(Encoding::Linear, "32-bit integers usually are"),
-        Some(full) if full > 255.0 && !colour => SourcedEncoding::guessed(Encoding::Linear, "16-bit grey values usually are"),
+        Some(full) if full > 255.0 && !colour => {
+            SourcedEncoding::guessed(Encoding::Linear, "16-bit grey values usually are")
+        }
         Some(full) if full > 255.0 => SourcedEncoding::guessed(Encoding::Srgb, "16-bit colours usually are"),
         Some(_) => SourcedEncoding::guessed(Encoding::Srgb, "8-bit values usually are"),
     }
@@ -171,7 +173,15 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     let samples: Vec<f32> = rows.flat_map(|row| row.chunks_exact(4).map(float)).collect();
     let names = channel_names(channels).expect("one or three");
     let channels = separated(names, &samples);
-    Ok(Photograph { width, height, channels, full_scale: None, stated: from_floats(), raw: None, correlated_block_px: 1 })
+    Ok(Photograph {
+        width,
+        height,
+        channels,
+        full_scale: None,
+        stated: from_floats(),
+        raw: None,
+        correlated_block_px: 1,
+    })
 }
 
 #[cfg(test)]

@@ -20,10 +20,10 @@ mod tiff;
 use std::path::Path;
 
 use crate::{Error, ErrorCode, exr::decode_exr, picture::EXR_MAGIC, source::read_bytes};
-use channels::{channel_names, guess, from_floats, separated};
+use channels::{channel_names, from_floats, guess, separated};
 
 pub use crate::encoding::{Encoding, SourcedEncoding};
-pub use channels::{PhotographChannel, Photograph};
+pub use channels::{Photograph, PhotographChannel};
 pub use side_car::{FilterTile, RawFacts, RawFrame, StatedRows, StatedTiming, stated_timing};
 
 pub(crate) use channels::{KINDS, is_pfm};

@@ -31,7 +31,7 @@ pub(super) fn find(file: &Path) -> Result<Option<SideCar>, Error> {
         for candidate in NAMES.map(|name| folder.join(name)).into_iter().filter(|candidate| candidate.is_file()) {
             let content = sidecar::read(&candidate)?;
             if content["program"] == "etendue" && !content["files"][&image].is_null() {
-                return Ok(Some(SideCar { file: candidate, content: said: content, image: picture: image }));
+                return Ok(Some(SideCar { file: candidate, content, image }));
             }
         }
     }

@@ -94,7 +94,12 @@ fn head<'a>(file: &Path, text: &'a str) -> Result<IesHead<'a>, Error> {
                 let what = "nothing follows TILT=; expected NONE, INCLUDE or the name of a file";
                 return Err(Error::at(file, index + 1, what));
             }
-            return Ok(IesHead { identification, texts, tilt: fields::TiltStatement::from_word(word), line: index + 1 });
+            return Ok(IesHead {
+                identification,
+                texts,
+                tilt: fields::TiltStatement::from_word(word),
+                line: index + 1,
+            });
         }
         match Identification::read(line, index + 1) {
             Some(edition) if identification == Identification::None => identification = edition,

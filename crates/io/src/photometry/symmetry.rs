@@ -91,7 +91,8 @@ fn close(planes: &mut Vec<Plane>) {
         (false, true) => planes.insert(0, (0.0, last.1)),
         (false, false) => {
             let fraction = (360.0 - last.0) / (first.0 + 360.0 - last.0);
-            let seam: Vec<f64> = last.1.iter().zip(&first.1).map(|(a, b)| (1.0 - fraction) * a + fraction * b).collect();
+            let seam: Vec<f64> =
+                last.1.iter().zip(&first.1).map(|(a, b)| (1.0 - fraction) * a + fraction * b).collect();
             planes.insert(0, (0.0, seam.clone()));
             planes.push((360.0, seam));
         }

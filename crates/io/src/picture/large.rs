@@ -66,7 +66,11 @@ fn raster_head(file: &Path) -> Option<ImageHead> {
     let (width, height) = decoder.dimensions();
     let format = stored_format(decoder.color_type());
     let packed = std::fs::metadata(file).ok()?.len() as usize;
-    (PixelStorage::Stored.bytes(&decoder) <= texture_memory::max_bytes(packed)).then_some(ImageHead { width, height, format })
+    (PixelStorage::Stored.bytes(&decoder) <= texture_memory::max_bytes(packed)).then_some(ImageHead {
+        width,
+        height,
+        format,
+    })
 }
 
 /// Large image whose header has been read.

@@ -259,7 +259,9 @@ impl RawLens {
                 notes: self.notes,
                 hash: [0; 32],
             }),
-            stop_count => Err(Error::new(file, format!("{stop_count} surfaces are aperture stops; expected one (STOP or STO)"))),
+            stop_count => {
+                Err(Error::new(file, format!("{stop_count} surfaces are aperture stops; expected one (STOP or STO)")))
+            }
         }
     }
 }
@@ -292,7 +294,8 @@ fn effective_surfaces(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAs
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
-        let idle = surface.glass == before && !surface.stop && !(surface.is_clear_aperture && surface.semi_aperture.is_some());
+        let idle =
+            surface.glass == before && !surface.stop && !(surface.is_clear_aperture && surface.semi_aperture.is_some());
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,

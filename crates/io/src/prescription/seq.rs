@@ -13,7 +13,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{StatedOpening, PrimaryWavelength, RawLens, RawSurface, by_number, named, successor};
+use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening, by_number, named, successor};
 use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 

@@ -3,7 +3,7 @@
 use etendue_scene::asset::{PassAsset, TermAsset, TransferAsset};
 
 use crate::ErrorCode;
-use crate::tree::{TreeError, TreeNode, Read, passed_over};
+use crate::tree::{Read, TreeError, TreeNode, passed_over};
 
 /// Maximum power, and maximum number of terms of a polynomial.
 const MAX_POWER: u8 = 32;
@@ -21,7 +21,10 @@ pub(super) fn read(node: &TreeNode, output_offset_mm: f64, with_dz: bool) -> Rea
     let wavelength = node.key("wavelength_nm")?;
     let wavelength_nm = wavelength.number()?;
     if wavelength_nm <= 0.0 {
-        return Err(TreeError::at(wavelength.line, format!("found {wavelength_nm}; expected a wavelength in nm above 0")));
+        return Err(TreeError::at(
+            wavelength.line,
+            format!("found {wavelength_nm}; expected a wavelength in nm above 0"),
+        ));
     }
     let (pass_plane_mm, pass) = pass(node)?;
     let mut by_output: [Option<Vec<TermAsset>>; 6] = Default::default();
@@ -145,7 +148,10 @@ fn ellipses(pass: &TreeNode) -> Read<PassAsset> {
 fn circles(radii: &TreeNode, sensitivities: &TreeNode) -> Read<PassAsset> {
     let (values, centres) = (radii.numbers()?, sensitivities.numbers()?);
     if values.len() > MAX_REGIONS {
-        return Err(TreeError::at(radii.line, format!("found {} circles; expected at most {MAX_REGIONS}", values.len())));
+        return Err(TreeError::at(
+            radii.line,
+            format!("found {} circles; expected at most {MAX_REGIONS}", values.len()),
+        ));
     }
     if values.len() != centres.len() || values.is_empty() || values.iter().any(|r| *r <= 0.0) {
         return Err(TreeError::at(radii.line, "expected radii above 0, and the same number of sensitivities"));

@@ -21,7 +21,7 @@ use std::path::Path;
 use etendue_scene::asset::RayTransferAsset;
 
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{self, TreeError, TreeNode, Read, passed_over};
+use crate::tree::{self, Read, TreeError, TreeNode, passed_over};
 use crate::{Error, ErrorCode, hash};
 
 const KEYS: [&str; 8] = [
@@ -66,7 +66,11 @@ fn read(text: &str) -> Read<RayTransferAsset> {
         return Err(TreeError::at(polynomials.line, message));
     }
     if transfers.is_empty() {
-        return Err(TreeError::coded(ErrorCode::Empty, polynomials.line, "contains no wavelength; expected at least one"));
+        return Err(TreeError::coded(
+            ErrorCode::Empty,
+            polynomials.line,
+            "contains no wavelength; expected at least one",
+        ));
     }
     transfers.sort_by(|a, b| a.0.wavelength_nm.total_cmp(&b.0.wavelength_nm));
     if let Some(pair) = transfers.windows(2).find(|pair| pair[0].0.wavelength_nm == pair[1].0.wavelength_nm) {

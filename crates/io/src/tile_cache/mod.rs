@@ -173,7 +173,9 @@ mod tests {
         };
         let longer = [&complete[..], &[0]].concat();
         let head = [flipped(0), flipped(8), flipped(12), flipped(20), flipped(50), flipped(HEAD_BYTES + 3)];
-        for bytes in head.into_iter().chain([complete[..complete.len() - 1].to_vec(), complete[..20].to_vec(), vec![], longer]) {
+        for bytes in
+            head.into_iter().chain([complete[..complete.len() - 1].to_vec(), complete[..20].to_vec(), vec![], longer])
+        {
             fs::write(&file, bytes).expect("write");
             assert!(cache.find(&KEY, &LENGTHS).is_none());
             assert!(!file.exists());
@@ -240,7 +242,8 @@ mod tests {
         assert!(place.path().join("theirs.tiles").exists());
         let message = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
         assert!(
-            message.contains("the texture cache is limited to 2048 MiB") && message.contains("`limit` texture-cache-mib="),
+            message.contains("the texture cache is limited to 2048 MiB")
+                && message.contains("`limit` texture-cache-mib="),
             "{message}"
         );
         assert_eq!(cache.check_room(&keys[3], &LENGTHS), Ok(()));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use etendue_io::picture::read_image;
 use etendue_io::{load_assets, mesh};
-use etendue_scene::asset::{AssetKind, AssetRequest, ReplacedMaterials, ImagePixels};
+use etendue_scene::asset::{AssetKind, AssetRequest, ImagePixels, ReplacedMaterials};
 use etendue_scene::{Description, Overrides};
 
 const JOB: &str = r#"format = 1
@@ -129,7 +129,11 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
         messages[1],
         "m.obj:2: the face refers to vertex 2, but there are 1; the file is damaged or truncated (named at job.toml:5:8: scene.meshes.m.file)"
     );
-    assert!(messages[2].starts_with("t.png: not a readable image (") && messages[2].contains("truncated"), "{}", messages[2]);
+    assert!(
+        messages[2].starts_with("t.png: not a readable image (") && messages[2].contains("truncated"),
+        "{}",
+        messages[2]
+    );
     assert!(messages[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", messages[2]);
 }
 

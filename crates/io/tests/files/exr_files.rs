@@ -8,8 +8,8 @@ use etendue_core::quantity::{Identity, Irradiance, Length, MeanElectrons, Quanti
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{
-    GroundTruth, LengthPlanes, ExrSamples, SpectralImage, encode_ground_truth, encode_plane, encode_radiance, encode_spectral,
-    read_exr, read_spectral,
+    ExrSamples, GroundTruth, LengthPlanes, SpectralImage, encode_ground_truth, encode_plane, encode_radiance,
+    encode_spectral, read_exr, read_spectral,
 };
 use etendue_io::inspect::{PreviewSelection, inspect, inspect_showing};
 
@@ -120,7 +120,8 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
     assert!(report.notes[0].starts_with("the image shows depth.Z in the viridis colour map"), "{:?}", report.notes);
-    let report_of = |layer: &str| inspect_showing(&path, &PreviewSelection { layer: Some(layer.to_owned()), boxes: None });
+    let report_of =
+        |layer: &str| inspect_showing(&path, &PreviewSelection { layer: Some(layer.to_owned()), boxes: None });
     let shown = |layer: &str| report_of(layer).expect("a layer").preview.expect("a picture").rgb;
     assert_eq!(shown("instance.ID"), shown("semantic"));
     assert_eq!(shown("instance")[0], [0; 3], "the background");

@@ -1,7 +1,7 @@
 //! glTF: a file of another program compared with that program's own results, small files with known answers, and damaged ones.
 
 use etendue_io::mesh::read_mesh;
-use etendue_scene::asset::{ImagePixels, MeshAsset, SlotColour, SlotLayers, SlotNumber, SlotTopLayer, SlotSurface};
+use etendue_scene::asset::{ImagePixels, MeshAsset, SlotColour, SlotLayers, SlotNumber, SlotSurface, SlotTopLayer};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::fs;
@@ -63,7 +63,8 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
     let print = layers(&mesh, slot("print"));
     assert_eq!(print.top_layer, SlotTopLayer::Coat { index: 1.5 });
     let SlotColour::Picture(picture) = &print.base else { panic!("{print:?}") };
-    let (_, image) = mesh.embedded_images.iter().find(|(name, _)| *name == picture.file).expect("the picture came along");
+    let (_, image) =
+        mesh.embedded_images.iter().find(|(name, _)| *name == picture.file).expect("the picture came along");
     assert_eq!((image.width, image.height), (4, 2));
     let ImagePixels::Rgb8(pixels) = &image.pixels else { panic!("{:?}", image.pixels) };
     assert_eq!(pixels[..4], [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]]);
@@ -251,7 +252,11 @@ fn opacity_is_masked_or_blended() {
         material(keys).opacity
     };
     assert_eq!(with_alpha("OPAQUE", 0.5), None);
-    assert_eq!((with_alpha("MASK", 0.5), with_alpha("MASK", 0.1)), (Some(SlotNumber::Number(0.0)), None), "51 / 255 is 0.2");
+    assert_eq!(
+        (with_alpha("MASK", 0.5), with_alpha("MASK", 0.1)),
+        (Some(SlotNumber::Number(0.0)), None),
+        "51 / 255 is 0.2"
+    );
     let Some(SlotNumber::Number(opacity)) = with_alpha("BLEND", 0.5) else { panic!("a number") };
     assert!((opacity - 0.2).abs() < 1.0 / 65_535.0, "{opacity}");
 }
@@ -261,10 +266,13 @@ fn extensions_become_coats_glass_cloth_and_light() {
     let plain = json!({ "metallicFactor": 0, "roughnessFactor": 0.5 });
     let with =
         |name: &str, value: Value| material(json!({ "pbrMetallicRoughness": plain, "extensions": { name: value } }));
-    let SlotTopLayer::Coat { index } = with("KHR_materials_ior", json!({ "ior": 1.75 })).top_layer else { panic!("a coat") };
+    let SlotTopLayer::Coat { index } = with("KHR_materials_ior", json!({ "ior": 1.75 })).top_layer else {
+        panic!("a coat")
+    };
     assert!((index - 1.75).abs() < 1e-6);
     // A quarter of the reflectance of 1.5: (n − 1)/(n + 1) = 0.1.
-    let SlotTopLayer::Coat { index } = with("KHR_materials_specular", json!({ "specularFactor": 0.25 })).top_layer else {
+    let SlotTopLayer::Coat { index } = with("KHR_materials_specular", json!({ "specularFactor": 0.25 })).top_layer
+    else {
         panic!("a coat")
     };
     assert!((index - 1.1 / 0.9).abs() < 1e-6, "{index}");
@@ -274,8 +282,8 @@ fn extensions_become_coats_glass_cloth_and_light() {
         matches!(coated, SlotTopLayer::TwoCoats { fraction: 0.75, alpha, .. } if (alpha - 0.01).abs() < 1e-9),
         "{coated:?}"
     );
-    let cloth =
-        with("KHR_materials_sheen", json!({ "sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5 })).top_layer;
+    let cloth = with("KHR_materials_sheen", json!({ "sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5 }))
+        .top_layer;
     assert_eq!(cloth, SlotTopLayer::Sheen { colour: [0.5, 0.25, 0.0], alpha: 0.25 });
     let pane = with("KHR_materials_transmission", json!({ "transmissionFactor": 1 })).transmission.expect("clear");
     assert_eq!((pane.fraction, pane.solid), (SlotNumber::Number(1.0), None));

@@ -263,7 +263,10 @@ mod tests {
         grey.colour.as_mut().expect("colour").white_balance = WhiteBalance::GreyWorld;
         let image = developed([300, 500, 500, 350], &grey);
         let gains = &image.report.white_balance;
-        assert!(gains.iter().zip([2.0, 1.0, 1.6]).all(|(actual, expected)| (actual - expected).abs() < 1e-6), "{gains:?}");
+        assert!(
+            gains.iter().zip([2.0, 1.0, 1.6]).all(|(actual, expected)| (actual - expected).abs() < 1e-6),
+            "{gains:?}"
+        );
         // The same grey everywhere: 0.4 of the range, to f32.
         assert!(image.linear.samples().iter().flatten().all(|v| (v - 0.4).abs() < 1e-6));
     }
@@ -350,11 +353,7 @@ mod tests {
             (raw, with_defects, DevelopError::DefectOutside { x: 4, y: 0, width: 4, height: 4 }),
             (mono, processing(), DevelopError::ColourOfMono),
             (RawImage { mosaic: &rccb, ..raw }, malvar, DevelopError::NotBayer),
-            (
-                RawImage { plane: &thin, ..raw },
-                processing(),
-                DevelopError::TooSmall { width: 4, height: 1, least: 2 },
-            ),
+            (RawImage { plane: &thin, ..raw }, processing(), DevelopError::TooSmall { width: 4, height: 1, least: 2 }),
         ];
         for (raw, processing, error) in cases {
             assert_eq!(develop(&raw, &processing, FrameAddress::default()), Err(error));

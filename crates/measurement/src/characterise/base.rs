@@ -17,7 +17,11 @@ pub(super) fn open(file: &Path) -> Result<Camera, Error> {
 }
 
 /// Refuses a base with a key whose effect is already contained in the measured values.
-pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, results: &CharacterisationResults) -> Result<(), Error> {
+pub(super) fn refuse_what_is_measured(
+    file: &Path,
+    base: &Camera,
+    results: &CharacterisationResults,
+) -> Result<(), Error> {
     let sensor = &base.sensor;
     let mut duplicates = Vec::new();
     if let (Some(measured), Some(based)) = (&results.electronics, &sensor.electronics) {
@@ -56,7 +60,8 @@ pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, results: &Char
 pub(super) fn check(file: &Path, text: &str) -> Result<(), Error> {
     let read = |path: &Path| if path == file { Ok(text.to_owned()) } else { read_text(path) };
     load_camera(file, &read, &Overrides::default()).map(drop).map_err(|errors| {
-        let messages = errors.as_slice().iter().map(|error| format!("the measured values do not form a valid camera: {error}"));
+        let messages =
+            errors.as_slice().iter().map(|error| format!("the measured values do not form a valid camera: {error}"));
         Error::all_coded(ErrorCode::NotMeasurable, messages)
     })
 }

@@ -58,7 +58,13 @@ pub(super) fn camera_file(
     base: Option<&str>,
     image: Option<(&str, &PointSpreadImage)>,
 ) -> CameraFile {
-    let mut builder = CameraFileBuilder { laboratory, results, has_base: base.is_some(), comments: Vec::new(), placeholders: Vec::new() };
+    let mut builder = CameraFileBuilder {
+        laboratory,
+        results,
+        has_base: base.is_some(),
+        comments: Vec::new(),
+        placeholders: Vec::new(),
+    };
     let mut table = Table::new();
     let (lens, effects, sensor, isp) = (builder.lens(), builder.effects(image), builder.sensor(), builder.isp());
     if let Some(base) = base {
@@ -101,7 +107,14 @@ impl CameraFileBuilder<'_> {
     }
 
     /// Writes a measured number, or a placeholder if no base has it.
-    fn measured_or_placeholder(&mut self, table: &mut Table, section: &str, key: &str, e: Option<Estimate>, placeholder: f64) {
+    fn measured_or_placeholder(
+        &mut self,
+        table: &mut Table,
+        section: &str,
+        key: &str,
+        e: Option<Estimate>,
+        placeholder: f64,
+    ) {
         match e {
             Some(e) => self.measured(table, section, key, e),
             None => self.placeholder(table, section, key, placeholder),
@@ -292,7 +305,8 @@ impl CameraFileBuilder<'_> {
     /// Light of the pixels to the right of and below the first green one, relative to its own.
     fn neighbours_over_green(&self) -> [f64; 2] {
         let camera = &self.laboratory.camera;
-        let (Some(cfa), Some(colour)) = (camera.cfa.as_ref().filter(|_| camera.is_mosaic()), &self.results.colour) else {
+        let (Some(cfa), Some(colour)) = (camera.cfa.as_ref().filter(|_| camera.is_mosaic()), &self.results.colour)
+        else {
             return [1.0; 2];
         };
         let tile = cfa.as_bytes();

@@ -54,7 +54,10 @@ fn mixed(shots: &[LaboratoryImage]) -> Vec<String> {
     let differences = |shots: &[&LaboratoryImage], facts: &[(&str, ShotProperty)]| -> Vec<String> {
         facts.iter().flat_map(|(name, fact)| differing(shots, name, *fact)).collect()
     };
-    shortened([differences(&all, &CAMERA_PROPERTIES), differences(&raw, &RAW_PROPERTIES)].concat(), "images differ from the others")
+    shortened(
+        [differences(&all, &CAMERA_PROPERTIES), differences(&raw, &RAW_PROPERTIES)].concat(),
+        "images differ from the others",
+    )
 }
 
 /// Images in which a property differs from that of most images.
@@ -100,7 +103,8 @@ fn copies(shots: &[LaboratoryImage]) -> Vec<String> {
 fn saturated(shots: &[LaboratoryImage]) -> Vec<String> {
     let saturation_error = |kind: ImageKind, min_frames: usize| -> Option<String> {
         let frames: Vec<&LaboratoryImage> = shots.iter().filter(|shot| shot.kind == kind).collect();
-        let full: Vec<&&LaboratoryImage> = frames.iter().filter(|shot| shot.saturated > MAX_SATURATED_FRACTION).collect();
+        let full: Vec<&&LaboratoryImage> =
+            frames.iter().filter(|shot| shot.saturated > MAX_SATURATED_FRACTION).collect();
         let left: Vec<Option<u64>> = {
             let good = frames.iter().filter(|shot| shot.saturated <= MAX_SATURATED_FRACTION);
             let mut times: Vec<_> = good.map(|shot| shot.exposure_s.map(f64::to_bits)).collect();

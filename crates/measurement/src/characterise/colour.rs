@@ -90,7 +90,11 @@ fn selection(laboratory: &Laboratory, shot: &LaboratoryImage) -> Selection {
 }
 
 /// Red, green and blue in the centre of the flat field, less the black level.
-fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &LaboratoryImage) -> Result<[Estimate; 3], Error> {
+fn white(
+    laboratory: &Laboratory,
+    electronics: Option<&Electronics>,
+    shot: &LaboratoryImage,
+) -> Result<[Estimate; 3], Error> {
     if !shot.is_raw() {
         let problem = "is a developed image, so its white balance is that of the development; give the raw image";
         return Err(Error::coded(ErrorCode::NotMeasurable, format!("{}: {problem}", shot.name())));
@@ -141,8 +145,10 @@ impl Colour {
         }
         for (to, row) in NAMES.iter().zip(self.matrix.into_iter().flatten()) {
             for (input_name, value) in NAMES.iter().zip(row) {
-                let (key, label) =
-                    (format!("isp.colour_matrix.{to}.{input_name}"), format!("colour matrix, {to} of sRGB by {input_name}"));
+                let (key, label) = (
+                    format!("isp.colour_matrix.{to}.{input_name}"),
+                    format!("colour matrix, {to} of sRGB by {input_name}"),
+                );
                 findings.add_parameter(ImageKind::Checker, &key, &label, "", value);
             }
         }

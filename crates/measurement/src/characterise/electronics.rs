@@ -5,12 +5,12 @@ use etendue_io::emva_descriptor::DescribedLevel;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
-    DarkStack, MIN_OUTLIERS, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
+    DarkStack, Figures, MIN_OUTLIERS, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
 };
 
 use super::parameter::{Findings, ImageKind};
 use super::{folder::Laboratory, shot::LaboratoryImage};
-use crate::measure::ptc::{self, PtcResults, FrameGroup, PtcRequest};
+use crate::measure::ptc::{self, FrameGroup, PtcRequest, PtcResults};
 use crate::{measure::Selection, report::Estimate};
 
 /// Border, px: pixels there have fewer neighbours to exchange light with.
@@ -136,7 +136,11 @@ fn levels(shots: &[&LaboratoryImage], photons_per_s: f64) -> Result<Vec<Describe
 }
 
 /// Hot and dead pixels.
-fn outliers(laboratory: &Laboratory, groups: &[FrameGroup], results: &PtcResults) -> (Option<Outliers>, Option<Outliers>) {
+fn outliers(
+    laboratory: &Laboratory,
+    groups: &[FrameGroup],
+    results: &PtcResults,
+) -> (Option<Outliers>, Option<Outliers>) {
     let dark = || groups.iter().filter(|group| group.level.photons == 0.0);
     let by_time = |a: &&FrameGroup, b: &&FrameGroup| a.level.exposure_s.total_cmp(&b.level.exposure_s);
     let hot = dark().min_by(by_time).zip(dark().max_by(by_time)).and_then(|(short, long)| {
@@ -148,7 +152,11 @@ fn outliers(laboratory: &Laboratory, groups: &[FrameGroup], results: &PtcResults
 }
 
 /// Fixed patterns of the pixels that are neither hot nor dead: those have their own keys.
-fn patterns(results: &PtcResults, hot: &Option<Outliers>, dead: &Option<Outliers>) -> Result<Option<Nonuniformity>, Error> {
+fn patterns(
+    results: &PtcResults,
+    hot: &Option<Outliers>,
+    dead: &Option<Outliers>,
+) -> Result<Option<Nonuniformity>, Error> {
     let Some(fixed) = &results.fixed else { return Ok(None) };
     let places: Vec<[usize; 2]> =
         [hot, dead].into_iter().flatten().flat_map(|outliers| outliers.positions.clone()).collect();
@@ -180,7 +188,11 @@ fn black_level(figures: &Figures, patterns: Option<&Nonuniformity>, [columns, ro
 
 /// Quantum efficiency of each channel: that of the measured channel times the channel's relative signal in the brightest
 /// unsaturated frames.
-fn efficiency(selection: &Selection, flat: &[&LaboratoryImage], results: &PtcResults) -> Result<Vec<(&'static str, Estimate)>, Error> {
+fn efficiency(
+    selection: &Selection,
+    flat: &[&LaboratoryImage],
+    results: &PtcResults,
+) -> Result<Vec<(&'static str, Estimate)>, Error> {
     let own = results.figures.quantum_efficiency;
     if selection.channel.is_none() {
         return Ok(vec![("mono", own)]);
@@ -273,7 +285,13 @@ impl Electronics {
             None => findings.unknown("hot pixels", "frames in dark/ have one exposure time only"),
             Some(hot) => match hot.fraction.zip(hot.mean_e_s) {
                 Some((fraction, mean)) => {
-                    findings.add_parameter(ImageKind::Dark, "sensor.dark.hot.fraction", "hot pixels, fraction", "", fraction);
+                    findings.add_parameter(
+                        ImageKind::Dark,
+                        "sensor.dark.hot.fraction",
+                        "hot pixels, fraction",
+                        "",
+                        fraction,
+                    );
                     findings.add_parameter(
                         ImageKind::Dark,
                         "sensor.dark.hot.mean_e_s",
@@ -282,7 +300,9 @@ impl Electronics {
                         mean,
                     );
                 }
-                None => findings.unknown("hot pixels", outlier_list(hot, &format!("have more than {:.0} e⁻/s", hot.limit))),
+                None => {
+                    findings.unknown("hot pixels", outlier_list(hot, &format!("have more than {:.0} e⁻/s", hot.limit)))
+                }
             },
         }
         if let Some(dead) = &self.dead {
@@ -294,7 +314,8 @@ impl Electronics {
                     "",
                     fraction,
                 ),
-                None => findings.unknown("dead pixels", outlier_list(dead, "respond to light with less than half of the mean")),
+                None => findings
+                    .unknown("dead pixels", outlier_list(dead, "respond to light with less than half of the mean")),
             }
         }
     }

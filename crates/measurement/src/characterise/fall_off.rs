@@ -43,7 +43,13 @@ pub(super) fn measure(
     let Some((report, shading, size)) = findings.record(QUANTITY, falloff(&request))? else { return Ok(None) };
     findings.part("Fall-off", ImageKind::Field, report);
     let corner = shading.corner.scaled(100.0);
-    findings.add_parameter(ImageKind::Field, "lens.relative_illumination.corner_percent", "illumination at the corner", "%", corner);
+    findings.add_parameter(
+        ImageKind::Field,
+        "lens.relative_illumination.corner_percent",
+        "illumination at the corner",
+        "%",
+        corner,
+    );
     let pitch_um = laboratory.camera.pixel_pitch_um.unwrap_or(PLACEHOLDER_PITCH_UM);
     let [radius_mm, mut ratio] = request.relative_illumination(&shading, size.into(), pitch_um);
     // The centre is 1 by definition.
@@ -53,7 +59,10 @@ pub(super) fn measure(
 
 /// Returns the brightest unsaturated image; the first of equal ones.
 pub(super) fn brightest<'a>(shots: &[&'a LaboratoryImage]) -> Option<&'a LaboratoryImage> {
-    let longest_unsaturated = |best: &'a LaboratoryImage, next: &&'a LaboratoryImage| match next.exposure_s > best.exposure_s && next.saturated == 0.0 {
+    let longest_unsaturated = |best: &'a LaboratoryImage, next: &&'a LaboratoryImage| match next.exposure_s
+        > best.exposure_s
+        && next.saturated == 0.0
+    {
         true => *next,
         false => best,
     };

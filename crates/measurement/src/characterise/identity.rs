@@ -30,7 +30,8 @@ impl CameraFacts {
         let first = |fact: fn(&LaboratoryImage) -> Option<f64>| shots.iter().find_map(fact);
         let stated_cfa = stated.cfa.as_ref().map(|cfa| cfa.value.clone());
         let exif_filters = shots.iter().find_map(|shot| shot.exif.filters.clone());
-        let exif_filters = exif_filters.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
+        let exif_filters =
+            exif_filters.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
         let side_car_channels = shots.iter().find_map(|shot| shot.raw.as_ref().map(|raw| &raw.filters.channels));
         if let (Some(stated_cfa), Some(channels)) = (&stated_cfa, side_car_channels) {
             return Err(Error::coded(

@@ -92,7 +92,8 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
         let reasons: Vec<String> = findings.unknown.iter().map(|u| format!("{}: {}", u.quantity, u.reason)).collect();
         return Err(Error::all_coded(
             ErrorCode::NotMeasurable,
-            [vec![format!("{}: no property of the camera can be determined", request.folder.display())], reasons].concat(),
+            [vec![format!("{}: no property of the camera can be determined", request.folder.display())], reasons]
+                .concat(),
         ));
     }
     for unknown in &findings.unknown {
@@ -162,8 +163,12 @@ impl Characterisation {
         let picture_name = format!("{stem}{}", ENDINGS[3]);
         let mut folder = OutputFolder::open_beside(parent, existing).map_err(Error::input)?;
         let base = self.base.as_deref().map(|base| named_from(parent, base)).transpose()?;
-        let camera =
-            camera_file(&self.laboratory, &self.results, base.as_deref(), point_spread.as_ref().map(|p| (&*picture_name, p)));
+        let camera = camera_file(
+            &self.laboratory,
+            &self.results,
+            base.as_deref(),
+            point_spread.as_ref().map(|p| (&*picture_name, p)),
+        );
         base::check(&parent.join(format!("{stem}{}", ENDINGS[0])), &camera.text)?;
         let mut files = vec![
             (format!("{stem}{}", ENDINGS[0]), spelling(&camera.text).into_bytes()),

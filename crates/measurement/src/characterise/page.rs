@@ -93,7 +93,8 @@ fn parameter(p: &Parameter) -> String {
 }
 
 fn not_known(findings: &Findings, camera: &CameraFile) -> String {
-    let row = |quantity: &str, reason: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(quantity), escaped(reason));
+    let row =
+        |quantity: &str, reason: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(quantity), escaped(reason));
     let mut rows: String = findings.unknown.iter().map(|u| row(&u.quantity, &u.reason)).collect();
     if !camera.placeholders.is_empty() {
         let reason = "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";

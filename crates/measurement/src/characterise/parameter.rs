@@ -48,7 +48,14 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    pub(super) fn add_parameter(&mut self, from: ImageKind, key: &str, label: &str, unit: &'static str, value: Estimate) {
+    pub(super) fn add_parameter(
+        &mut self,
+        from: ImageKind,
+        key: &str,
+        label: &str,
+        unit: &'static str,
+        value: Estimate,
+    ) {
         let (key, label) = (key.to_owned(), label.to_owned());
         match value.value.is_finite() && value.standard_uncertainty.is_finite() {
             true => self.parameters.push(Parameter { key, label, unit, value, image_kind: from }),

@@ -22,10 +22,14 @@ pub(super) struct PointSpreadImage {
 impl PointSpreadImage {
     /// `None` if the spread does not differ significantly from zero.
     pub(super) fn from_spread(spread: &Spread, pixel_pitch_um: f64) -> Option<Self> {
-        let variance =
-            |blur: Option<Blur>| blur.map(|blur| blur.variance_px2).filter(|v| is_significant(*v)).map_or(0.0, |v| v.value);
+        let variance = |blur: Option<Blur>| {
+            blur.map(|blur| blur.variance_px2).filter(|v| is_significant(*v)).map_or(0.0, |v| v.value)
+        };
         let variances_px2 = [variance(spread.along_rows), variance(spread.along_columns)];
-        variances_px2.iter().any(|v| *v > 0.0).then_some(Self { variances_px2, pitch_um: pixel_pitch_um / SAMPLES_PER_PIXEL })
+        variances_px2
+            .iter()
+            .any(|v| *v > 0.0)
+            .then_some(Self { variances_px2, pitch_um: pixel_pitch_um / SAMPLES_PER_PIXEL })
     }
 
     pub(super) fn about(&self) -> String {
@@ -62,7 +66,10 @@ mod tests {
             let second: f64 =
                 profile.iter().enumerate().map(|(i, p)| p * (i as f64 - middle) * (i as f64 - middle)).sum();
             // Four standard deviations contain all but 6e-5 of the light.
-            assert!((second / sum / (SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL) / variance - 1.0).abs() < 2e-3, "{variance}");
+            assert!(
+                (second / sum / (SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL) / variance - 1.0).abs() < 2e-3,
+                "{variance}"
+            );
         }
         assert_eq!(profile(0.0), [1.0]);
     }

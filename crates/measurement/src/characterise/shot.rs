@@ -127,7 +127,9 @@ fn saturated(photograph: &Photograph, white: Option<f64>) -> f64 {
         Some(level) => fraction_above(level),
         None => {
             let max_sample = samples().copied().fold(f32::NEG_INFINITY, f32::max);
-            Some(fraction_above(f64::from(max_sample))).filter(|fraction| *fraction > MIN_SATURATED_FRACTION).unwrap_or(0.0)
+            Some(fraction_above(f64::from(max_sample)))
+                .filter(|fraction| *fraction > MIN_SATURATED_FRACTION)
+                .unwrap_or(0.0)
         }
     }
 }

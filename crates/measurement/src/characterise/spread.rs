@@ -38,7 +38,8 @@ pub(super) fn measure(laboratory: &Laboratory, findings: &mut Findings) -> Resul
         let edges: Vec<&Sfr> = all.iter().filter(|edge| edge.orientation == orientation).collect();
         blur(&edges)
     };
-    let spread = Spread { along_rows: blurs_along(Orientation::Vertical), along_columns: blurs_along(Orientation::Horizontal) };
+    let spread =
+        Spread { along_rows: blurs_along(Orientation::Vertical), along_columns: blurs_along(Orientation::Horizontal) };
     spread.report_results(report, findings);
     Ok(Some(spread))
 }
@@ -100,7 +101,13 @@ impl Spread {
                 "px²",
                 blur.variance_px2,
             );
-            findings.add_parameter(ImageKind::Edges, &exchange, &format!("exchange with neighbours {along}"), "", blur.exchange);
+            findings.add_parameter(
+                ImageKind::Edges,
+                &exchange,
+                &format!("exchange with neighbours {along}"),
+                "",
+                blur.exchange,
+            );
             report.fact(
                 &format!("misfit_{key}"),
                 &format!("largest residual of the response {along}, after spread and exchange"),

@@ -74,7 +74,7 @@ fn mean(tiles: impl Iterator<Item = [f64; PLACES]>) -> [f64; PLACES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_metrology::target::{TargetQuery, Target, find};
+    use etendue_metrology::target::{Target, TargetQuery, find};
     use glam::DVec2;
 
     const RESPONSE: [f32; PLACES] = [0.58, 1.0, 0.9, 0.85];

@@ -226,7 +226,8 @@ fn plot(measured: &[(PatchPair, ContrastPair)]) -> Plot {
     let known = measured.iter().all(|(pair, _)| pair.luminance_cd_m2.is_some());
     let x = |pair: &PatchPair| pair.luminance_cd_m2.filter(|_| known).unwrap_or(pair.contrast);
     let series = |name: &str, quantity: fn(&ContrastPair) -> etendue_metrology::Estimate| {
-        let points = measured.iter().map(|(pair, m)| (x(pair), quantity(m).value, 2.0 * quantity(m).standard_uncertainty));
+        let points =
+            measured.iter().map(|(pair, m)| (x(pair), quantity(m).value, 2.0 * quantity(m).standard_uncertainty));
         Series::with_errors(name, Mark::Points, points)
     };
     Plot {

@@ -98,7 +98,8 @@ pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, MeasuredPatch
 
 /// The patches that a chart's ground truth locates and describes, in its own light.
 fn patches_from_truth(truth: &Truth, image: &Path, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
-    let lists: Vec<Vec<PatchPlace>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
+    let lists: Vec<Vec<PatchPlace>> =
+        colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
     // Green rises with luminance.
     truth.shown(image, &lists[1], &colours[1])?;
     let one = |patch: &PatchPlace| {

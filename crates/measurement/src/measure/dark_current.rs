@@ -56,7 +56,8 @@ fn name(law: GrowthLaw) -> (&'static str, &'static str) {
 pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let mut encodings = Vec::new();
     let current = |(celsius, descriptor): &(f64, PathBuf)| {
-        let (figures, stated) = measured(&PtcRequest::from_descriptor(descriptor.clone(), &request.selection), observer)?;
+        let (figures, stated) =
+            measured(&PtcRequest::from_descriptor(descriptor.clone(), &request.selection), observer)?;
         encodings.push(stated);
         let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
             Error::coded(

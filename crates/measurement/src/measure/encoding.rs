@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::photograph::{PhotographChannel, Encoding, Photograph, SourcedEncoding, read_photograph};
+use etendue_io::photograph::{Encoding, Photograph, PhotographChannel, SourcedEncoding, read_photograph};
 use etendue_io::table::read_numbers;
 use etendue_isp::ToneCurve;
 use etendue_plan_report::tone_curve::tone_curve;
@@ -225,7 +225,10 @@ mod tests {
         // Of a measured function in the image's own numbers, half way in the logarithm.
         let oecf = Encoding::Oecf { points: vec![(2.0, 10.0), (8.0, 50.0), (32.0, 100.0)], largest_output: None };
         let linear = light(oecf, Some(255.0), &[10.0, 30.0, 100.0]);
-        assert!((linear[0] - 0.0625).abs() < 1e-6 && (linear[1] - 0.125).abs() < 1e-6 && linear[2] == 1.0, "{linear:?}");
+        assert!(
+            (linear[0] - 0.0625).abs() < 1e-6 && (linear[1] - 0.125).abs() < 1e-6 && linear[2] == 1.0,
+            "{linear:?}"
+        );
         assert!((light(Encoding::Srgb, None, &[0.5])[0] - 0.214_041).abs() < 1e-5);
     }
 }

@@ -26,7 +26,8 @@ pub(super) fn completed(frames: &[PathBuf], stated_times: FrameTimes) -> Result<
     let Some((stated, first)) = stated.as_ref().and_then(|stated| Some((stated, stated.first()?))) else {
         return Ok((stated_times, Vec::new()));
     };
-    let mut sources = TimeSources { side_car: first.file.display().to_string(), notes_taken: Vec::new(), notes: Vec::new() };
+    let mut sources =
+        TimeSources { side_car: first.file.display().to_string(), notes_taken: Vec::new(), notes: Vec::new() };
     let row_time_us = row_time_s(stated, &mut sources).map(|s| 1e6 * s);
     let rate_hz = frame_rate_hz(stated, &mut sources);
     let exposure_us = exposure_s(stated, &mut sources).map(|s| 1e6 * s);
@@ -48,11 +49,19 @@ struct TimeSources {
 
 impl TimeSources {
     /// Returns the caller's number, otherwise the side-car's.
-    fn chosen(&mut self, field: &str, name: &str, unit: &str, requested: Option<f64>, recorded: Option<f64>) -> Option<f64> {
+    fn chosen(
+        &mut self,
+        field: &str,
+        name: &str,
+        unit: &str,
+        requested: Option<f64>,
+        recorded: Option<f64>,
+    ) -> Option<f64> {
         match (requested, recorded) {
             (Some(requested), Some(recorded)) if (requested - recorded).abs() > MAX_ROUNDING * recorded.abs() => {
                 let side_car = &self.side_car;
-                self.notes.push(format!("`{field}` {requested} is used; {side_car} states {} {unit}", rounded(recorded)));
+                self.notes
+                    .push(format!("`{field}` {requested} is used; {side_car} states {} {unit}", rounded(recorded)));
             }
             (None, Some(said)) => self.notes_taken.push(format!("{name} {} {unit}", rounded(said))),
             _ => {}

@@ -68,7 +68,8 @@ impl UniformSurface {
             Err(failure) if self.patch.is_some() => self.error = Some(failure.to_string()),
             checked => checked.map_err(|error| refused(file, error))?,
         }
-        self.clipping = self.clipping.take().or_else(|| Some((file.to_owned(), Clipping::from_region(&frame, full_scale)?)));
+        self.clipping =
+            self.clipping.take().or_else(|| Some((file.to_owned(), Clipping::from_region(&frame, full_scale)?)));
         let stack = self.stack.get_or_insert_with(|| Stack::new(frame.width(), frame.height()));
         stack.push(&frame).map_err(|error| refused(file, error))
     }
@@ -109,7 +110,9 @@ pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
 fn find_surfaces(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec<UniformSurface>, Error> {
     match truth {
         None => Ok(vec![UniformSurface::new(None, None)]),
-        Some(truth) if UNIFORM_CHARTS.contains(&truth.chart()) => Ok(vec![UniformSurface::new(None, Some(truth.middle(readings)?))]),
+        Some(truth) if UNIFORM_CHARTS.contains(&truth.chart()) => {
+            Ok(vec![UniformSurface::new(None, Some(truth.middle(readings)?))])
+        }
         Some(truth) => {
             let place = |patch: PatchPlace| UniformSurface::new(Some(patch.clone()), Some(patch.at));
             let (patches, _) = truth.patches(readings)?;
@@ -182,7 +185,9 @@ fn patches(surfaces: &[UniformSurface], black: f64) -> Result<Report, String> {
 
 fn plot(measured: &[(&PatchPlace, Noise)]) -> Plot {
     let series = |name: &str, quantity: fn(&Noise) -> Estimate| {
-        let points = measured.iter().map(|(p, n)| (p.luminance_cd_m2, quantity(n).value, 2.0 * quantity(n).standard_uncertainty));
+        let points = measured
+            .iter()
+            .map(|(p, n)| (p.luminance_cd_m2, quantity(n).value, 2.0 * quantity(n).standard_uncertainty));
         Series::with_errors(name, Mark::Points, points)
     };
     Plot {

@@ -111,14 +111,31 @@ impl OecfInput {
         let (points, cuts) = measured.into_iter().unzip();
         let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
         let encoding = readings.stated.clone();
-        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding, clippings: cuts }
+        Self {
+            points,
+            readings: kind(readings),
+            black,
+            full_scale,
+            unit: "",
+            left_out: Vec::new(),
+            encoding,
+            clippings: cuts,
+        }
     }
 }
 
 /// Returns the point of an exposure of a uniform surface, and the clipping of its readings.
-fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Clipping>) {
+fn point(
+    exposure: f64,
+    surface: &Image,
+    levels: &SignalLevels,
+    readings: &Readings,
+) -> (ExposurePoint, Option<Clipping>) {
     let full_scale = levels.full_scale(readings);
-    (ExposurePoint::from_surface(exposure, surface, full_scale, readings.shared_px), Clipping::from_region(surface, full_scale))
+    (
+        ExposurePoint::from_surface(exposure, surface, full_scale, readings.shared_px),
+        Clipping::from_region(surface, full_scale),
+    )
 }
 
 /// Kind of readings: decoded ones no longer reflect the tone curve of the file.

@@ -112,7 +112,11 @@ impl Clipping {
         let is_full = full_scale.map_or_else(|| is_of_bits(high), |full| f64::from(high) >= full);
         let black = fraction(&|sample| sample <= 0.0);
         let clipped = fraction(&|sample| full_scale.map_or(sample == high, |full| f64::from(sample) >= full));
-        match (low == high && (low <= 0.0 || is_full), black > MIN_CLIPPED_FRACTION, is_full && clipped > MIN_CLIPPED_FRACTION) {
+        match (
+            low == high && (low <= 0.0 || is_full),
+            black > MIN_CLIPPED_FRACTION,
+            is_full && clipped > MIN_CLIPPED_FRACTION,
+        ) {
             (true, ..) => Some(Self::Throughout { reading: low }),
             (_, true, _) => Some(Self::Black { fraction: black }),
             (.., true) => Some(Self::Clipped { reading: high, fraction: clipped }),
@@ -157,7 +161,10 @@ mod tests {
     /// A hundred readings, `count` of them clipped at `reading`.
     fn cut(count: usize, reading: f32, full_scale: Option<f64>) -> Option<Clipping> {
         let sample = |i: usize| if i < count { reading } else { 100.0 + i as f32 };
-        Clipping::from_region(&Image::from_samples(10, 10, (0..100).map(sample).collect()).expect("full rows"), full_scale)
+        Clipping::from_region(
+            &Image::from_samples(10, 10, (0..100).map(sample).collect()).expect("full rows"),
+            full_scale,
+        )
     }
 
     #[test]

@@ -14,7 +14,7 @@ use etendue_io::failure::{Error, ErrorCode, InputError};
 use etendue_io::photograph::{Photograph, SourcedEncoding};
 use etendue_io::source::text_of;
 use etendue_metrology::calibrate::MIN_VIEWS;
-use etendue_metrology::target::{Grid, Node, TargetQuery, Target, TargetError, find};
+use etendue_metrology::target::{Grid, Node, Target, TargetError, TargetQuery, find};
 use glam::DVec2;
 
 use super::encoding::EncodingChoice;
@@ -195,11 +195,21 @@ impl ChartInput {
 
     /// Finds the chart in one channel. For a colour with several places in the mosaic's tile, each point is the mean over these
     /// places: the places sample the image between each other's pixels.
-    pub(crate) fn detect_in_channel(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<DetectedChart, Error> {
+    pub(crate) fn detect_in_channel(
+        &self,
+        file: &Path,
+        photograph: &Photograph,
+        channel: Option<&str>,
+    ) -> Result<DetectedChart, Error> {
         Ok(self.detect_in_photograph(file, photograph, channel)?)
     }
 
-    fn detect_in_photograph(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<DetectedChart, DetectionFailure> {
+    fn detect_in_photograph(
+        &self,
+        file: &Path,
+        photograph: &Photograph,
+        channel: Option<&str>,
+    ) -> Result<DetectedChart, DetectionFailure> {
         let planes = self.selection(channel).planes(file, photograph)?;
         let truth_and_points = self.truth_and_chart()?;
         let (width, height) = planes[0].picture_px;
@@ -214,7 +224,12 @@ impl ChartInput {
         if grid.orientation().is_some_and(|orientation| orientation.mirrored) {
             return Err(refused(file, MIRRORED).into());
         }
-        Ok(DetectedChart { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
+        Ok(DetectedChart {
+            file: file.to_owned(),
+            size_px: [width, height],
+            grid,
+            stated: Some(photograph.stated.clone()),
+        })
     }
 
     /// Finds the chart among readings, in the image's raster coordinates.

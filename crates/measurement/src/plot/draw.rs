@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use etendue_io::escape::escaped;
 use glam::DVec2;
 
-use super::{BOTTOM, Colour, AxisRange, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
+use super::{AxisRange, BOTTOM, Colour, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
 
 /// Colours that people with colour-blindness can distinguish (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];

@@ -116,7 +116,8 @@ fn contradiction(stated: Estimate, free: &CalibrationResult) -> Option<Calibrate
     let shown = Estimate::new(distance, distance * focal.standard_uncertainty / focal.value);
     let variance = |e: Estimate| e.standard_uncertainty * e.standard_uncertainty;
     let joint_uncertainty = (variance(stated) + variance(shown)).sqrt();
-    ((shown.value - stated.value).abs() > LIMIT * joint_uncertainty).then_some(CalibrateError::Distance { stated, shown })
+    ((shown.value - stated.value).abs() > LIMIT * joint_uncertainty)
+        .then_some(CalibrateError::Distance { stated, shown })
 }
 
 /// Repeats the fit with the observed positions of the discs' centres.

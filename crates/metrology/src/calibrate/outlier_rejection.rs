@@ -4,7 +4,7 @@
 //! each view in turn, and the view whose omission gives the best fit is left out. At least three views, and two thirds of all,
 //! must remain.
 
-use super::{CalibrateError, CalibrationResult, Family, CalibrationOptions, Sightings, calibrate};
+use super::{CalibrateError, CalibrationOptions, CalibrationResult, Family, Sightings, calibrate};
 
 /// A camera, and the rejected views.
 #[derive(Clone, Debug)]

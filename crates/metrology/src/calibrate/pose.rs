@@ -118,7 +118,9 @@ mod tests {
     fn turns_and_vectors_are_each_other_s_inverse() {
         for v in [[0.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.3, -0.2, 0.9], [2.0, 1.0, -1.5], [0.0, 3.12, 0.0]] {
             let rotation = rotation_from_vector(v.into());
-            assert!((rotation * rotation.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-14));
+            assert!(
+                (rotation * rotation.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-14)
+            );
             let back = rotation_from_vector(vector(rotation));
             assert!((rotation - back).to_cols_array().iter().all(|x| x.abs() < 1e-7), "{v:?}");
         }
@@ -126,7 +128,10 @@ mod tests {
 
     #[test]
     fn exact_directions_give_the_pose_back() {
-        let pose = Pose { rotation: rotation_from_vector(DVec3::new(0.3, -0.4, 1.0)), translation: DVec3::new(0.1, -0.3, 2.0) };
+        let pose = Pose {
+            rotation: rotation_from_vector(DVec3::new(0.3, -0.4, 1.0)),
+            translation: DVec3::new(0.1, -0.3, 2.0),
+        };
         let points: Vec<_> = (0..30).map(|i| DVec2::new(f64::from(i % 6), f64::from(i / 6)) * 0.1).collect();
         let directions: Vec<_> = points.iter().map(|p| (*p, pose.camera(*p).normalize())).collect();
         let result = Pose::direct(&directions).expect("determined");

@@ -4,7 +4,7 @@ use etendue_core::maths::f64::exp2;
 use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
 
-use super::{Family, CalibrationOptions, Pose, Sightings};
+use super::{CalibrationOptions, Family, Pose, Sightings};
 use crate::fit::{Fit, Problem};
 use crate::patch_statistics::centroid_shift;
 
@@ -36,7 +36,12 @@ const DISTANCE_WEIGHT: f64 = 1e4;
 const FIRST_SIGMA_PX: f64 = 0.1;
 
 impl<'a> CalibrationProblem<'a> {
-    pub(super) fn new(views: &'a [Sightings], size_px: [usize; 2], family: Family, options: CalibrationOptions) -> Self {
+    pub(super) fn new(
+        views: &'a [Sightings],
+        size_px: [usize; 2],
+        family: Family,
+        options: CalibrationOptions,
+    ) -> Self {
         let shifts = views.iter().map(|v| vec![DVec2::ZERO; v.points.len()]).collect();
         let weights = views.iter().map(|v| vec![1.0; v.points.len()]).collect();
         let mut problem = Self { views, size_px, family, options, shifts, weights, distance_weight: DISTANCE_WEIGHT };
@@ -195,8 +200,8 @@ impl Problem for CalibrationProblem<'_> {
         let pose = &placed.poses[view];
         let mut residuals = Vec::with_capacity(2 * self.views[view].points.len() + 1);
         for (p, point) in self.views[view].points.iter().enumerate() {
-            let off =
-                (placed.calibration.project(pose.camera(point.chart))? - self.corrected_position(view, p)) * self.weights[view][p];
+            let off = (placed.calibration.project(pose.camera(point.chart))? - self.corrected_position(view, p))
+                * self.weights[view][p];
             residuals.extend(off.to_array());
         }
         residuals.extend(self.options.distance.map(|d| self.distance_weight * (pose.distance() / d.value - 1.0)));

@@ -89,7 +89,7 @@ fn lines(problem: &CalibrationProblem<'_>, fit: &Fit, unit: &Matrix) -> Option<V
                     let mut gradient = vec![0.0; fit.parameters.len()];
                     columns.iter().for_each(|(i, slope)| gradient[*i] = at(slope));
                     let (sum, moved) = (at(&fit.residuals[view]), unit.times(&gradient));
-                    CoordinateLine { kind: 2 * axis + direction, view, points: points.clone(), sum, gradient: pull: gradient, moved }
+                    CoordinateLine { kind: 2 * axis + direction, view, points: points.clone(), sum, gradient, moved }
                 }));
             }
         }
@@ -98,7 +98,11 @@ fn lines(problem: &CalibrationProblem<'_>, fit: &Fit, unit: &Matrix) -> Option<V
 }
 
 /// Points of a view that share one of their chart's coordinates.
-fn points_on_lines(problem: &CalibrationProblem<'_>, view: usize, direction: usize) -> impl Iterator<Item = Vec<usize>> {
+fn points_on_lines(
+    problem: &CalibrationProblem<'_>,
+    view: usize,
+    direction: usize,
+) -> impl Iterator<Item = Vec<usize>> {
     let mut lines: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     for (p, point) in problem.views[view].points.iter().enumerate() {
         lines.entry(point.chart[direction].to_bits()).or_default().push(p);
@@ -155,7 +159,8 @@ fn not_negative(moments: &Matrix, observed: [f64; 1 + KINDS]) -> Option<[f64; 1 
         let rows = active.iter().map(|i| active.iter().map(|j| moments.at(*i, *j)).collect::<Vec<f64>>());
         let values: Vec<f64> = active.iter().map(|k| observed[*k]).collect();
         let solved = Orthogonal::factor(&Matrix::from_rows(active.len(), rows), 1e-12)?.solve(&values).parameters;
-        let most_negative = (1..active.len()).min_by(|a, b| solved[*a].total_cmp(&solved[*b])).filter(|i| solved[*i] < 0.0);
+        let most_negative =
+            (1..active.len()).min_by(|a, b| solved[*a].total_cmp(&solved[*b])).filter(|i| solved[*i] < 0.0);
         let Some(most_negative) = most_negative else {
             let mut all = [0.0; 1 + KINDS];
             active.iter().zip(&solved).for_each(|(k, value)| all[*k] = *value);

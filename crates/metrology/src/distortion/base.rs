@@ -1,6 +1,6 @@
 //! First approximation of a distortion: the radial polynomial nearest to the image, normalised to the scale at the centre.
 
-use etendue_projection::{RadialDistortion, DistortionDirection};
+use etendue_projection::{DistortionDirection, RadialDistortion};
 use glam::{DMat2, DMat3, DVec2};
 
 use super::RadialFit;
@@ -94,7 +94,10 @@ impl RadialBase {
     pub(super) fn from_fits(fits: &[&RadialFit], centre: DVec2, half_diagonal_px: f64) -> Option<(Self, Homography)> {
         let map = |fit: &&RadialFit| {
             let middle = fit.centre_px.map(|c| c.value).into();
-            NormalisedPolynomial::new(Polynomial::new(fit.sense, [fit.k1.value, fit.k2.value], middle, half_diagonal_px)?, centre)
+            NormalisedPolynomial::new(
+                Polynomial::new(fit.sense, [fit.k1.value, fit.k2.value], middle, half_diagonal_px)?,
+                centre,
+            )
         };
         let maps: Option<Vec<NormalisedPolynomial>> = fits.iter().map(map).collect();
         let (maps, first) = (maps?, fits.first()?);

@@ -37,7 +37,12 @@ pub(super) fn curve(ideal: &IdealMap, nodes: &[Node], half_diagonal_px: f64) -> 
     (1..=STEPS).filter_map(|i| point(ideal, &visible, f64::from(i) / f64::from(STEPS), half_diagonal_px)).collect()
 }
 
-fn point(ideal: &IdealMap, visible: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
+fn point(
+    ideal: &IdealMap,
+    visible: &BTreeMap<[i64; 2], DVec2>,
+    field: f64,
+    half_diagonal_px: f64,
+) -> Option<CurvePoint> {
     let radius = field * half_diagonal_px;
     let place = |i: i32| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));

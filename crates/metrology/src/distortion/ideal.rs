@@ -41,7 +41,12 @@ pub struct IdealMap {
 
 impl IdealMap {
     /// From points about a centre, starting with two radial fits.
-    pub(super) fn from_nodes(nodes: &[Node], centre: DVec2, fits: [&RadialFit; 2], unit: f64) -> Result<Self, DistortionError> {
+    pub(super) fn from_nodes(
+        nodes: &[Node],
+        centre: DVec2,
+        fits: [&RadialFit; 2],
+        unit: f64,
+    ) -> Result<Self, DistortionError> {
         let reach = nodes.iter().map(|n| (n.at - centre).length()).fold(0.0, f64::max);
         let is_invertible = |base: &RadialBase| nodes.iter().all(|n| base.slope(n.at).is_some());
         let [a, b] = fits;

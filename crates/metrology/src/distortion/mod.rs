@@ -130,11 +130,17 @@ fn correct_disc_shifts(grid: &Grid, centre: DVec2, half_diagonal_px: f64) -> Res
     Ok(result)
 }
 
-fn maps(nodes: Vec<Node>, size: [usize; 2], centre: DVec2, half_diagonal_px: f64) -> Result<FittedMaps, DistortionError> {
+fn maps(
+    nodes: Vec<Node>,
+    size: [usize; 2],
+    centre: DVec2,
+    half_diagonal_px: f64,
+) -> Result<FittedMaps, DistortionError> {
     let grid = Grid { nodes, disc_radius_steps: None, size };
     let points = Sightings::from_grid(&grid, 1.0).points;
     let radial = |sense| RadialFit::of(&points, sense, centre, half_diagonal_px);
-    let (forward, backward) = (radial(DistortionDirection::IdealToObserved)?, radial(DistortionDirection::ObservedToIdeal)?);
+    let (forward, backward) =
+        (radial(DistortionDirection::IdealToObserved)?, radial(DistortionDirection::ObservedToIdeal)?);
     let ideal = IdealMap::from_nodes(&grid.nodes, centre, [&forward, &backward], half_diagonal_px)?;
     Ok(FittedMaps { nodes: grid.nodes, ideal, forward, backward })
 }

@@ -1,6 +1,6 @@
 //! k₁ and k₂ of one image of a chart.
 
-use etendue_projection::{RadialDistortion, DistortionDirection};
+use etendue_projection::{DistortionDirection, RadialDistortion};
 use glam::{DMat3, DVec2};
 
 use crate::fit::{Fit, FitError, Homography, Problem, fit};

@@ -135,17 +135,27 @@ pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<M
     let normal = design.gram();
     let right = transposed_times(design, values);
     let size = dot(values, values);
-    let solutions = (0..LAMBDA_STEPS).filter_map(|i| lambda_solution(&normal, &right, size, free, freedom, exp2(2.0 * f64::from(FIRST_EXPONENT + i))));
+    let solutions = (0..LAMBDA_STEPS).filter_map(|i| {
+        lambda_solution(&normal, &right, size, free, freedom, exp2(2.0 * f64::from(FIRST_EXPONENT + i)))
+    });
     let solutions: Vec<LambdaSolution> = solutions.collect();
     let best = solutions.iter().map(|r| r.minus_two_log_likelihood).reduce(f64::min).ok_or_else(few)?;
     let weight = |r: &LambdaSolution| exp(0.5 * (best - r.minus_two_log_likelihood));
-    let weighted: Vec<(f64, &LambdaSolution)> = solutions.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > MIN_WEIGHT).collect();
+    let weighted: Vec<(f64, &LambdaSolution)> =
+        solutions.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > MIN_WEIGHT).collect();
     let total_weight: f64 = weighted.iter().map(|(w, _)| w).sum();
     let weighted: Vec<(f64, &LambdaSolution)> = weighted.into_iter().map(|(w, r)| (w / total_weight, r)).collect();
     Ok(mean(&weighted, freedom))
 }
 
-fn lambda_solution(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, lambda: f64) -> Option<LambdaSolution> {
+fn lambda_solution(
+    normal: &Matrix,
+    right: &[f64],
+    size: f64,
+    free: usize,
+    freedom: f64,
+    lambda: f64,
+) -> Option<LambdaSolution> {
     let count = right.len();
     let mut matrix = normal.clone();
     (free..count).for_each(|i| *matrix.at_mut(i, i) += 1.0 / lambda);

@@ -98,7 +98,9 @@ fn joined(each: &[RowBands]) -> Option<RowBands> {
     if each.len() == 1 {
         return Some(first.clone());
     }
-    let mean = |quantity: fn(&RowBands) -> Option<Estimate>| weighted_mean(&each.iter().filter_map(quantity).collect::<Vec<_>>());
+    let mean = |quantity: fn(&RowBands) -> Option<Estimate>| {
+        weighted_mean(&each.iter().filter_map(quantity).collect::<Vec<_>>())
+    };
     let duty = mean(|bands| bands.pulses.map(|pulses| pulses.duty));
     let pulsed = mean(|bands| bands.pulses.map(|pulses| pulses.pulsed_fraction));
     let modulation = mean(|bands| bands.pulses.map(|pulses| pulses.modulation));

@@ -165,7 +165,14 @@ fn few_rows_of_many_frames_tell_a_slow_frequency() {
 /// is reported correctly or not at all.
 #[test]
 fn aliased_frequencies_are_not_mistaken() {
-    let shot = RollingSequence { rows: 24, frames: 4, row_time_s: 60e-6, frame_rate_hz: 30.03, exposure_s: 10e-3, noise: 40.0 };
+    let shot = RollingSequence {
+        rows: 24,
+        frames: 4,
+        row_time_s: 60e-6,
+        frame_rate_hz: 30.03,
+        exposure_s: 10e-3,
+        noise: 40.0,
+    };
     let mut count = 0;
     for seed in 0..40 {
         let flicker = shot.measured(seed, pulses(110.0, 0.25, 1.0));

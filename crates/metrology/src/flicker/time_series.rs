@@ -148,7 +148,8 @@ impl TimeSeries {
     /// The one of the frequencies indistinguishable between blocks that explains most; `None` if another explains as much within
     /// chance.
     fn best_alias(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> Option<f64> {
-        let aliases = self.aliases_of(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
+        let aliases =
+            self.aliases_of(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
         let all: Vec<(f64, f64)> = aliases.map(|f| (f, self.best_harmonics(f, highest_hz, shading).1)).collect();
         let best = *all.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let another = |(f, _): &&(f64, f64)| (f - best.0).abs() > 0.5 / self.length_s();
@@ -174,7 +175,8 @@ impl TimeSeries {
     /// Number of harmonics that the criterion supports, and the value of the criterion.
     fn best_harmonics(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> (usize, f64) {
         let level = if shading { 3 } else { 1 };
-        let criterion_with = |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
+        let criterion_with =
+            |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
         (1..=self.most_harmonics(frequency_hz, highest_hz))
             .map(|h| (h, criterion_with(h)))
             .fold((1, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
@@ -268,7 +270,8 @@ impl TimeSeries {
     fn finished(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> Option<FourierFit> {
         let fit = self.fit(&self.columns(frequency_hz, harmonics, shading))?;
         let (count, parameters) = (self.count(), fit.coefficients.len() + 1);
-        let variance = fit.squares / count.saturating_sub(parameters).max(1) as f64 * self.correlation_factor(&fit.residuals);
+        let variance =
+            fit.squares / count.saturating_sub(parameters).max(1) as f64 * self.correlation_factor(&fit.residuals);
         let step = 0.05 / (self.length_s() * harmonics as f64);
         let [below, above] = [-step, step].map(|d| self.squares(frequency_hz + d, harmonics, shading));
         let curvature = (below - 2.0 * fit.squares + above) / (step * step);

@@ -61,7 +61,12 @@ fn clipped_light_is_no_part_of_the_straight_line() {
         let clipped = exposed_image(1.0, |_| 0.0, i);
         let sample = |s: &f32| (f64::from(*s) * 50.0 + 900.0 * exposure).min(1000.0) as f32;
         let samples = clipped.samples().iter().map(sample).collect();
-        ExposurePoint::from_surface(exposure, &Image::from_samples(128, 64, samples).expect("a rectangle"), Some(1000.0), 1)
+        ExposurePoint::from_surface(
+            exposure,
+            &Image::from_samples(128, 64, samples).expect("a rectangle"),
+            Some(1000.0),
+            1,
+        )
     };
     let points: Vec<ExposurePoint> = (1..=15).map(shot).collect();
     let curve = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).expect("a curve");

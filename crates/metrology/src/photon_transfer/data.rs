@@ -9,7 +9,7 @@
 //!
 //! (EMVA 1288 release 4.0 linear, section on spatial nonuniformity; stacks of L frames without light and at 50 % of saturation.)
 
-use super::spatial::{VarianceComponents, Pattern};
+use super::spatial::{Pattern, VarianceComponents};
 use super::{LevelStatistics, TransferError};
 use crate::Estimate;
 use crate::estimate::{propagate, root};

@@ -127,7 +127,9 @@ mod tests {
         assert!((counted as f64 / deviations.normal(x) - 1.0).abs() < 0.02, "{counted} {}", deviations.normal(x));
         let above = deviations.accumulated.iter().find(|(x, _)| *x > 10.0).expect("as far as 30");
         assert!((above.1 - 20.0 / COUNT as f64).abs() < 1e-9, "{above:?}");
-        assert!(deviations.accumulated.windows(2).all(|pair| pair[1].1 <= pair[0].1) && deviations.accumulated[0].1 > 0.99);
+        assert!(
+            deviations.accumulated.windows(2).all(|pair| pair[1].1 <= pair[0].1) && deviations.accumulated[0].1 > 0.99
+        );
     }
     #[test]
     fn averages_of_whole_numbers_fill_the_bins_evenly() {

@@ -36,7 +36,7 @@ pub use data::{Level, Nonuniformity, TransferData, nonuniformity};
 pub use defects::Deviations;
 pub use figures::{Figures, SnrPoint, model_snr};
 pub use outliers::{DarkStack, MIN_OUTLIERS, Outliers, dead_pixels, hot_pixels};
-pub use spatial::{VarianceComponents, Pattern};
+pub use spatial::{Pattern, VarianceComponents};
 pub use stack::{LevelStatistics, Stack};
 
 /// Reason why frames cannot be measured.

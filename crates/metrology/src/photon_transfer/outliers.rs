@@ -88,7 +88,8 @@ pub fn hot_pixels(
         return Some(none);
     }
     let fraction = all / currents.len() as f64 * exp(limit / mean);
-    let u_fraction = fraction * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
+    let u_fraction =
+        fraction * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
     let (fraction, mean_e_s) = (Some(Estimate::new(fraction, u_fraction)), Some(Estimate::new(mean, u_mean)));
     Some(Outliers { fraction, mean_e_s, ..none })
 }

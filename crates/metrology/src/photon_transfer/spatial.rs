@@ -227,7 +227,11 @@ struct ResidualMoments {
 
 impl ResidualMoments {
     fn kurtosis(&self) -> f64 {
-        if self.second_moment > 0.0 { self.fourth_moment / (self.second_moment * self.second_moment) - 3.0 } else { 0.0 }
+        if self.second_moment > 0.0 {
+            self.fourth_moment / (self.second_moment * self.second_moment) - 3.0
+        } else {
+            0.0
+        }
     }
 }
 

@@ -157,7 +157,8 @@ fn normal(points: &[CurrentPoint], ln_reference: f64, slope: f64) -> [f64; 3] {
 fn growing(points: &[CurrentPoint]) -> Option<[f64; 2]> {
     let slopes = (-70..=70).map(|i| 0.01 * f64::from(i));
     let candidates = slopes.filter_map(|slope| Some([ln(scale(points, slope)?), slope]));
-    let mut best = candidates.min_by(|a, b| chi_square(points, a[0], a[1]).total_cmp(&chi_square(points, b[0], b[1])))?;
+    let mut best =
+        candidates.min_by(|a, b| chi_square(points, a[0], a[1]).total_cmp(&chi_square(points, b[0], b[1])))?;
     for _ in 0..20 {
         let [aa, ab, bb] = normal(points, best[0], best[1]);
         let [ra, rb] = points.iter().fold([0.0; 2], |sum, p| {
@@ -216,7 +217,8 @@ mod tests {
     #[test]
     fn two_temperatures_are_too_few() {
         assert_eq!(fit(GrowthLaw::Doubling, &series(|t| t)[..2], 30.0), Err(TransferError::TooFewTemperatures(2)));
-        let at = |celsius: f64, e: Estimate| fit(GrowthLaw::Doubling, &[&series(|t| t)[..], &[(celsius, e)]].concat(), 30.0);
+        let at =
+            |celsius: f64, e: Estimate| fit(GrowthLaw::Doubling, &[&series(|t| t)[..], &[(celsius, e)]].concat(), 30.0);
         let one = Estimate::new(1.0, 0.1);
         assert!(matches!(at(f64::NAN, one), Err(TransferError::NoTemperature(_))));
         assert_eq!(at(-300.0, one), Err(TransferError::NoTemperature(-300.0)));

@@ -150,8 +150,10 @@ fn rows_that_jump_are_no_fixed_pattern() {
     let normal = Normal::new(0.0, 1.0).expect("a width");
     let mut stack = Stack::new(64, 64);
     for frame in 0..16 {
-        let noise_at = |x: u32, y: u32, purpose| normal.sample(&mut NoiseStream::new(7, 0, frame, 0, Pixel { x, y }, purpose));
-        let sample = |i: u32| 100.0 + 3.0 * noise_at(0, i / 64, NoiseDraw::RowRead) + noise_at(i % 64, i / 64, NoiseDraw::Read);
+        let noise_at =
+            |x: u32, y: u32, purpose| normal.sample(&mut NoiseStream::new(7, 0, frame, 0, Pixel { x, y }, purpose));
+        let sample =
+            |i: u32| 100.0 + 3.0 * noise_at(0, i / 64, NoiseDraw::RowRead) + noise_at(i % 64, i / 64, NoiseDraw::Read);
         let samples = (0..64 * 64).map(|i| sample(i) as f32).collect();
         stack.push(&Image::from_samples(64, 64, samples).expect("a square")).expect("a frame");
     }

@@ -42,7 +42,8 @@ impl Covariance {
         let scaled = |power: fn(f64) -> f64| residuals.iter().enumerate().map(|(i, e)| e / power(free(i))).collect();
         let shared = (!shifts.is_empty()).then(|| {
             let residuals: Vec<f64> = scaled(|f| f);
-            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.neighbour(samples[i].pixel, s.0, s.1)).collect();
+            let near =
+                |i: usize| shifts.iter().filter_map(|s| neighbours.neighbour(samples[i].pixel, s.0, s.1)).collect();
             sandwich(rows, &residuals, near, inverse)
         });
         let residuals: Vec<f64> = scaled(f64::sqrt);
@@ -105,7 +106,8 @@ impl SampleIndex {
         let range = || -MAX_SHIFT_PX..=MAX_SHIFT_PX;
         let shifts = range().flat_map(|dy| range().map(move |dx| (dx, dy))).filter(|shift| *shift != (0, 0));
         let counts = |shift: &(isize, isize)| {
-            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.neighbour(*p, shift.0, shift.1)?]);
+            let pair =
+                |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.neighbour(*p, shift.0, shift.1)?]);
             let (mut sum, mut squares) = (0.0, 0.0);
             pixels.iter().filter_map(pair).for_each(|product| {
                 sum += product;

@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use etendue_core::maths::f64::{sin, sin_cos};
 
-use super::knots::{MIN_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step, step};
+use super::knots::{Knots, MAX_PX, MIN_STEP_PX, STEP_OVER_GAP, Sample, Step, step};
 use super::{Edge, SfrError, SfrPoint, covariance::Covariance};
 use crate::{Estimate, Image};
 
@@ -163,7 +163,8 @@ mod tests {
                     magnitude_of(length, v * c * c + w * s * s, v * s * s + w * c * c)
                 });
                 let estimates: Vec<Estimate> = results.collect();
-                let inside = estimates.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
+                let inside =
+                    estimates.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
                 let covered = inside as f64 / SEEDS as f64;
                 assert!(covered > 0.92, "{sigmas:?} {truth}: {covered}");
                 if truth >= 3.0 {

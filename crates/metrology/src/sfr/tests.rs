@@ -120,7 +120,12 @@ const BOUND: f64 = 0.005;
 
 #[test]
 fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
-    let lenses = [LineSpreadLens::Gaussian(0.3), LineSpreadLens::Gaussian(0.7), LineSpreadLens::Diffraction(0.9), LineSpreadLens::Defocus(1.5)];
+    let lenses = [
+        LineSpreadLens::Gaussian(0.3),
+        LineSpreadLens::Gaussian(0.7),
+        LineSpreadLens::Diffraction(0.9),
+        LineSpreadLens::Defocus(1.5),
+    ];
     let angles = [2.0, 3.3, 5.0, 8.0, 11.31, 14.036, 18.435, 22.0, 26.0, 26.565, 30.0, 33.69, 36.87, 40.0, 43.0];
     for (i, angle_deg) in angles.into_iter().enumerate() {
         for lens in [lenses[i % 4], lenses[(i + 1) % 4]] {
@@ -150,7 +155,8 @@ fn shading_is_removed_on_request() {
     // Without correction this gradient adds a response that the lens does not have; the stated uncertainty covers it.
     assert!(worst(0) > 2.0 * BOUND, "{}", worst(0));
     let plain = measure_edge(&shaded, &SfrSettings::default()).expect("an edge");
-    let deviation = |p: &SfrPoint| (p.response.value - lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
+    let deviation =
+        |p: &SfrPoint| (p.response.value - lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
     let low = plain.curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= 0.5 && deviation(p) > BOUND);
     assert!(low.into_iter().all(|p| deviation(p) < 2.0 * p.response.standard_uncertainty));
     assert!(plain.shading > BOUND, "{}", plain.shading);
@@ -248,7 +254,10 @@ fn what_is_no_slanted_edge_is_refused() {
         measure(&test_image(|x, y| ((x * 7919 + y * 104_729) % 97) as f32)),
         Err(SfrError::NoEdge(_) | SfrError::Angle { .. })
     ));
-    assert!(matches!(measure(&test_image(|x, y| if (x + y / 9) % 20 < 10 { 1.0 } else { 0.0 })), Err(SfrError::NoEdge(_))));
+    assert!(matches!(
+        measure(&test_image(|x, y| if (x + y / 9) % 20 < 10 { 1.0 } else { 0.0 })),
+        Err(SfrError::NoEdge(_))
+    ));
     let edge = edge_image(lens, 5.0, 64);
     let clipped = SfrSettings { full_scale: Some(850.0), ..SfrSettings::default() };
     assert!(matches!(measure_edge(&edge, &clipped), Err(SfrError::Saturated { .. })));

@@ -47,8 +47,11 @@ impl Falloff {
             (0..TERMS).for_each(|j| *covariance.at_mut(i, j) += dot(product, &column(j)));
         }
         let mut with_lines = vec![[0.0; 2]; rings.iter().map(|ring| ring.number + 1).max().unwrap_or(0)];
-        rings.iter().enumerate().for_each(|(i, ring)| with_lines[ring.number] = [shared_products[0][i], shared.at(i, i)]);
-        Ok(Self { basis, b, covariance, centre_covariance: own_of_centre: centre_covariance, with_lines })
+        rings
+            .iter()
+            .enumerate()
+            .for_each(|(i, ring)| with_lines[ring.number] = [shared_products[0][i], shared.at(i, i)]);
+        Ok(Self { basis, b, covariance, centre_covariance, with_lines })
     }
 
     pub(super) fn centre(&self, settings: &ShadingSettings) -> Result<Estimate, ShadingError> {

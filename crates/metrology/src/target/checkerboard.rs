@@ -97,7 +97,8 @@ fn contrast(image: &Image) -> f32 {
 fn is_edge(image: &Image, a: DVec2, b: DVec2, min_response: f32) -> bool {
     let along = b - a;
     let side_offset = along.perp() * 0.15;
-    let difference = |t: f64| Some(sample(image, a + along * t + side_offset)? - sample(image, a + along * t - side_offset)?);
+    let difference =
+        |t: f64| Some(sample(image, a + along * t + side_offset)? - sample(image, a + along * t - side_offset)?);
     let all: Option<Vec<f32>> = [0.25, 0.5, 0.75].into_iter().map(difference).collect();
     all.is_some_and(|d| d.iter().all(|d| *d > 0.5 * min_response) || d.iter().all(|d| *d < -0.5 * min_response))
 }
@@ -131,7 +132,14 @@ fn refine(image: &Image, places: &PointMap, points: &[DVec2]) -> Vec<Option<Corn
     refined
 }
 
-fn corner(image: &Image, places: &PointMap, points: &[DVec2], place: [i32; 2], i: usize, window: f64) -> Option<Corner> {
+fn corner(
+    image: &Image,
+    places: &PointMap,
+    points: &[DVec2],
+    place: [i32; 2],
+    i: usize,
+    window: f64,
+) -> Option<Corner> {
     let step = |x: i32, y: i32| {
         let other = places.get(&[place[0] + x, place[1] + y])?;
         Some((points[*other] - points[i]) * f64::from(x + y))

@@ -203,7 +203,8 @@ mod tests {
     #[test]
     fn marks_determine_the_orientation_of_a_chart() {
         let marks = [[3, 4], [6, 4], [3, 6]];
-        let orientation_of = |size, moved: fn([usize; 2]) -> [usize; 2]| chart_with_gaps(size, &marks, moved).orientation();
+        let orientation_of =
+            |size, moved: fn([usize; 2]) -> [usize; 2]| chart_with_gaps(size, &marks, moved).orientation();
         let orientation = |quarters, mirrored| Some(Orientation { quarters, mirrored });
         assert_eq!(orientation_of([12, 10], |at| at), orientation(0, false));
         assert_eq!(orientation_of([10, 12], |[x, y]| [9 - y, x]), orientation(1, false));

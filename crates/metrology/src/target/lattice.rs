@@ -24,7 +24,11 @@ const MIN_POINTS: usize = 4;
 
 /// The largest lattice of the points, and the number of points of the second largest; `linked` is true if two points are
 /// neighbours in a row or column. Further lattices are searched among more points than `least`.
-pub(super) fn largest(points: &[DVec2], min_points: usize, linked: &impl Fn(usize, usize) -> bool) -> (PointMap, usize) {
+pub(super) fn largest(
+    points: &[DVec2],
+    min_points: usize,
+    linked: &impl Fn(usize, usize) -> bool,
+) -> (PointMap, usize) {
     let search = Search { points, neighbours: PointCells::new(points), linked };
     let mut lattices: Vec<PointMap> = Vec::new();
     let mut visited = vec![false; points.len()];

@@ -18,7 +18,7 @@ use core::ops::Range;
 use etendue_core::{plane::SpectralCube, quantity::Radiance};
 use glam::DVec2;
 
-use super::scan::{Scan, CoverageStep, Window};
+use super::scan::{CoverageStep, Scan, Window};
 use super::strip::{Layer, Layers, Strip};
 use super::{PinholeView, footprint::Footprints, hidden::HiddenSurface};
 
@@ -26,7 +26,8 @@ use super::{PinholeView, footprint::Footprints, hidden::HiddenSurface};
 const ROWS: usize = 32;
 
 /// The steps of a pixel that keeps its light.
-const UNSPREAD_STEPS: [CoverageStep; 2] = [CoverageStep { column: 0, fraction: 1.0 }, CoverageStep { column: 1, fraction: -1.0 }];
+const UNSPREAD_STEPS: [CoverageStep; 2] =
+    [CoverageStep { column: 0, fraction: 1.0 }, CoverageStep { column: 1, fraction: -1.0 }];
 
 /// A view with known footprints and layers: rows of its image can be computed on any number of threads.
 #[derive(Clone, Debug)]

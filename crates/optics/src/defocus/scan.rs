@@ -120,7 +120,14 @@ impl Scan {
     }
 
     /// Emits the rows of a window from the cut lines.
-    fn rows(&mut self, a_row: i64, first: i64, full_coverage: f64, window: &Window, emit: &mut impl FnMut(i64, &[CoverageStep])) {
+    fn rows(
+        &mut self,
+        a_row: i64,
+        first: i64,
+        full_coverage: f64,
+        window: &Window,
+        emit: &mut impl FnMut(i64, &[CoverageStep]),
+    ) {
         let last = first + self.lines.len() as i64 - 1;
         let (top, bottom) = (first.div_euclid(a_row), last.div_euclid(a_row));
         for row in top.max(window.rows.start)..(bottom + 1).min(window.rows.end) {
@@ -176,7 +183,10 @@ impl Scan {
 fn ends(line: [f64; 2], fraction: f64) -> [CoverageStep; 4] {
     let end = |at: f64, fraction: f64| {
         let (column, part) = (at.floor() as i64, at - at.floor());
-        [CoverageStep { column, fraction: fraction * (1.0 - part) }, CoverageStep { column: column + 1, fraction: fraction * part }]
+        [
+            CoverageStep { column, fraction: fraction * (1.0 - part) },
+            CoverageStep { column: column + 1, fraction: fraction * part },
+        ]
     };
     let ([a, b], [c, d]) = (end(line[0], fraction), end(line[1], -fraction));
     [a, b, c, d]
@@ -252,7 +262,7 @@ mod tests {
         let window = Window { columns: -1..2, rows: -1..2 };
         Scan::default()
             .spread(&disc(DVec2::ZERO, DVec2::splat(0.49)), &window, |row, steps| scanned.push((row, steps.to_vec())));
-        let one = |column, fraction| CoverageStep { column, fraction: share: fraction };
+        let one = |column, fraction| CoverageStep { column, fraction };
         assert_eq!(scanned, [(0, vec![one(0, 1.0), one(1, -1.0)])]);
     }
 

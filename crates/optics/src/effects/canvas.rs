@@ -62,7 +62,11 @@ impl KernelPair {
         Self { mean: of(kernel), variance: of(&kernel.squared()) }
     }
 
-    pub(super) fn apply(&self, light: &NumberField, variance: Option<&NumberField>) -> (NumberField, Option<NumberField>) {
+    pub(super) fn apply(
+        &self,
+        light: &NumberField,
+        variance: Option<&NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         (self.mean.apply(light), variance.map(|variance| self.variance.apply(variance)))
     }
 }

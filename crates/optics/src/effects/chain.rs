@@ -205,7 +205,12 @@ impl PreparedEffects {
         (self.cut(&mean), variance)
     }
 
-    fn spread(&self, band: WavelengthRange, mut light: NumberField, mut variance: Option<NumberField>) -> (NumberField, Option<NumberField>) {
+    fn spread(
+        &self,
+        band: WavelengthRange,
+        mut light: NumberField,
+        mut variance: Option<NumberField>,
+    ) -> (NumberField, Option<NumberField>) {
         if let Some(psf) = &self.psf {
             (light, variance) = psf.apply(band, &light, variance.as_ref());
         }

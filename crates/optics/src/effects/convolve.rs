@@ -136,7 +136,12 @@ fn through(plan: &TransformPlan, spectrum: &ComplexGrid, pair: &[Block], image: 
 }
 
 /// Operation counts of a kernel without zero taps on images of `size`, of which `region` of the result is needed.
-pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: UsageCounts) -> OperationCounts {
+pub(super) fn operation_counts(
+    reach: [usize; 2],
+    size: [usize; 2],
+    region: &Region,
+    uses: UsageCounts,
+) -> OperationCounts {
     let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
     if taps <= DIRECT_TAPS {
         return OperationCounts {

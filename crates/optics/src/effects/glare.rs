@@ -225,7 +225,8 @@ impl Glare {
     /// K at the centre, 1/mm².
     fn constant(&self) -> f64 {
         let r0 = self.parameters.core_um * MM_PER_UM;
-        let full_extent = self.parameters.reach_mm.map_or_else(|| 0.5 / (self.half() - 1.0), |reach| self.integrated_to(reach));
+        let full_extent =
+            self.parameters.reach_mm.map_or_else(|| 0.5 / (self.half() - 1.0), |reach| self.integrated_to(reach));
         1.0 / (2.0 * PI * r0 * r0 * full_extent)
     }
 }

@@ -237,7 +237,11 @@ mod tests {
     fn low_frequencies_alone_make_no_wider_samples() {
         for points in [[(0.0, 1.0), (0.005, 0.99), (0.01, 0.97)], [(0.0, 1.0), (0.0005, 0.99), (0.001, 0.97)]] {
             let actual = spread_of_modulation(&points, 5.0).expect("within 0.06 of one");
-            assert!(f64::from(actual.width as u32) <= 2.0 * REACH * MAX_WIDTH_PX * SAMPLES_PX + 3.0, "{}", actual.width);
+            assert!(
+                f64::from(actual.width as u32) <= 2.0 * REACH * MAX_WIDTH_PX * SAMPLES_PX + 3.0,
+                "{}",
+                actual.width
+            );
         }
     }
 

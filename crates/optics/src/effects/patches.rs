@@ -145,9 +145,12 @@ mod tests {
     #[test]
     fn weights_sum_to_one_wherever_functions_stand() {
         let canvas = Canvas::new(&Raster::centred(40, 23, 0.01).expect("legal"), [5, 3]);
-        for (layout, counts) in
-            [(PatchLayout::Centres, [5, 3]), (PatchLayout::Edges, [5, 3]), (PatchLayout::Edges, [1, 2]), (PatchLayout::Centres, [1, 1])]
-        {
+        for (layout, counts) in [
+            (PatchLayout::Centres, [5, 3]),
+            (PatchLayout::Edges, [5, 3]),
+            (PatchLayout::Edges, [1, 2]),
+            (PatchLayout::Centres, [1, 1]),
+        ] {
             let patches = Patches::new(counts, layout, &canvas);
             let sum = |hats: &[PatchWeights], pixel: usize| hats.iter().map(|hat| hat.weight(pixel)).sum::<f64>();
             assert!((0..50).all(|x| (sum(&patches.columns, x) - 1.0).abs() < 1e-12), "{layout:?}");

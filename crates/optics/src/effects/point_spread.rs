@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::convolve::{NumberField, OperationCounts};
 use super::film_part::{FilmPart, SpreadWidth};
-use super::psf::{Psf, PreparedPsf};
+use super::psf::{PreparedPsf, Psf};
 use super::spread_image::{PreparedImage, SpreadImage};
 use super::spread_table::{PreparedTable, SpreadTable};
 use super::{Canvas, sample_spread::SampleSpread};

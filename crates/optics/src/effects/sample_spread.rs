@@ -40,13 +40,23 @@ pub struct SampleSpread {
 
 impl SampleSpread {
     /// Creates the cores from the patches' tables, row by row; the wavelengths of each are in equal steps of `step_nm` from `low_nm` on.
-    pub(super) fn new([columns, rows]: [Vec<PatchWeights>; 2], low_nm: f64, step_nm: f64, tables: Vec<Vec<CoreTable>>) -> Self {
+    pub(super) fn new(
+        [columns, rows]: [Vec<PatchWeights>; 2],
+        low_nm: f64,
+        step_nm: f64,
+        tables: Vec<Vec<CoreTable>>,
+    ) -> Self {
         Self { low_nm, step_nm, columns, rows, tables }
     }
 
     /// The offset of the sample's light from a pixel (of the film), px; and the weights of the path's wavelengths.
     #[must_use]
-    pub fn sample_offset<const N: usize>(&self, pixel: Pixel, wavelengths_nm: &[f32; N], random: SpreadRandomNumbers) -> (DVec2, [f32; N]) {
+    pub fn sample_offset<const N: usize>(
+        &self,
+        pixel: Pixel,
+        wavelengths_nm: &[f32; N],
+        random: SpreadRandomNumbers,
+    ) -> (DVec2, [f32; N]) {
         let choice = random.choice * N as f64;
         let chosen = (choice as usize).min(N - 1);
         let tables = &self.tables[self.patch(pixel, choice - chosen as f64)];

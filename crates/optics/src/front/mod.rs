@@ -32,7 +32,7 @@ pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, Qua
 pub use placement::{Curve, FrontRay, Placement};
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
-pub(crate) use placement::{RayOutcome, MemberRay};
+pub(crate) use placement::{MemberRay, RayOutcome};
 
 /// Optics in front of a lens.
 #[derive(Clone, Debug, PartialEq)]
@@ -168,7 +168,9 @@ impl Front {
     fn through_optic(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
         match &self.optic {
             None => Some(FrontRay::without_front(ray)),
-            Some(Optic::Windscreen(glass)) => beyond(glass.through(line(&ray), nm, LightPath::Direct), ray, LightPath::Direct),
+            Some(Optic::Windscreen(glass)) => {
+                beyond(glass.through(line(&ray), nm, LightPath::Direct), ray, LightPath::Direct)
+            }
             Some(Optic::Mirror(mirror)) => reflected(mirror, ray, nm),
         }
     }

@@ -35,7 +35,10 @@ impl Placement {
     }
 
     pub(super) fn outward(&self, line: MemberRay) -> MemberRay {
-        MemberRay { point_mm: self.rotation * line.point_mm + self.origin_mm, direction: self.rotation * line.direction }
+        MemberRay {
+            point_mm: self.rotation * line.point_mm + self.origin_mm,
+            direction: self.rotation * line.direction,
+        }
     }
 }
 

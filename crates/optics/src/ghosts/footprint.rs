@@ -182,7 +182,8 @@ impl Footprint {
             for row in 0..finer {
                 let [left, right] = [cell[0].between(cell[2], at(row)), cell[1].between(cell[3], at(row))];
                 for node in (0..finer).map(|column| left.between(right, at(column))).filter(|n| n.filling <= 1.0) {
-                    let landed = LandedLight { x: node.x, y: node.y, area_mm2: fraction * node.weight, cosine: node.cosine };
+                    let landed =
+                        LandedLight { x: node.x, y: node.y, area_mm2: fraction * node.weight, cosine: node.cosine };
                     lands(landed);
                     lands(LandedLight { y: -node.y, ..landed });
                 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::source::{GhostSource, SourceImage};
-use super::splat::{SplattedLight, Level, splat_footprints};
+use super::splat::{Level, SplattedLight, splat_footprints};
 use super::{GhostSettings, mirrored, response::Response};
 use crate::{error::OpticsError, lens::PrescriptionLens, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
 
@@ -46,7 +46,12 @@ pub fn layer(
     let visible_light = |source: GhostSource| {
         let at_mm = raster.sensor_mm(source.at_px);
         let angle = field.angle(at_mm.length());
-        DistantSource { angle, outward: at_mm.normalize_or(DVec2::X), spectrum: source.spectrum, fraction: source.fraction }
+        DistantSource {
+            angle,
+            outward: at_mm.normalize_or(DVec2::X),
+            spectrum: source.spectrum,
+            fraction: source.fraction,
+        }
     };
     let sources: Vec<DistantSource> = image.sources().into_iter().map(visible_light).collect();
     Ok(Scattering::new(lens, raster, settings, bands, &sources, field.max_angle()).layer(&sources))
@@ -93,7 +98,8 @@ impl<'a> Scattering<'a> {
         let angles: Vec<f64> = sources.iter().map(|source| source.angle).collect();
         let range_nm = [bands.low_nm(), bands.high_nm()];
         let response = Response::new(lens, settings, range_nm, max_angle, &angles);
-        let colours = response.pairs.iter().map(|pair| PairColour::new(lens, *pair, &response.knots_nm, bands)).collect();
+        let colours =
+            response.pairs.iter().map(|pair| PairColour::new(lens, *pair, &response.knots_nm, bands)).collect();
         Self { lens, raster, settings, bands, response, levels: Level::all(raster), colours }
     }
 
@@ -115,7 +121,7 @@ impl<'a> Scattering<'a> {
     fn splat<'s>(&self, source: &'s DistantSource, pair: usize) -> Option<GhostSplat<'s>> {
         let footprints = self.response.at(source.angle, pair)?;
         let light = splat_footprints(&footprints, source.outward, source.fraction, &self.levels)?;
-        Some(GhostSplat { source, pair, light: laid: light })
+        Some(GhostSplat { source, pair, light })
     }
 
     /// Adds a ghost to the levels of a band.

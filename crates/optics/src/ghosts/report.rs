@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::sin;
 use glam::DVec2;
 
-use super::footprint::{GhostBeam, Footprint};
+use super::footprint::{Footprint, GhostBeam};
 use super::{GhostSettings, mirrored};
 use crate::{lens::PrescriptionLens, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::footprint::{GhostBeam, Footprint, NODES, COARSE_NODES};
+use super::footprint::{COARSE_NODES, Footprint, GhostBeam, NODES};
 use super::{GhostSettings, mirrored};
 use crate::{lens::PrescriptionLens, prescription::ghost::GhostPair};
 
@@ -75,7 +75,13 @@ pub(super) fn knots(lens: &PrescriptionLens, [low, high]: [f64; 2]) -> Vec<f64> 
     (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect()
 }
 
-fn at_angle(lens: &PrescriptionLens, settings: GhostSettings, angle: f64, pairs: &[GhostPair], knots_nm: &[f64]) -> AtAngle {
+fn at_angle(
+    lens: &PrescriptionLens,
+    settings: GhostSettings,
+    angle: f64,
+    pairs: &[GhostPair],
+    knots_nm: &[f64],
+) -> AtAngle {
     let beam = GhostBeam::new(lens.prescription(), angle);
     let middle_nm = knots_nm[knots_nm.len() / 2];
     let survey = |pair: &GhostPair| {

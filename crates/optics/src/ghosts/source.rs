@@ -74,7 +74,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
             (factor * pixels.map(|i| f64::from(plane.samples()[i]) * self.pixel_factor[i]).sum::<f64>()) as f32
         };
         let spectrum = self.planes.iter().zip(&self.band_factor).map(of_band).collect();
-        GhostSource { at_px: moment / light, spectrum, fraction: share: fraction }
+        GhostSource { at_px: moment / light, spectrum, fraction }
     }
 }
 

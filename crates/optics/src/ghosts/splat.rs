@@ -81,7 +81,12 @@ pub(super) struct SplattedLight {
 
 /// Splats the footprints (by wavelength) of a source in the direction `outward` from the axis with a fraction of all light; `None` if nothing falls
 /// on the image.
-pub(super) fn splat_footprints(footprints: &[Footprint], outward: DVec2, fraction: f64, levels: &[Level]) -> Option<SplattedLight> {
+pub(super) fn splat_footprints(
+    footprints: &[Footprint],
+    outward: DVec2,
+    fraction: f64,
+    levels: &[Level],
+) -> Option<SplattedLight> {
     let bounds = bounds(footprints)?;
     let level = level(bounds, fraction, levels);
     let at = &levels[level];

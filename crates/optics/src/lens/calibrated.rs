@@ -97,7 +97,8 @@ impl Calibrated {
         }
         let matrix = parameters.calibration.matrix();
         let solid_angle_per_area = parameters.calibration.solid_angle_per_area(DVec2::new(matrix.cx, matrix.cy));
-        let sr_per_px2 = solid_angle_per_area.filter(|s| *s > 0.0).ok_or(OpticsError::BlindCentre { x: matrix.cx, y: matrix.cy })?;
+        let sr_per_px2 =
+            solid_angle_per_area.filter(|s| *s > 0.0).ok_or(OpticsError::BlindCentre { x: matrix.cx, y: matrix.cy })?;
         let focal_length_mm = pitch_mm / sr_per_px2.sqrt();
         let axis_sr = transmittance * PI / (4.0 * n * n);
         let measured = parameters.relative_illumination.is_some();

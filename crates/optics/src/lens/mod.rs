@@ -52,8 +52,8 @@ pub use paraxial_properties::{Falloff, FalloffArgument, LateralColour, PupilPara
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, PrescriptionLens, Spot};
 pub use rays::TruthRay;
 pub use simple::{Pinhole, PinholeParameters, Telecentric, TelecentricParameters, Thin, ThinParameters};
-pub use thick::{ConstantPupil, ClippingAperture, Thick, ThickParameters};
-pub use transferred::{SensorPlace, RayTransferLens};
+pub use thick::{ClippingAperture, ConstantPupil, Thick, ThickParameters};
+pub use transferred::{RayTransferLens, SensorPlace};
 
 pub(crate) use field_angles::FieldAngles;
 pub(crate) use prescribed::DIRECTIONS;

@@ -47,7 +47,7 @@
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
 
-use super::paraxial_properties::{Conjugates, ParaxialProperties, PupilSize, PupilParameters};
+use super::paraxial_properties::{Conjugates, ParaxialProperties, PupilParameters, PupilSize};
 use crate::error::OpticsError;
 use crate::overlap::{Disc, PRINCIPAL_NM, clipped_etendue_sr, finite, open_centroid, positive};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};

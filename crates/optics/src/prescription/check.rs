@@ -4,9 +4,9 @@ use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
-use super::paraxial::{self, AxialOpening, AxialClipping};
+use super::paraxial::{self, AxialClipping, AxialOpening};
 use super::surface::{Shape, Surface};
-use super::trace::{self, LensRay, RayLossReason, RayLoss, ApertureTest, TravelDirection, walk};
+use super::trace::{self, ApertureTest, LensRay, RayLoss, RayLossReason, TravelDirection, walk};
 use super::{Prescription, PrescriptionParameters, coating::Coating, focus, indices::IndexTable};
 use crate::error::PrescriptionError;
 
@@ -134,7 +134,8 @@ fn axial_bundle(lens: &Prescription, other_rims: AxialClipping) -> Result<AxialO
 /// The loss of the ray at a fraction of the entrance pupil's radius, at the reference wavelength; `None` if it passes.
 fn loss_at(lens: &Prescription, fraction: f64) -> Option<RayLoss> {
     let ray = axial_ray(lens, fraction * lens.paraxial.entrance_radius_mm);
-    walk(&lens.elements, 0, TravelDirection::ToSensor, &lens.media(lens.reference_nm), ray, &mut ApertureTest::Clip).err()
+    walk(&lens.elements, 0, TravelDirection::ToSensor, &lens.media(lens.reference_nm), ray, &mut ApertureTest::Clip)
+        .err()
 }
 
 /// The largest passing fraction, between one that passes and one that does not.
@@ -163,7 +164,14 @@ impl Prescription {
     /// # Errors
     /// If the surfaces do not form a lens, or it cannot be focused as requested.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
-        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, axial_clipping: other_rims } = parameters;
+        let PrescriptionParameters {
+            mut surfaces,
+            f_number,
+            focus,
+            defocus_mm,
+            reference_nm,
+            axial_clipping: other_rims,
+        } = parameters;
         let stop = check_surfaces(&surfaces)?;
         let (list, places) = trace::media(&surfaces)?;
         let table = IndexTable::new(&list);

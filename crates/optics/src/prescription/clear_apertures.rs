@@ -11,8 +11,8 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::DVec3;
 
-use super::surface::{SurfaceHit, Surface};
-use super::trace::{Element, SurfaceVisitor, LensRay, RayLossReason, ApertureTest, TravelDirection, walk};
+use super::surface::{Surface, SurfaceHit};
+use super::trace::{ApertureTest, Element, LensRay, RayLossReason, SurfaceVisitor, TravelDirection, walk};
 use super::{Media, Prescription, coating::Crossing};
 
 /// A point of the field in the meridional plane.

@@ -12,7 +12,7 @@
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
-use super::trace::{Element, SurfaceVisitor, LensRay, RayLossReason, RayLoss, TravelDirection, bounce, walk};
+use super::trace::{Element, LensRay, RayLoss, RayLossReason, SurfaceVisitor, TravelDirection, bounce, walk};
 use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, surface::SurfaceHit};
 
 /// Two surfaces, counted from 0 at the scene, between which light is reflected.
@@ -56,7 +56,13 @@ struct GhostVisitor {
 
 impl SurfaceVisitor for GhostVisitor {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason> {
+    fn crosses(
+        &mut self,
+        _: usize,
+        element: &Element,
+        hit: &SurfaceHit,
+        crossing: &Crossing,
+    ) -> Result<(), RayLossReason> {
         self.filling = self.filling.max(element.filling(hit));
         self.weight *= element.coating.transmittance(crossing, self.nm);
         Ok(())

@@ -25,7 +25,9 @@ use glam::DVec3;
 use crate::overlap::PRINCIPAL_NM;
 use indices::{IndexTable, Media};
 use paraxial::{AxialOpening, Paraxial};
-use trace::{Element, ApertureFillingVisitor, LensRay, RayLoss, ApertureTest, TransmittanceVisitor, TravelDirection, walk};
+use trace::{
+    ApertureFillingVisitor, ApertureTest, Element, LensRay, RayLoss, TransmittanceVisitor, TravelDirection, walk,
+};
 
 pub use crate::error::PrescriptionError;
 pub use focus::Focus;
@@ -246,7 +248,8 @@ impl Prescription {
 
     /// The same for a ray from the scene.
     pub(crate) fn stop_point_from_scene(&self, ray: LensRay, media: &Media) -> Result<DVec3, RayLoss> {
-        let ray = walk(&self.elements[..self.stop], 0, TravelDirection::ToSensor, media, ray, &mut ApertureTest::Ignore)?;
+        let ray =
+            walk(&self.elements[..self.stop], 0, TravelDirection::ToSensor, media, ray, &mut ApertureTest::Ignore)?;
         self.at_stop_surface(ray, 1.0)
     }
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::coating::{Coating, Crossing};
 use super::indices::{MAX_MEDIA, Media};
-use super::surface::{SurfaceHit, Shape, Surface};
+use super::surface::{Shape, Surface, SurfaceHit};
 use crate::error::PrescriptionError;
 
 /// A ray in the lens frame.
@@ -97,7 +97,13 @@ pub(crate) enum ApertureTest {
 /// Visitor of a ray's surface crossings; may stop the ray.
 pub(super) trait SurfaceVisitor {
     /// The ray crosses `element` at `hit` with these indices and cosines; false stops it.
-    fn crosses(&mut self, index: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason>;
+    fn crosses(
+        &mut self,
+        index: usize,
+        element: &Element,
+        hit: &SurfaceHit,
+        crossing: &Crossing,
+    ) -> Result<(), RayLossReason>;
 }
 
 /// Clear apertures clip, coatings attenuate.
@@ -108,7 +114,13 @@ pub(super) struct TransmittanceVisitor {
 
 impl SurfaceVisitor for TransmittanceVisitor {
     #[inline]
-    fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, crossing: &Crossing) -> Result<(), RayLossReason> {
+    fn crosses(
+        &mut self,
+        _: usize,
+        element: &Element,
+        hit: &SurfaceHit,
+        crossing: &Crossing,
+    ) -> Result<(), RayLossReason> {
         inside(element, hit)?;
         self.transmittance *= element.coating.transmittance(crossing, self.nm);
         Ok(())

@@ -13,7 +13,7 @@ use etendue_projection::Raster;
 use glam::DVec2;
 
 use super::cube::{BORDER_PX, Cube, Window};
-use super::projection::{PupilProjection, MAX_RECTILINEAR_RAD};
+use super::projection::{MAX_RECTILINEAR_RAD, PupilProjection};
 use super::{survey::Survey, view::Face};
 use crate::{error::OpticsError, lens::Lens};
 
@@ -39,11 +39,7 @@ impl PupilProjection {
         if survey.samples.is_empty() {
             return Err(OpticsError::SeesNothing);
         }
-        if survey.widest_rad() <= MAX_RECTILINEAR_RAD {
-            one_view(lens, &raster, &survey)
-        } else {
-            six_views(&survey)
-        }
+        if survey.widest_rad() <= MAX_RECTILINEAR_RAD { one_view(lens, &raster, &survey) } else { six_views(&survey) }
     }
 }
 

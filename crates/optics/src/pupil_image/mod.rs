@@ -21,6 +21,6 @@ mod view;
 
 pub use cube::{Cube, Window};
 pub use irradiance::{BandEtendue, irradiance};
-pub use projection::{PupilProjection, MAX_RECTILINEAR_RAD};
+pub use projection::{MAX_RECTILINEAR_RAD, PupilProjection};
 pub use resample::Resampling;
 pub use view::{Face, View};

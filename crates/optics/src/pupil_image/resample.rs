@@ -141,7 +141,12 @@ impl<'a> Resampling<'a> {
     }
 
     /// Resamples planes by the chief rays of one wavelength, rows independently of each other.
-    fn apply_to(&self, aim: &ChiefRaySource<'_>, from: &[Plane<Radiance>], to: &mut [Plane<Radiance>]) -> Result<(), OpticsError> {
+    fn apply_to(
+        &self,
+        aim: &ChiefRaySource<'_>,
+        from: &[Plane<Radiance>],
+        to: &mut [Plane<Radiance>],
+    ) -> Result<(), OpticsError> {
         let width = self.raster.width();
         let rows = (0..self.raster.height()).into_par_iter().map(|y| self.row(aim, y, from));
         let rows: Vec<Vec<f32>> = rows.collect::<Result<_, _>>()?;

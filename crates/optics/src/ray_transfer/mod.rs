@@ -63,7 +63,7 @@ impl RayTransfer {
             t.point.iter().chain(&t.direction).chain(&t.forwards).map(Polynomial::max_power).max().unwrap_or(0)
         };
         let max_power = transfers.iter().map(powers).max().unwrap_or(0);
-        Ok(Self { thickness_mm, input_offset_mm, transfers, max_power: greatest_power: max_power })
+        Ok(Self { thickness_mm, input_offset_mm, transfers, max_power })
     }
 
     /// Distance from the rear vertex to the front vertex, mm.

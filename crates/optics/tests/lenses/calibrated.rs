@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_optics::{
-    CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilProjection, PupilOrientation,
+    CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilOrientation, PupilProjection,
     TelecentricParameters,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
@@ -109,8 +109,10 @@ fn fisheyes_see_behind_themselves_and_a_flat_pupil_does_not() {
     let at = DVec2::new(3.0, 0.0);
     let ray = wide.principal_ray(at).expect("114.6° from the axis");
     assert!(ray.direction.z < 0.0 && ray.weight_sr > 0.0);
-    let flat =
-        CalibratedParameters { pupil: Some(PupilOrientation::Flat), ..parameters(Model::Ideal(Ideal::Equidistant), 150.0) };
+    let flat = CalibratedParameters {
+        pupil: Some(PupilOrientation::Flat),
+        ..parameters(Model::Ideal(Ideal::Equidistant), 150.0)
+    };
     let flat = Lens::calibrated(flat).expect("a camera");
     assert!(
         flat.principal_ray(at).is_none() && flat.truth_ray(at).is_none() && flat.projected_solid_angle_sr(at) == 0.0
@@ -123,7 +125,9 @@ fn fisheyes_see_behind_themselves_and_a_flat_pupil_does_not() {
 
 #[test]
 fn defocus_meets_where_it_is_sharp_and_weighs_as_the_principal_ray() {
-    for (model, pupil) in [(Ideal::Rectilinear, PupilOrientation::Flat), (Ideal::Equidistant, PupilOrientation::Oriented)] {
+    for (model, pupil) in
+        [(Ideal::Rectilinear, PupilOrientation::Flat), (Ideal::Equidistant, PupilOrientation::Oriented)]
+    {
         let sharp = CalibratedParameters { focus_distance_m: Some(3.0), ..parameters(Model::Ideal(model), 400.0) };
         let lens = Lens::calibrated(CalibratedParameters { pupil: Some(pupil), ..sharp }).expect("a camera");
         assert!((lens.entrance_pupil_radius_m() - 0.001).abs() < 1e-12, "4 mm / (2 · 2)");

@@ -4,8 +4,8 @@ use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_optics::defocus::{Physical, PinholeView};
 use etendue_optics::{
-    ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters, PupilParameters, ClippingAperture,
-    ThickParameters, ThinParameters,
+    ClippingAperture, ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters,
+    PupilParameters, ThickParameters, ThinParameters,
 };
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};

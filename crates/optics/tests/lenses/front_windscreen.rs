@@ -133,7 +133,8 @@ fn absorption_follows_the_path_in_the_glass() {
     let ratio = weight_fraction(&doubled_axis(tinted)) / weight_fraction(&doubled_axis(plate(60.0)));
     assert!((ratio - pow(0.8, 3.0 * longer)).abs() < 1e-13);
     let half = Some(Tint { transmittance: Curve::Constant(0.8), thickness_mm: Some(2.0 * THICK_MM) });
-    let ratio = weight_fraction(&axis(WindscreenParameters { tint: half, ..plate(0.0) })) / weight_fraction(&axis(plate(0.0)));
+    let ratio =
+        weight_fraction(&axis(WindscreenParameters { tint: half, ..plate(0.0) })) / weight_fraction(&axis(plate(0.0)));
     assert!((ratio - 0.8_f64.sqrt()).abs() < 1e-14);
 }
 

@@ -8,7 +8,7 @@ use etendue_optics::prescription::ghost::GhostPair;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, Prescription, PrescriptionLens, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_spectra::glass::Dispersion;
 use glam::{DVec2, DVec3};

@@ -2,9 +2,10 @@
 
 use etendue_core::ray::PupilRay;
 use etendue_optics::{
-    ConstantPupil, Lens, OpticsError, PinholeParameters, PupilParameters, ClippingAperture, Thick, ThickParameters, ThinParameters,
+    ClippingAperture, ConstantPupil, Lens, OpticsError, PinholeParameters, PupilParameters, Thick, ThickParameters,
+    ThinParameters,
 };
-use etendue_projection::{RadialDistortion, Raster, DistortionDirection};
+use etendue_projection::{DistortionDirection, RadialDistortion, Raster};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -134,8 +135,8 @@ fn what_cannot_be_is_refused() {
     let bright = ThinParameters { transmittance: 1.1, ..base };
     assert!(matches!(refused(bright), OpticsError::Transmittance { .. }));
     let aperture = Some(ClippingAperture { position_mm: -10.0, radius_mm: 3.0 });
-    let narrow =
-        Thick::new(ThickParameters { front_aperture: aperture, ..thick_parameters() }).expect_err("the rim is the stop");
+    let narrow = Thick::new(ThickParameters { front_aperture: aperture, ..thick_parameters() })
+        .expect_err("the rim is the stop");
     assert!(matches!(narrow, OpticsError::RimIsStop { rim: "front_aperture", .. }), "{narrow}");
     let aperture = Some(ClippingAperture { position_mm: 25.0, radius_mm: 30.0 });
     let behind =

@@ -2,8 +2,10 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, cos, tan};
-use etendue_optics::{ConstantPupil, Lens, PinholeParameters, PupilParameters, ClippingAperture, ThickParameters, ThinParameters};
-use etendue_projection::{RadialDistortion, DistortionDirection};
+use etendue_optics::{
+    ClippingAperture, ConstantPupil, Lens, PinholeParameters, PupilParameters, ThickParameters, ThinParameters,
+};
+use etendue_projection::{DistortionDirection, RadialDistortion};
 use glam::DVec2;
 
 const FOCAL_MM: f64 = 25.0;
@@ -209,7 +211,10 @@ fn an_aperture_cuts_the_area_of_two_circles() {
     let pupil_mm = FOCAL_MM / 128.0;
     let aperture = ClippingAperture { position_mm: -10.0, radius_mm: 0.15 };
     let open = thick(thick_parameters(64.0));
-    let lens = thick(ThickParameters { front_aperture: Some(ClippingAperture { radius_mm: 0.3, ..aperture }), ..thick_parameters(64.0) });
+    let lens = thick(ThickParameters {
+        front_aperture: Some(ClippingAperture { radius_mm: 0.3, ..aperture }),
+        ..thick_parameters(64.0)
+    });
     for tangent in [0.012, 0.02, 0.03, 0.045] {
         let at = DVec2::new(-0.6, 0.8) * FOCAL_MM * tangent;
         let fraction = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);

@@ -5,7 +5,7 @@ use etendue_optics::prescription::ghost::GhostPair;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, Prescription, PrescriptionLens, PrescriptionParameters};
 use etendue_spectra::glass;
 use glam::{DVec2, DVec3};
 use serde_json::Value;
@@ -155,7 +155,8 @@ fn relative_illumination_agrees() {
     for (figures, lens) in published_lenses(&figures()) {
         let illumination = &figures["illumination"];
         let heights = list(&illumination["heights_mm"]);
-        let lens = Lens::prescription(PrescriptionLens::new(lens, None, heights[heights.len() - 1] * 1.05).expect("lit"));
+        let lens =
+            Lens::prescription(PrescriptionLens::new(lens, None, heights[heights.len() - 1] * 1.05).expect("lit"));
         let axis = lens.projected_solid_angle_sr(DVec2::ZERO);
         let (relative, absolute) = (list(&illumination["relative"]), list(&illumination["projected_sr"]));
         for ((height, relative), absolute) in heights.iter().zip(relative).zip(absolute) {

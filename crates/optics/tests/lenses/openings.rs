@@ -2,7 +2,7 @@
 
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, Surface};
-use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, Prescription, PrescriptionLens, PrescriptionParameters};
 use etendue_spectra::glass::Dispersion;
 use glam::{DVec2, DVec3};
 
@@ -11,7 +11,9 @@ const NM: f64 = 587.56;
 fn lens(surfaces: Vec<Surface>, back_focus_mm: f64, radius_mm: f64) -> Lens {
     let focus = Focus::Fixed { back_focus_mm };
     let parameters = PrescriptionParameters::new(surfaces, focus);
-    Lens::prescription(PrescriptionLens::new(Prescription::new(parameters).expect("a lens"), None, radius_mm).expect("lit"))
+    Lens::prescription(
+        PrescriptionLens::new(Prescription::new(parameters).expect("a lens"), None, radius_mm).expect("lit"),
+    )
 }
 
 /// A singlet far behind its stop, with so much spherical aberration that light through its edge reaches the stop again: a sensor point sees a ring of

@@ -6,7 +6,7 @@ use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Lens, PrescriptionLens, Prescription, PrescriptionParameters};
+use etendue_optics::{Lens, Prescription, PrescriptionLens, PrescriptionParameters};
 use etendue_spectra::glass::{Dispersion, LINE_C_NM, LINE_F_NM};
 use etendue_spectra::{Extrapolation, Spectrum};
 use glam::{DVec2, DVec3};
@@ -193,7 +193,12 @@ fn clipped_principal_rays_give_way_to_the_middle_of_what_is_open() {
 #[test]
 fn a_prescription_keeps_its_own_distortion() {
     let lens = published("telephoto", 6.3);
-    let own = etendue_projection::RadialDistortion::new(etendue_projection::DistortionDirection::IdealToObserved, 0.1, 0.0, 1.0);
+    let own = etendue_projection::RadialDistortion::new(
+        etendue_projection::DistortionDirection::IdealToObserved,
+        0.1,
+        0.0,
+        1.0,
+    );
     let message = lens.with_distortion(own.expect("legal")).expect_err("refused").to_string();
     assert!(message.contains("have their own distortion"), "{message}");
 }
@@ -241,7 +246,8 @@ fn an_ir_cut_darkens_its_edge_towards_the_image_s_corner() {
     let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
     let surfaces = published::named("double-gauss").expect("a published lens").surfaces();
     let bare = Lens::prescription(PrescriptionLens::new(focused(surfaces.clone(), FAR), None, 21.6).expect("lit"));
-    let cut = Lens::prescription(PrescriptionLens::new(focused(surfaces, FAR), Some(filter.clone()), 21.6).expect("lit"));
+    let cut =
+        Lens::prescription(PrescriptionLens::new(focused(surfaces, FAR), Some(filter.clone()), 21.6).expect("lit"));
     for s_mm in [0.0, 12.0, 20.0] {
         for pupil in points(40) {
             let sensor_mm = DVec2::new(0.0, s_mm);

@@ -108,8 +108,7 @@ fn coma_points_outwards_and_turns_with_the_field() {
         let parameters = PsfParameters { wavefront: vec![coma(0.3)], patches: Some(patches), ..round() };
         let effects = effects(parameters, &lens(50.0, 8.0), &raster);
         let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, x, y), None).0;
-        let brightest =
-            (0..81 * 81).max_by(|a, b| image.samples()[*a].total_cmp(&image.samples()[*b])).expect("some");
+        let brightest = (0..81 * 81).max_by(|a, b| image.samples()[*a].total_cmp(&image.samples()[*b])).expect("some");
         DVec2::new((brightest % 81) as f64, (brightest / 81) as f64) - DVec2::new(x as f64, y as f64)
     };
     // The bright core of W = a √8 (3r³ − 2r) cos θ lies where the rays of its centre land: 2N ∂W/∂x(0) = −2N 2√8 a = −27 µm.

@@ -5,7 +5,7 @@ use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
 use etendue_core::wavelength::Bands;
 use etendue_optics::{Lens, OpticsError, PupilProjection, Resampling, ThinParameters, irradiance};
-use etendue_projection::{RadialDistortion, Raster, DistortionDirection};
+use etendue_projection::{DistortionDirection, RadialDistortion, Raster};
 use glam::DVec2;
 
 fn lens() -> Lens {
@@ -62,7 +62,9 @@ fn without_distortion_the_stored_pixels_are_the_image_s() {
 
 #[test]
 fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
-    for lens in [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)] {
+    for lens in
+        [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)]
+    {
         let raster = raster();
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         let image = Resampling::new(geometry, &lens, &raster, [0, 0], bands())
@@ -82,7 +84,9 @@ fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
 
 #[test]
 fn a_gradient_lands_where_the_lens_looks() {
-    for lens in [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)] {
+    for lens in
+        [distorted(DistortionDirection::IdealToObserved, -0.15), distorted(DistortionDirection::ObservedToIdeal, -0.08)]
+    {
         let raster = raster();
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         let stored = cube(&geometry, |t| 5.0 + 2.0 * t.x - 3.0 * t.y);
@@ -104,11 +108,13 @@ fn a_gradient_lands_where_the_lens_looks() {
 fn overscan_grows_with_barrel_and_the_pixels_are_fine_enough() {
     let raster = raster();
     let barrel =
-        PupilProjection::covering(&distorted(DistortionDirection::IdealToObserved, -0.15), &raster, [0, 0], RANGE).expect("legal");
+        PupilProjection::covering(&distorted(DistortionDirection::IdealToObserved, -0.15), &raster, [0, 0], RANGE)
+            .expect("legal");
     assert!(barrel.width() > 66 && barrel.height() > 50, "{barrel:?}");
     assert!(barrel.pitch_tan() <= 0.05 / 4.0);
     let pincushion =
-        PupilProjection::covering(&distorted(DistortionDirection::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE).expect("legal");
+        PupilProjection::covering(&distorted(DistortionDirection::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE)
+            .expect("legal");
     assert!(pincushion.pitch_tan() < 0.05 / 4.0, "pincushion magnifies the corners");
 }
 

@@ -9,11 +9,11 @@ use etendue_core::wavelength::Bands;
 use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{
-    BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, PrescriptionLens,
-    Prescription, PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window, irradiance,
+    BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescription,
+    PrescriptionLens, PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window, irradiance,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, DistortionDirection};
+use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model, RadialDistortion, Raster};
 use etendue_spectra::{Extrapolation, Spectrum};
 use glam::{DVec2, DVec3};
 

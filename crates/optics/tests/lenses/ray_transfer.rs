@@ -9,7 +9,7 @@ use etendue_core::ray::PupilRay;
 use etendue_optics::ray_transfer::{
     PassCircle, PassEllipse, PassRegion, Polynomial, RayPass, RayTransfer, Term, Transfer,
 };
-use etendue_optics::{Lens, SensorPlace, RayTransferLens};
+use etendue_optics::{Lens, RayTransferLens, SensorPlace};
 use glam::{DMat2, DVec2, DVec3};
 
 /// The sensor behind the lens, mm.

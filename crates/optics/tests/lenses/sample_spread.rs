@@ -7,8 +7,8 @@ use etendue_core::maths::f64::{acos, cos, exp};
 use etendue_core::quantity::Irradiance;
 use etendue_core::random::Pixel;
 use etendue_optics::effects::{
-    FilmPart, PointSpread, Psf, PsfParameters, SampleSpread, SpreadMethod, SpreadRandomNumbers, SpreadImage, SpreadImageParameters,
-    Zernike, ZernikeTerm,
+    FilmPart, PointSpread, Psf, PsfParameters, SampleSpread, SpreadImage, SpreadImageParameters, SpreadMethod,
+    SpreadRandomNumbers, Zernike, ZernikeTerm,
 };
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, ThinParameters};
 use etendue_projection::Raster;
@@ -72,8 +72,10 @@ fn sampled_modulation<const N: usize>(spread: &SampleSpread, nm: [f32; N], frequ
     for i in 0..SAMPLES_PER_AXIS * SAMPLES_PER_AXIS {
         // A lattice, with a golden-ratio sequence for the choice.
         let choice = (0.618_033_988_75 * i as f64).fract();
-        let place = (DVec2::new((i % SAMPLES_PER_AXIS) as f64, (i / SAMPLES_PER_AXIS) as f64) + 0.5) / SAMPLES_PER_AXIS as f64;
-        let (offset_px, weights) = spread.sample_offset(Pixel { x: 32, y: 24 }, &nm, SpreadRandomNumbers { choice, place });
+        let place =
+            (DVec2::new((i % SAMPLES_PER_AXIS) as f64, (i / SAMPLES_PER_AXIS) as f64) + 0.5) / SAMPLES_PER_AXIS as f64;
+        let (offset_px, weights) =
+            spread.sample_offset(Pixel { x: 32, y: 24 }, &nm, SpreadRandomNumbers { choice, place });
         let phase = TAU * frequency.dot(offset_px);
         let wave = DVec2::new(cos(phase), cos(phase - 0.5 * PI));
         for ((weight, sum), own) in sums.iter_mut().zip(weights) {
@@ -125,7 +127,10 @@ fn narrow_gaussians_keep_their_contrast() {
                 let expected = exp(-2.0 * (PI * sigma_px * f) * (PI * sigma_px * f));
                 assert_eq!(weight, 1.0, "the same at all wavelengths");
                 // Half a per cent at half a cycle, from the cells; the bilinear loss of the light beyond a pixel, largest at 0.6 px.
-                assert!((modulation - expected).abs() < 0.006, "{sigma_px} at {f} along {along}: {modulation} for {expected}");
+                assert!(
+                    (modulation - expected).abs() < 0.006,
+                    "{sigma_px} at {f} along {along}: {modulation} for {expected}"
+                );
                 assert!(actual.y.abs() < 1e-3, "even");
             }
         }
@@ -139,13 +144,17 @@ fn diffraction_keeps_its_contrast_at_each_of_a_path_s_wavelengths() {
         let spread = effects.sample_spread(&raster(), RANGE).expect("samples");
         let nm = [425.0f32, 505.0, 585.0, 665.0];
         for (f, along) in [0.125, 0.25, 0.5].into_iter().flat_map(|f| directions().map(|along| (f, along))) {
-            for ((weight, actual), nm) in sampled_modulation(&spread, nm, along * f).into_iter().zip(nm.map(f64::from)) {
+            for ((weight, actual), nm) in sampled_modulation(&spread, nm, along * f).into_iter().zip(nm.map(f64::from))
+            {
                 let v = f * nm * 1e-3 * f_number / PITCH_UM;
                 let expected = if v < 1.0 { 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt()) } else { 0.0 };
                 let modulation = product(actual, film_modulation(&effects, FilmPart::Tails, nm, along * f)).x;
                 assert!((weight - 1.0).abs() < 0.01, "f/{f_number} {nm}: {weight}");
                 // Cells, the lattice of the samples, steps of 10 nm; light beyond the pattern's end (0.3 %).
-                assert!((modulation - expected).abs() < 0.015, "f/{f_number} {nm} nm {f} {along}: {modulation} for {expected}");
+                assert!(
+                    (modulation - expected).abs() < 0.015,
+                    "f/{f_number} {nm} nm {f} {along}: {modulation} for {expected}"
+                );
             }
         }
     }

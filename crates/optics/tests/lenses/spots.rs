@@ -3,7 +3,7 @@
 use etendue_optics::lens::{ImageReport, LensReport};
 use etendue_optics::prescription::Focus;
 use etendue_optics::prescription::surface::Surface;
-use etendue_optics::{PrescriptionLens, Prescription, PrescriptionParameters};
+use etendue_optics::{Prescription, PrescriptionLens, PrescriptionParameters};
 use etendue_spectra::glass::Dispersion;
 use serde_json::Value;
 

@@ -125,5 +125,8 @@ fn what_is_no_spread_is_refused() {
     assert!(matches!(error_of(image(1, &[1.0], 1.0, Some(-1.0))), EffectsError::NotPositive { .. }));
     assert!(matches!(error_of(image(1, &[1.0], 4.1, None)), EffectsError::Coarse { .. }));
     assert!(matches!(error_of(image(1, &[1.0], 4.0, Some(550.0))), EffectsError::Coarse { .. }));
-    assert!(matches!(error_of(image(1030, &[1.0; 1030], 4.0, None)), EffectsError::Wide { reach_px: 515, most_px: 512 }));
+    assert!(matches!(
+        error_of(image(1030, &[1.0; 1030], 4.0, None)),
+        EffectsError::Wide { reach_px: 515, most_px: 512 }
+    ));
 }

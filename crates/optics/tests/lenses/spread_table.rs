@@ -6,7 +6,8 @@ use etendue_core::maths::f64::{exp, sin_cos};
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_core::random::Pixel;
 use etendue_optics::effects::{
-    FieldSpread, FilmPart, PointSpread, SpreadMethod, SpreadRandomNumbers, SpreadTable, SpreadTableParameters, WavelengthTable,
+    FieldSpread, FilmPart, PointSpread, SpreadMethod, SpreadRandomNumbers, SpreadTable, SpreadTableParameters,
+    WavelengthTable,
 };
 use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
@@ -250,8 +251,10 @@ fn samples_are_displaced_by_narrow_functions_and_wide_ones_are_refused() {
         assert!((mean - expected).length() < 0.06, "{mean} for {expected}");
     }
     let psf = Some(PointSpread::Table(table(growing_functions(DVec2::X), None).expect("legal")));
-    let result =
-        Effects::new(EffectsParameters { psf, spread_by: Some(SpreadMethod::Samples), ..Default::default() }, &raster());
+    let result = Effects::new(
+        EffectsParameters { psf, spread_by: Some(SpreadMethod::Samples), ..Default::default() },
+        &raster(),
+    );
     assert!(matches!(result, Err(EffectsError::WideCore { .. })), "{result:?}");
 }
 

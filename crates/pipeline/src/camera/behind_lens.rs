@@ -6,7 +6,7 @@ use crate::camera::light::Light;
 use crate::camera::stored::StoredRadianceImage;
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, MeanElectrons};
-use etendue_core::{StoredCube, Plane, SpectralCube};
+use etendue_core::{Plane, SpectralCube, StoredCube};
 use etendue_optics::front::Front;
 use etendue_optics::{DepthOfField, OpticsError, irradiance};
 use glam::DVec2;

@@ -11,9 +11,9 @@
 
 use crate::camera::behind_lens::{dirt_shades, shaded};
 use crate::camera::defocus::available_margin_px;
-use crate::camera::effects::{EffectsOutput, behind, apply_to_band, picture};
+use crate::camera::effects::{EffectsOutput, apply_to_band, behind, picture};
 use crate::camera::light::LightError;
-use crate::camera::light::{StoredEstimate, Light};
+use crate::camera::light::{Light, StoredEstimate};
 use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::StoredRadianceImage;
 use crate::plan::film::{needs_all_bands, needs_electrons, needs_irradiance};
@@ -25,7 +25,7 @@ use crate::render::tiled_cube::TiledCube;
 use etendue_core::quantity::{ElectronRate, Irradiance, Quantity, Radiance, SolidAngle, Variance};
 use etendue_core::storage::ScratchStore;
 use etendue_core::storage::{BandReader, CubeOnDisk};
-use etendue_core::{Bands, StoredCube, Plane};
+use etendue_core::{Bands, Plane, StoredCube};
 use etendue_optics::effects::FilmPart;
 use etendue_optics::{BandEtendue, DepthOfField, PupilProjection, Resampling};
 use std::sync::Arc;
@@ -71,7 +71,8 @@ pub(super) fn light_from_film(
     drop(weight);
     match &camera.settings.route {
         Route::Pupil(projection) => {
-            let irradiance = needs_irradiance(camera).then(|| at_pupil(camera, projection, &radiance.mean, cube, depth));
+            let irradiance =
+                needs_irradiance(camera).then(|| at_pupil(camera, projection, &radiance.mean, cube, depth));
             Ok(Light { radiance: Some(radiance), ..irradiance.transpose()?.unwrap_or_default() })
         }
         Route::Lens => {
@@ -103,7 +104,8 @@ fn at_pupil(
 ) -> Result<Light, LightError> {
     if needs_all_bands(camera).is_some() {
         let radiance = radiance.clone().load().map_err(LightError::Scratch)?;
-        let stored = StoredRadianceImage { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
+        let stored =
+            StoredRadianceImage { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
         return Ok(Light::from_stored(&camera.body, &stored, &camera.depth_of_field)?);
     }
     camera.body.check_front_on_picture()?;
@@ -201,7 +203,8 @@ fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
     };
     let exposure_s = sensor.parameters().exposure.exposure_s;
     let products = &camera.products;
-    let of_variance = (products.electrons && products.variance).then(|| scaled_plane(variance, exposure_s * exposure_s));
+    let of_variance =
+        (products.electrons && products.variance).then(|| scaled_plane(variance, exposure_s * exposure_s));
     Light { electrons: Some(scaled_plane(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
 }
 

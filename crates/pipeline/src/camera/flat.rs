@@ -145,7 +145,8 @@ pub fn photon_transfer(
     if p.exposure.exposure_s <= 0.0 {
         return Err(FlatError::NoTime);
     }
-    let max_response = sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
+    let max_response =
+        sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
     if max_response <= 0.0 {
         return Err(FlatError::Blind);
     }

@@ -3,7 +3,7 @@
 use crate::plan::RowExposure;
 use crate::render::film::CubeEstimate;
 use etendue_core::quantity::{Irradiance, MeanElectrons, Quantity, Radiance, Variance};
-use etendue_core::{StoredCube, Plane};
+use etendue_core::{Plane, StoredCube};
 use etendue_optics::OpticsError;
 use etendue_sensor::CaptureLight;
 

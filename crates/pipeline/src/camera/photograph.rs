@@ -4,14 +4,14 @@ use crate::camera::behind_lens::electrons;
 use crate::camera::disk_light;
 use crate::camera::effects::{EffectsOutput, behind, picture};
 pub use crate::camera::light::LightError;
-pub use crate::camera::light::{StoredEstimate, Light};
+pub use crate::camera::light::{Light, StoredEstimate};
 use crate::camera::stored::StoredRadianceImage;
 use crate::plan::{CameraBody, CameraPlan, Development, Route, RowExposure};
 use crate::render::film::{CubeEstimate, Film, FilmCube};
 use crate::render::pupil_depth::PupilDepth;
 use etendue_core::quantity::MeanElectrons;
 use etendue_core::random::FrameAddress;
-use etendue_core::{StoredCube, Plane};
+use etendue_core::{Plane, StoredCube};
 pub use etendue_isp::{DevelopError, DevelopmentResult};
 use etendue_isp::{RawImage, develop};
 use etendue_optics::{DepthOfField, OpticsError};
@@ -23,7 +23,8 @@ impl Light {
     /// # Errors
     /// Depth of field meets a radiance that is not finite (a compiled plan contains its own image), or a scratch file fails.
     pub fn from_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
-        Self::light_from_film(camera, film, depth).map(|light| light.with_row_exposures(&camera.body.exposure, Vec::new()))
+        Self::light_from_film(camera, film, depth)
+            .map(|light| light.with_row_exposures(&camera.body.exposure, Vec::new()))
     }
 
     /// Light of a camera whose captures see different light: films of the distinct captures ([`RowExposure::distinct_captures`]) in order, or a single one
@@ -31,7 +32,11 @@ impl Light {
     ///
     /// # Errors
     /// As [`Light::of_film`].
-    pub fn from_captures(camera: &CameraPlan, films: Vec<Film>, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
+    pub fn from_captures(
+        camera: &CameraPlan,
+        films: Vec<Film>,
+        depth: Option<&PupilDepth>,
+    ) -> Result<Self, LightError> {
         let rows = &camera.body.exposure;
         let mut lights =
             films.into_iter().map(|film| Self::light_from_film(camera, film, depth)).collect::<Result<Vec<_>, _>>()?;
@@ -95,7 +100,8 @@ impl Light {
         stored: &StoredRadianceImage<'_>,
         depth_of_field: &DepthOfField,
     ) -> Result<Self, OpticsError> {
-        Self::from_stored(body, stored, depth_of_field).map(|light| light.with_row_exposures(&body.exposure, Vec::new()))
+        Self::from_stored(body, stored, depth_of_field)
+            .map(|light| light.with_row_exposures(&body.exposure, Vec::new()))
     }
 }
 
@@ -121,7 +127,11 @@ pub struct Frame {
 ///
 /// # Errors
 /// The raw is not of the camera's sensor.
-pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) -> Result<DevelopmentResult, DevelopError> {
+pub fn developed(
+    development: &Development,
+    raw: &Raw,
+    address: FrameAddress,
+) -> Result<DevelopmentResult, DevelopError> {
     let linear = raw.linear();
     let image = RawImage {
         plane: &linear.plane,

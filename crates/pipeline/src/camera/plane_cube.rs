@@ -3,7 +3,7 @@
 use etendue_core::quantity::Quantity;
 use etendue_core::storage::{BandReader, CubeOnDisk};
 use etendue_core::storage::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
-use etendue_core::{Bands, StoredCube, Plane};
+use etendue_core::{Bands, Plane, StoredCube};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -155,7 +155,13 @@ fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Optio
     None
 }
 
-fn difference_in_height(left: &CameraPlan, right: &CameraPlan, at_px: DVec2, point_m: DVec3, right_px: Option<DVec2>) -> String {
+fn difference_in_height(
+    left: &CameraPlan,
+    right: &CameraPlan,
+    at_px: DVec2,
+    point_m: DVec3,
+    right_px: Option<DVec2>,
+) -> String {
     let there = right_px.map_or_else(|| "not imaged".to_owned(), |seen| format!("at y = {:.3} px", seen.y));
     format!(
         "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is at y = {:.3} px in the first, \

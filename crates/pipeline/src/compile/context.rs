@@ -27,7 +27,7 @@ pub(super) struct Context<'a> {
 impl<'a> Context<'a> {
     pub(super) fn new(assets: &'a Assets, epoch: Epoch) -> Self {
         let (errors, notes, overridden_keys) = (Vec::new(), Vec::new(), Vec::new());
-        Self { assets, epoch, errors: faults: errors, notes: remarks: notes, overridden_keys: notices: overridden_keys, coverage: SpectralCoverage::default() }
+        Self { assets, epoch, errors, notes, overridden_keys, coverage: SpectralCoverage::default() }
     }
 
     /// Returns a time since the epoch, s; warns if a number in the file cannot represent it to a nanosecond.
@@ -91,7 +91,8 @@ impl<'a> Context<'a> {
     /// Returns the recorded errors without duplicates: a key of the job is checked for every camera.
     pub(super) fn into_errors(self) -> Vec<DescriptionError> {
         let mut known = BTreeSet::new();
-        let is_new = |error: &DescriptionError| known.insert((error.place.clone(), error.problem.clone(), error.remedy.clone()));
+        let is_new =
+            |error: &DescriptionError| known.insert((error.place.clone(), error.problem.clone(), error.remedy.clone()));
         self.errors.into_iter().filter(is_new).collect()
     }
 

@@ -4,7 +4,7 @@ use super::context::{Context, ErrorCode};
 use etendue_core::track::{Key, RollingError};
 use etendue_core::{ExactTime, Motion, Track};
 use etendue_scene::Place;
-use etendue_scene::record::motion::{MotionKeys, Wheel, Trajectory, TrajectoryAxes};
+use etendue_scene::record::motion::{MotionKeys, Trajectory, TrajectoryAxes, Wheel};
 use glam::DVec3;
 
 /// Motion through `keys`, stated at `place`.
@@ -25,7 +25,11 @@ pub(super) fn trajectory(motion_keys: Option<&MotionKeys>) -> Option<&Trajectory
 }
 
 /// Motion through the rows of a trajectory's file.
-pub(super) fn along_trajectory(trajectory: &Trajectory, motion_keys: Option<&MotionKeys>, context: &mut Context<'_>) -> Option<Motion> {
+pub(super) fn along_trajectory(
+    trajectory: &Trajectory,
+    motion_keys: Option<&MotionKeys>,
+    context: &mut Context<'_>,
+) -> Option<Motion> {
     let file = &trajectory.file;
     let Some(asset) = context.assets.trajectories.get(&file.value) else {
         context.error(ErrorCode::UnreadableFile, &file.place, "the trajectory was not loaded", "give a readable file");

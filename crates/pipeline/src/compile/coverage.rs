@@ -37,14 +37,16 @@ impl SpectralCoverage {
     pub(super) fn note(&self, rendered: WavelengthRange) -> Option<String> {
         let is_short = |range: &WavelengthRange| range.low_nm > rendered.low_nm || range.high_nm < rendered.high_nm;
         let tables: Vec<_> = self.tables.iter().filter(|(_, table)| is_short(&table.range)).collect();
-        let names: Vec<String> = tables.iter().take(MAX_NAMED_TABLES).map(|(file, table)| describe(file, table)).collect();
+        let names: Vec<String> =
+            tables.iter().take(MAX_NAMED_TABLES).map(|(file, table)| describe(file, table)).collect();
         let more = match tables.len().saturating_sub(MAX_NAMED_TABLES) {
             0 => String::new(),
             n => format!("; and {n} more"),
         };
         let WavelengthRange { low_nm, high_nm } = rendered;
-        (!names.is_empty())
-            .then(|| format!("{low_nm} to {high_nm} nm are rendered, but tables cover less: {}{more}", names.join("; ")))
+        (!names.is_empty()).then(|| {
+            format!("{low_nm} to {high_nm} nm are rendered, but tables cover less: {}{more}", names.join("; "))
+        })
     }
 }
 

@@ -61,7 +61,12 @@ pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, c
         && requested.value == description::SpreadBy::Samples
     {
         let problem = "samples are displaced on the sensor, but route = \"pupil\" has no samples there";
-        context.error(ErrorCode::NotModelled, &requested.place, problem, "remove the key, or render with route = \"lens\"");
+        context.error(
+            ErrorCode::NotModelled,
+            &requested.place,
+            problem,
+            "remove the key, or render with route = \"lens\"",
+        );
     }
 }
 
@@ -136,8 +141,10 @@ fn image(
 ) -> Option<SpreadImage> {
     let (width, light) = grey(file, context)?;
     let (pitch_um, wavelength_nm) = (pitch.value, wavelength.map(|nm| nm.value));
-    let image =
-        SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm, deviation: None }, image_raster);
+    let image = SpreadImage::new(
+        SpreadImageParameters { width, light, pitch_um, wavelength_nm, deviation: None },
+        image_raster,
+    );
     let of_pitch = matches!(image, Err(EffectsError::Coarse { .. }));
     context.accept(if of_pitch { &pitch.place } else { &file.place }, image)
 }

@@ -22,7 +22,12 @@ use etendue_spectra::{Extrapolation, dielectric};
 use glam::{DVec2, DVec3};
 
 /// Front of a camera, checked against the camera's field; `None` with the errors recorded.
-pub(super) fn front(record: &record::ExternalOptics, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
+pub(super) fn front(
+    record: &record::ExternalOptics,
+    lens: &Lens,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<Front> {
     let dirt = match &record.dirt {
         Some(record) => Some(self::dirt(record, context)?),
         None => None,

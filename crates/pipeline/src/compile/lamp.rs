@@ -7,7 +7,7 @@ use super::modulation;
 use super::opening::LampWithOpening;
 use super::opening::opening;
 use super::picture::linear;
-use super::spectrum::{scaled_to_luminance, scaled_to_power, relative};
+use super::spectrum::{relative, scaled_to_luminance, scaled_to_power};
 use etendue_core::{Motion, Waveform};
 use etendue_scene::Place;
 use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
@@ -186,7 +186,9 @@ fn intensity(
 ) -> Option<Spectrum> {
     let relative = relative(colour, context)?;
     match strength {
-        LampStrength::LuminousFlux(lm) => scaled_to_luminance(&relative, lm.value / profile.flux_sr(), &lm.place, context),
+        LampStrength::LuminousFlux(lm) => {
+            scaled_to_luminance(&relative, lm.value / profile.flux_sr(), &lm.place, context)
+        }
         LampStrength::Intensity(cd) => scaled_to_luminance(&relative, cd.value, &cd.place, context),
         LampStrength::RadiantFlux(w) => Some(scaled_to_power(&relative, w.value / profile.flux_sr())),
     }

@@ -5,13 +5,13 @@ use super::frames::Frames;
 use super::lamp::CompiledLamps;
 use super::opening::LampWithOpening;
 use super::picture::linear;
-use super::spectrum::{scaled_to_luminance, emitted, scaled_to_power, relative};
+use super::spectrum::{emitted, relative, scaled_to_luminance, scaled_to_power};
 use super::{lamp, sky};
 use crate::plan::SkyFacts;
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{self, Light, Scene, SunLevel};
 use etendue_spectra::Spectrum;
-use etendue_tracer::lights::{MAX_LIGHT_VALUE, Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
+use etendue_tracer::lights::{Environment, ImageEnvironment, MAX_LIGHT_VALUE, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 
 /// Light sources other than emissive surfaces, lamps with openings that are still to be placed in the world, and the plan's facts of a sky.
 pub(super) fn sources(
@@ -96,7 +96,11 @@ fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEn
 }
 
 /// Texels without negative components. If there are any, the record must permit it; they are counted.
-fn without_negative_texels(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mut Context<'_>) -> Vec<[f32; 3]> {
+fn without_negative_texels(
+    mut texels: Vec<[f32; 3]>,
+    record: &EnvironmentImage,
+    context: &mut Context<'_>,
+) -> Vec<[f32; 3]> {
     let negative = texels.iter().filter(|t| t.iter().any(|v| *v < 0.0)).count();
     let file = record.file.value.display();
     match (negative, &record.negative_texels) {

@@ -7,7 +7,7 @@ use etendue_core::{Motion, maths};
 use etendue_scene::record::medium::{self, Extinction, MediumMesh, MediumShape};
 use etendue_scene::record::{Light, Medium as Record, Scene};
 use etendue_spectra::{Extrapolation, Spectrum};
-use etendue_tracer::media::{Medium, Noise, Phase, MediumRegion, Solid, SpectralTable, DensityVariation};
+use etendue_tracer::media::{DensityVariation, Medium, MediumRegion, Noise, Phase, Solid, SpectralTable};
 use glam::DVec3;
 use std::sync::Arc;
 

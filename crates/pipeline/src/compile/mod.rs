@@ -96,7 +96,10 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 ///
 /// # Errors
 /// As [`compile_camera`].
-pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<DescriptionError>> {
+pub fn compile_camera_with_remarks(
+    camera: &Camera,
+    assets: &Assets,
+) -> Result<(CameraBody, Vec<String>), Vec<DescriptionError>> {
     let mut context = Context::new(assets, Epoch::default());
     let body = camera::body(camera, &mut context);
     let notes = grouped(&context.notes).iter().map(ToString::to_string).collect();
@@ -161,8 +164,8 @@ fn compile_plan(description: &Description, choices: &Choices, context: &mut Cont
         identities,
         materials,
         classes,
-        notes: remarks: notes,
-        overridden_keys: notices: overridden_keys,
+        notes,
+        overridden_keys,
         film_limit: None,
         hash,
         described,

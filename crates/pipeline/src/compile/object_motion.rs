@@ -1,7 +1,7 @@
 //! Poses of objects over time: from records to motions.
 
 use super::context::Context;
-use super::course::{along_trajectory, with_wheel, through_keys, trajectory};
+use super::course::{along_trajectory, through_keys, trajectory, with_wheel};
 use super::frames::Frames;
 use etendue_core::Motion;
 use etendue_core::track::Key;

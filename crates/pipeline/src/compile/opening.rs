@@ -51,7 +51,11 @@ pub(super) fn opening(
 
 /// Opening stated by a photometric file. Length, width and height are along the photometric horizontal, across it and along the photometric zero (LM-63-2002,
 /// section 3): x, y and z of types A and C, z, y and x of type B.
-fn from_photometry(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) -> Option<(OpeningBody, [f64; 3])> {
+fn from_photometry(
+    asset: &PhotometryAsset,
+    place: &Place,
+    context: &mut Context<'_>,
+) -> Option<(OpeningBody, [f64; 3])> {
     let opening_record = &asset.opening;
     let (length, height) = match asset.axes {
         PhotometryAxes::A | PhotometryAxes::C => (0, 2),
@@ -74,7 +78,8 @@ fn from_photometry(asset: &PhotometryAsset, place: &Place, context: &mut Context
         OpeningShape::Ball => OpeningBody::Ellipsoid,
     };
     let mut extents_m = [0.0; 3];
-    (extents_m[length], extents_m[1], extents_m[height]) = (opening_record.length_m, opening_record.width_m, opening_record.height_m);
+    (extents_m[length], extents_m[1], extents_m[height]) =
+        (opening_record.length_m, opening_record.width_m, opening_record.height_m);
     Some((body, extents_m))
 }
 

@@ -33,7 +33,8 @@ pub(super) fn table(
     image_raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<SpreadTable> {
-    let listed: Vec<Option<PointSpreadFile<'_>>> = files.iter().map(|file| read_file(file, lens, image_raster, context)).collect();
+    let listed: Vec<Option<PointSpreadFile<'_>>> =
+        files.iter().map(|file| read_file(file, lens, image_raster, context)).collect();
     let listed = listed.into_iter().collect::<Option<Vec<_>>>()?;
     let wavelengths = wavelengths(&listed, context)?;
     let table = SpreadTable::new(SpreadTableParameters { wavelengths, patches }, image_raster);
@@ -89,7 +90,11 @@ fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
         (None, FieldPoint::Degrees(degrees)) => {
             let towards = direction_from_angles(degrees)?;
             let radius_mm = lens.project(towards)?.length();
-            Some(stated_position([towards.x, towards.y]).try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
+            Some(
+                stated_position([towards.x, towards.y])
+                    .try_normalize()
+                    .map_or(DVec2::ZERO, |outwards| outwards * radius_mm),
+            )
         }
     }
 }
@@ -111,7 +116,9 @@ fn wavelengths(listed: &[PointSpreadFile<'_>], context: &mut Context<'_>) -> Opt
     let is_broad = |one: &PointSpreadFile<'_>| one.asset.wavelengths_nm[0] != one.asset.wavelengths_nm[1];
     let other = |one: &&PointSpreadFile<'_>| one.asset.wavelengths_nm != first.asset.wavelengths_nm;
     if let Some(other) = listed.iter().find(other).filter(|_| listed.iter().any(is_broad)) {
-        let nm = |one: &PointSpreadFile<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
+        let nm = |one: &PointSpreadFile<'_>| {
+            format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1])
+        };
         let problem = format!("{} is for {}, but {} for {}", name(other), nm(other), name(first), nm(first));
         context.error(
             ErrorCode::UnsuitableFile,
@@ -126,7 +133,8 @@ fn wavelengths(listed: &[PointSpreadFile<'_>], context: &mut Context<'_>) -> Opt
     nm.dedup();
     let broad = is_broad(first);
     let of = |nm: &f64| {
-        let mut fields: Vec<&PointSpreadFile<'_>> = listed.iter().filter(|one| one.asset.wavelengths_nm[0] == *nm).collect();
+        let mut fields: Vec<&PointSpreadFile<'_>> =
+            listed.iter().filter(|one| one.asset.wavelengths_nm[0] == *nm).collect();
         fields.sort_by(|a, b| a.spread.place_mm.length().total_cmp(&b.spread.place_mm.length()));
         (*nm, fields)
     };
@@ -160,8 +168,14 @@ fn check_twice(grid: &[(f64, Vec<&PointSpreadFile<'_>>)], context: &mut Context<
 }
 
 /// Checks that every wavelength has all fields.
-fn check_complete(listed: &[PointSpreadFile<'_>], grid: &[(f64, Vec<&PointSpreadFile<'_>>)], context: &mut Context<'_>) -> Option<()> {
-    let has = |fields: &[&PointSpreadFile<'_>], field_point: FieldPoint| fields.iter().any(|one| one.asset.field == field_point);
+fn check_complete(
+    listed: &[PointSpreadFile<'_>],
+    grid: &[(f64, Vec<&PointSpreadFile<'_>>)],
+    context: &mut Context<'_>,
+) -> Option<()> {
+    let has = |fields: &[&PointSpreadFile<'_>], field_point: FieldPoint| {
+        fields.iter().any(|one| one.asset.field == field_point)
+    };
     for one in listed {
         if let Some((nm, _)) = grid.iter().find(|(_, fields)| !has(fields, one.asset.field)) {
             let problem = format!("no file is for {nm} nm at the field {} of {}", field(one.asset.field), name(one));

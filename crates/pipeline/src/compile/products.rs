@@ -41,7 +41,14 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         };
         let problem = "\"depth_png_scale\" has no effect without depth_png = true";
         let cause = output.depth_png.as_ref().map(|key| &key.place);
-        context.error_without_effect(ErrorCode::NoEffect, "depth_png_scale", place, cause, problem, "add it, or remove the scale");
+        context.error_without_effect(
+            ErrorCode::NoEffect,
+            "depth_png_scale",
+            place,
+            cause,
+            problem,
+            "add it, or remove the scale",
+        );
     }
     let products = Products {
         radiance: flag(&output.radiance, !electronics),
@@ -134,7 +141,14 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
         let cause = output.raw.as_ref().map(|raw| &raw.place);
         let problem = "\"raw_format\" has no effect without raw";
-        context.error_without_effect(ErrorCode::NoEffect, "raw_format", &key.place, cause, problem, "request \"raw\", or remove it");
+        context.error_without_effect(
+            ErrorCode::NoEffect,
+            "raw_format",
+            &key.place,
+            cause,
+            problem,
+            "request \"raw\", or remove it",
+        );
     }
     let format = key.value;
     if format == RawFormat::Png && usual != RawFormat::Png {
@@ -165,7 +179,14 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     format
 }
 
-fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, absent_reason: &str, remedy: &str, context: &mut Context<'_>) {
+fn need(
+    key: &Option<Placed<bool>>,
+    possible: bool,
+    name: &str,
+    absent_reason: &str,
+    remedy: &str,
+    context: &mut Context<'_>,
+) {
     if let Some(key) = key
         && key.value
         && !possible

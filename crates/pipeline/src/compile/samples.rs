@@ -62,7 +62,12 @@ fn timed(render: &Render, context: &mut Context<'_>) -> SampleSettings {
         context.overridden(format!("`time_s` supersedes {}", key_with_place(key, place)));
     }
     let replicates = render.samples.replicates.as_ref().map_or(REPLICATES, |setting| setting.value) as u32;
-    SampleSettings { spp: replicates, replicates, adaptive: None, passes: Some(Passes::new(vec![Pass::all_pixels(replicates)])) }
+    SampleSettings {
+        spp: replicates,
+        replicates,
+        adaptive: None,
+        passes: Some(Passes::new(vec![Pass::all_pixels(replicates)])),
+    }
 }
 
 /// For stated passes.
@@ -146,10 +151,19 @@ fn adaptive_replicates(threshold: &Placed<f64>, render: &Render, context: &mut C
     if replicates_key.value >= MIN_ADAPTIVE_REPLICATES {
         return replicates_key.value;
     }
-    let problem =
-        format!("\"noise_threshold\" requires replicates that determine each other's samples; found {}", replicates_key.value);
+    let problem = format!(
+        "\"noise_threshold\" requires replicates that determine each other's samples; found {}",
+        replicates_key.value
+    );
     let remedy = format!("give {MIN_ADAPTIVE_REPLICATES} or more, or remove the key for {DEFAULT_ADAPTIVE_REPLICATES}");
-    context.error_without_effect(ErrorCode::OutOfRange, "replicates", &replicates_key.place, Some(&threshold.place), problem, &remedy);
+    context.error_without_effect(
+        ErrorCode::OutOfRange,
+        "replicates",
+        &replicates_key.place,
+        Some(&threshold.place),
+        problem,
+        &remedy,
+    );
     DEFAULT_ADAPTIVE_REPLICATES
 }
 
@@ -169,7 +183,14 @@ fn uniform_samples(render: &Render, choices: &Choices, context: &mut Context<'_>
             context.overridden(format!("`quality` supersedes {}", key_with_place("replicates", &replicates.place)));
         } else {
             let cause = render.samples.spp.as_ref().map(|spp| &spp.place);
-            context.error_without_effect(ErrorCode::NotAMultiple, "replicates", &replicates.place, cause, problem, remedy);
+            context.error_without_effect(
+                ErrorCode::NotAMultiple,
+                "replicates",
+                &replicates.place,
+                cause,
+                problem,
+                remedy,
+            );
         }
     }
     let max_replicates = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);

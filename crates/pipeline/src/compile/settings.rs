@@ -146,7 +146,13 @@ fn check_size(body: &CameraBody, route: &Route, layout: &FilmLayout, context: &m
 }
 
 /// Notes requests that cannot be fulfilled, and data that is computed but not stored.
-fn note_losses(products: &Products, route: &Route, accumulates_electrons: bool, body: &CameraBody, context: &mut Context<'_>) {
+fn note_losses(
+    products: &Products,
+    route: &Route,
+    accumulates_electrons: bool,
+    body: &CameraBody,
+    context: &mut Context<'_>,
+) {
     if products.variance && products.electrons && !accumulates_electrons {
         let remedy =
             if body.effects.is_idle() { "accumulate = \"auto\" with route = \"lens\"" } else { "the irradiance" };

@@ -105,7 +105,13 @@ impl<'a> LightKey<'a> {
             |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
         let storage = |s: &Settings| (s.bands, s.accumulates_electrons, s.range);
         let (a, b) = (&self.settings, &other.settings);
-        let same_storage = Settings { adaptive: b.adaptive, bands: b.bands, accumulates_electrons: b.accumulates_electrons, range: b.range, ..*a };
+        let same_storage = Settings {
+            adaptive: b.adaptive,
+            bands: b.bands,
+            accumulates_electrons: b.accumulates_electrons,
+            range: b.range,
+            ..*a
+        };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
             (self.timing != other.timing, "the exposure times"),
@@ -116,7 +122,10 @@ impl<'a> LightKey<'a> {
             ),
             (self.tolerance != other.tolerance, "the noise that determines the samples"),
             (same_storage != *b, "the simulated light paths"),
-            (self.response != other.response && a.accumulates_electrons && b.accumulates_electrons, "the spectral response of the pixels"),
+            (
+                self.response != other.response && a.accumulates_electrons && b.accumulates_electrons,
+                "the spectral response of the pixels",
+            ),
         ];
         Some(unlike.iter().filter(|(unlike, _)| *unlike).map(|(_, name)| *name).collect())
     }

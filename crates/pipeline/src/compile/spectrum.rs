@@ -74,7 +74,12 @@ pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<
 }
 
 /// A relative spectrum scaled to a luminance (cd/m²) or an illuminance (lx).
-pub(super) fn scaled_to_luminance(relative: &Spectrum, level: f64, place: &Place, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(super) fn scaled_to_luminance(
+    relative: &Spectrum,
+    level: f64,
+    place: &Place,
+    context: &mut Context<'_>,
+) -> Option<Spectrum> {
     let scaled = observer::with_luminance(relative, level);
     if scaled.is_none() {
         let problem = "the spectrum of this light has no visible part, so it cannot be scaled to a luminance";

@@ -229,7 +229,10 @@ fn effects_keep_a_spectrum_and_a_margin() {
 fn effects_that_cannot_be_are_refused_where_they_stand() {
     let error = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
     let message = error(GLARE, "accumulate = \"electrons\"");
-    assert!(message.starts_with("job.toml:22:14: render.accumulate") && message.contains("[effects] require one"), "{message}");
+    assert!(
+        message.starts_with("job.toml:22:14: render.accumulate") && message.contains("[effects] require one"),
+        "{message}"
+    );
     let message = error("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
     assert!(message.contains("effects.glare") && message.contains("no finite integral"), "{message}");
     let message = error("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
@@ -261,10 +264,15 @@ fn a_point_spread_function_from_a_picture() {
     assert_eq!(image.parameters().light, [0.0, 0.2, 0.0, 0.2, 1.0, 0.2]);
     assert!(camera.settings.bands.is_some() && camera.film_size() == (82, 62), "{:?}", camera.film_size());
     let message = of("20", &Assets::default()).expect_err("no file");
-    assert!(message.starts_with("job.toml:7:") && message.contains("effects.psf.image: the image k.png was not"), "{message}");
+    assert!(
+        message.starts_with("job.toml:7:") && message.contains("effects.psf.image: the image k.png was not"),
+        "{message}"
+    );
     let message = of("20", &pixels(ImagePixels::Gray16(vec![0; 6]))).expect_err("dark");
     assert!(
-        message.starts_with("job.toml:7:") && message.contains("effects.psf.image: ") && message.contains("0 everywhere"),
+        message.starts_with("job.toml:7:")
+            && message.contains("effects.psf.image: ")
+            && message.contains("0 everywhere"),
         "{message}"
     );
     let message = of("20", &pixels(ImagePixels::Rgb32F(vec![[0.5, -2.0, 0.5]; 3]))).expect_err("negative");
@@ -292,7 +300,10 @@ fn ghosts_are_of_a_lens_of_surfaces() {
     let message = error(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
     assert!(message.contains("output.ghosts") && message.contains("models none"), "{message}");
     let message = error(DOUBLE_GAUSS, &format!("{GLARE}, sensor_reflectance = 0.1"), "");
-    assert!(message.contains("effects.sensor_reflectance") && message.contains("no effect without ghosts"), "{message}");
+    assert!(
+        message.contains("effects.sensor_reflectance") && message.contains("no effect without ghosts"),
+        "{message}"
+    );
 }
 
 #[test]

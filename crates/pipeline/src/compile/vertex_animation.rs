@@ -20,7 +20,8 @@ pub(super) fn mesh(
     context: &mut Context<'_>,
 ) -> Option<Result<(Mesh, DroppedTriangles), MeshError>> {
     let files: Vec<PathBuf> = record.frame_files().into_iter().map(|file| file.value).collect();
-    let mesh_frames: Vec<&MeshFrameAsset> = files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
+    let mesh_frames: Vec<&MeshFrameAsset> =
+        files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
     if mesh_frames.len() < files.len() {
         context.error(
             ErrorCode::UnreadableFile,

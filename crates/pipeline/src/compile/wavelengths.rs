@@ -45,15 +45,18 @@ pub(super) fn choose(
         let density =
             PixelDensity { sampling: settings.wavelength_sampling, sources, range: settings.range, keeps_bands };
         let gain = spectral_gain(sensor, density, settings.wavelengths);
-        camera.settings.wavelength_sampling = match requested.map_or(render::WavelengthDensity::Auto, |requested| requested.value) {
-            render::WavelengthDensity::Uniform => WavelengthSampling::Uniform,
-            render::WavelengthDensity::Response => WavelengthSampling::Response,
-            render::WavelengthDensity::ResponseAndSource => WavelengthSampling::ResponseAndSource,
-            render::WavelengthDensity::Auto if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::should_apply) => {
-                WavelengthSampling::ResponseAndSource
-            }
-            render::WavelengthDensity::Auto => WavelengthSampling::Response,
-        };
+        camera.settings.wavelength_sampling =
+            match requested.map_or(render::WavelengthDensity::Auto, |requested| requested.value) {
+                render::WavelengthDensity::Uniform => WavelengthSampling::Uniform,
+                render::WavelengthDensity::Response => WavelengthSampling::Response,
+                render::WavelengthDensity::ResponseAndSource => WavelengthSampling::ResponseAndSource,
+                render::WavelengthDensity::Auto
+                    if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::should_apply) =>
+                {
+                    WavelengthSampling::ResponseAndSource
+                }
+                render::WavelengthDensity::Auto => WavelengthSampling::Response,
+            };
         camera.settings.spectral_gain = gain;
     }
 }
@@ -71,7 +74,8 @@ fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: 
         let without = WavelengthSamples::new(&density(WavelengthSampling::Response), wavelengths as usize);
         let responses = sources.responses(responsivity, range);
         sites += if responses.is_empty() { 0.0 } else { places };
-        for (group, surface) in responses.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface))) {
+        for (group, surface) in responses.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface)))
+        {
             let light = group.product.product(surface);
             let gain = without.mean_square(&light) / with.mean_square(&light);
             if !gain.is_finite() {

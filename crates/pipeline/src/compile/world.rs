@@ -52,7 +52,8 @@ pub(super) fn world(
 
 /// Highest requested quality: all cameras share one world.
 fn tree_quality(cameras: &[CameraSetup]) -> Accelerator {
-    let accelerator = |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
+    let accelerator =
+        |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
     cameras.iter().map(accelerator).max().unwrap_or_default()
 }
 
@@ -147,7 +148,8 @@ impl Assembly {
         material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
-        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.has_stated_flux(*id)).collect();
+        let shared: Vec<_> =
+            instance.materials.iter().copied().filter(|id| material_table.has_stated_flux(*id)).collect();
         for id in shared {
             match self.builder.area_m2(instance, id) {
                 // None of its surfaces has the material, or another slot with the same material was processed.

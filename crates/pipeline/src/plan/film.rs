@@ -30,7 +30,9 @@ pub(crate) fn needs_all_bands(camera: &CameraPlan) -> Option<&'static str> {
 /// Returns true if a product depends on the irradiance.
 pub(crate) fn needs_irradiance(camera: &CameraPlan) -> bool {
     let products = &camera.products;
-    products.irradiance || products.ghosts || (!camera.settings.accumulates_electrons && needs_electrons(&camera.body, products))
+    products.irradiance
+        || products.ghosts
+        || (!camera.settings.accumulates_electrons && needs_electrons(&camera.body, products))
 }
 
 /// Returns true if a product depends on electrons.

@@ -30,17 +30,17 @@ pub use camera::{CameraPlan, LightOwner, Mount};
 pub use camera_body::CameraBody;
 pub use film::FilmMemoryLimit;
 pub(crate) use passes::{CameraPasses, hash_with_passes};
-pub use passes::{MAX_PASSES, PARTS, Pass, NumberedPass, Passes};
+pub use passes::{MAX_PASSES, NumberedPass, PARTS, Pass, Passes};
 pub use products::{
     Annotations, CorrespondenceFormat, Development, DisparityProduct, ListedProduct, PictureFormat, Products,
-    raw_extension, default_raw_format,
+    default_raw_format, raw_extension,
 };
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
 pub use settings::{Route, Settings};
 pub use source_spectra::SourceSpectra;
 pub use timing::{Jitter, TimeDependence, Timing};
 pub use wavelength_sampling::{SpectralGain, WavelengthSampling};
-pub use weather::{Airlight, PrecipitationExposure, Precipitation, Weather};
+pub use weather::{Airlight, Precipitation, PrecipitationExposure, Weather};
 
 /// Data of a render, for all cameras of a job.
 #[derive(Clone, Debug)]

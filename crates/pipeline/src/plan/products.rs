@@ -143,7 +143,8 @@ impl Products {
             flag("output.tracks", "tracks", annotations.tracks, "tracks").as_modifier(),
             flag("output.cryptomatte", "Cryptomatte", annotations.cryptomatte, "Cryptomatte"),
             flag("output.weather", "layers of weather", self.weather, "transmittance, airlight and cover"),
-            flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files").as_modifier(),
+            flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files")
+                .as_modifier(),
         ]
     }
 

@@ -28,7 +28,7 @@ pub enum RectifiedCameraError {
     /// A field too wide for a plane.
     #[error(
         "the camera sees up to {angle_deg:.1}° from its axis, but a rectilinear image ends before 90°; an undistorted \
-         twin requires less than {WIDEST_DEG}°; remove the key, or narrow the field (greatest_angle_deg, a crop)"
+         twin requires less than {MAX_FIELD_DEG}°; remove the key, or narrow the field (greatest_angle_deg, a crop)"
     )]
     Field {
         /// Largest angle in the field, degrees.

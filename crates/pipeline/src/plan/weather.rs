@@ -2,7 +2,7 @@
 
 use etendue_spectra::Spectrum;
 use etendue_tracer::media::Medium;
-use etendue_tracer::precipitation::{PrecipitationField, CameraResolution};
+use etendue_tracer::precipitation::{CameraResolution, PrecipitationField};
 
 /// Rain or snow.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,13 @@ impl Precipitation {
     #[must_use]
     pub fn resolution(&self, pixel_rad: f64, exposure_s: f64) -> CameraResolution {
         let Self { smallest_px, clear_m, .. } = *self;
-        CameraResolution { pixel_rad, min_size_px: smallest_px, clear_m, max_particles: self.max_drops as f64, exposure_s }
+        CameraResolution {
+            pixel_rad,
+            min_size_px: smallest_px,
+            clear_m,
+            max_particles: self.max_drops as f64,
+            exposure_s,
+        }
     }
 }
 

@@ -10,7 +10,7 @@
 //! T follows are averages of the pixel's own and of those of all pixels of its colour in its cell, because few replicates estimate them poorly. Errors of
 //! stratified samples decrease faster than 1/n; the limit is then met with a margin.
 
-use crate::render::gather::{ReplicateMoments, PixelLight, ReplicateSums};
+use crate::render::gather::{PixelLight, ReplicateMoments, ReplicateSums};
 use crate::render::light::{BlockSample, RenderJob};
 use crate::render::mosaic::Mosaic;
 use crate::sizes::film::FilmLayout;
@@ -94,11 +94,14 @@ impl RenderJob<'_> {
         let mut block_sample = BlockSample::default();
         let replicates = self.sampling.replicates as usize;
         let pilot = tolerance.min_spp() / self.sampling.replicates;
-        let empty =
-            |block: Vec<Pixel>| BlockSums { replicates: vec![vec![ReplicateSums::new(layout); block.len()]; replicates], block };
+        let empty = |block: Vec<Pixel>| BlockSums {
+            replicates: vec![vec![ReplicateSums::new(layout); block.len()]; replicates],
+            block,
+        };
         let mut cell: Vec<BlockSums> = self.blocks.in_tile(cell).map(empty).collect();
         cell.iter_mut().for_each(|sampled| self.add(field, sampled, 0, &vec![pilot; replicates], &mut block_sample));
-        let needs: Vec<Vec<u32>> = (0..replicates).map(|replicate| self.required_samples(&cell, replicate, tolerance)).collect();
+        let needs: Vec<Vec<u32>> =
+            (0..replicates).map(|replicate| self.required_samples(&cell, replicate, tolerance)).collect();
         let go_on = |(i, mut sampled): (usize, BlockSums)| {
             let samples: Vec<u32> = needs.iter().map(|of_replicate| of_replicate[i]).collect();
             self.add(field, &mut sampled, pilot, &samples, &mut block_sample);
@@ -193,7 +196,8 @@ mod tests {
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: factor, min_spp: 16 }, None);
         let layout = FilmLayout { bands: None, accumulates_electrons: false, watched: true };
         let spread = SpectrumSpread::Drawn;
-        let sampling = Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(NumberedPass::only(4096), 8) };
+        let sampling =
+            Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(NumberedPass::only(4096), 8) };
         let job = still_job(&ColumnRays, [64, ROWS as u32], layout, sampling);
         let job = RenderJob { tolerance: Some(tolerance), tile_px, ..job };
         job.gather::<1>(field, None, &Unobserved).expect("not cancelled")

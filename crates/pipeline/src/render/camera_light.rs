@@ -4,7 +4,7 @@ use crate::plan::pixel_density::PixelDensity;
 use crate::plan::{CameraBody, CameraPlan, NumberedPass, Plan, Precipitation, Route, Settings};
 use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::film::Film;
-use crate::render::light::{RenderError, RaySource, RenderJob, Sampling};
+use crate::render::light::{RaySource, RenderError, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
 use crate::render::near_precipitation::{near, visible_region};
 use crate::render::observer::Observer;
@@ -48,7 +48,12 @@ pub enum FilmStorage {
 
 impl Default for LightRequest {
     fn default() -> Self {
-        Self { frame_capture: FrameCapture::default(), shard: Shard::WHOLE, simd: Simd::Auto, keeping: FilmStorage::Planned }
+        Self {
+            frame_capture: FrameCapture::default(),
+            shard: Shard::WHOLE,
+            simd: Simd::Auto,
+            keeping: FilmStorage::Planned,
+        }
     }
 }
 
@@ -57,7 +62,12 @@ impl Default for LightRequest {
 ///
 /// # Errors
 /// The observer cancels, or bands cannot be stored on disk.
-pub fn light(plan: &Plan, camera: &CameraPlan, request: LightRequest, observer: &dyn Observer) -> Result<Film, RenderError> {
+pub fn light(
+    plan: &Plan,
+    camera: &CameraPlan,
+    request: LightRequest,
+    observer: &dyn Observer,
+) -> Result<Film, RenderError> {
     let mut film = pass(plan, camera, request, camera.pass(0), None, observer)?;
     for number in 1..camera.pass_count() {
         film = pass(plan, camera, request, camera.pass(number), Some(&film), observer)?;

@@ -1,10 +1,10 @@
 //! Films with bands in scratch files, compared with films in memory.
 
 use super::film::Film;
-use super::light::{RenderError, RaySource, RenderJob};
+use super::light::{RaySource, RenderError, RenderJob};
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
-use crate::plan::{Pass, NumberedPass, Passes};
+use crate::plan::{NumberedPass, Pass, Passes};
 use crate::sizes::film::FilmLayout;
 use crate::sizes::tile::Shard;
 use etendue_core::random::Draw;
@@ -83,7 +83,8 @@ fn gather_film(
     shard: Shard,
     before: Option<&Film>,
 ) -> Result<Film, RenderError> {
-    let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
+    let layout =
+        FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
     let store: Option<Arc<dyn ScratchStore>> = store.map(|store| -> Arc<dyn ScratchStore> { Arc::new(store) });
     let job = still_job(&ForwardRays, SIZE, layout, sampling(pass, replicates));
     RenderJob { shard, scratch: store.as_ref(), ..job }.gather::<4>(&NoisyField, before, &Unobserved)
@@ -140,6 +141,7 @@ fn a_pass_leaves_the_film_before_as_it_is_and_joins_one_in_memory() {
 
 #[test]
 fn a_disk_that_is_full_ends_the_rendering() {
-    let failed = gather_film(Some(TestStore::Full), (NumberedPass::only(4), 1), Shard::WHOLE, None).expect_err("no room");
+    let failed =
+        gather_film(Some(TestStore::Full), (NumberedPass::only(4), 1), Shard::WHOLE, None).expect_err("no room");
     assert_eq!(failed, RenderError::Scratch("no room".to_owned()));
 }

@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{cos, exp, sin};
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, WavelengthRange, Wavelengths};
 use etendue_optics::effects::{
-    PointSpread, Psf, PsfParameters, SampleSpread, SpreadMethod, SpreadImage, SpreadImageParameters,
+    PointSpread, Psf, PsfParameters, SampleSpread, SpreadImage, SpreadImageParameters, SpreadMethod,
 };
 use etendue_optics::{Effects, EffectsParameters, Lens, ThinParameters};
 use etendue_projection::Raster;
@@ -39,7 +39,8 @@ impl RadianceField<4> for BarField {
 
 /// Four bands, one for each of the four wavelengths of a sample.
 fn film(field: &BarField, spread: Option<&SampleSpread>, spp: u32) -> Film {
-    let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 75.0), accumulates_electrons: false, watched: false };
+    let layout =
+        FilmLayout { bands: Bands::covering(400.0, 700.0, 75.0), accumulates_electrons: false, watched: false };
     let job = still_job(&PositionRays, [SIDE, SIDE], layout, sampling(NumberedPass::only(spp), 4));
     RenderJob { sample_spread: spread, ..job }.gather::<4>(field, None, &Unobserved).expect("not cancelled")
 }

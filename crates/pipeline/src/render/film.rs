@@ -230,7 +230,8 @@ impl Film {
         }
         means.push(f64::from(self.weight.at(x, y)));
         variances.push(0.0);
-        let accumulates_electrons = self.electron_rate.as_ref().map(|rate| (rate.mean.at(x, y), rate.variance.at(x, y)));
+        let accumulates_electrons =
+            self.electron_rate.as_ref().map(|rate| (rate.mean.at(x, y), rate.variance.at(x, y)));
         let watched = self.watched.as_ref().map(|light| (light.mean.at(x, y), light.variance.at(x, y)));
         if let Some((mean, variance)) = accumulates_electrons.or(watched) {
             means.push(f64::from(mean));

@@ -128,7 +128,13 @@ pub struct PixelLight {
 
 impl PixelLight {
     /// Light from means and variances of [`Layout::slots`] values.
-    pub(super) fn new(layout: &FilmLayout, means: Vec<f64>, variances: Vec<f64>, samples: u32, not_finite: u32) -> Self {
+    pub(super) fn new(
+        layout: &FilmLayout,
+        means: Vec<f64>,
+        variances: Vec<f64>,
+        samples: u32,
+        not_finite: u32,
+    ) -> Self {
         Self { layout: *layout, means, variances, samples, not_finite }
     }
 

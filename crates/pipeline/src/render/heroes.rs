@@ -40,7 +40,10 @@ impl WavelengthNumbers {
             SpectrumSpread::EachReplicate => NumberSequence::Lattice(ShiftedLattice::new(address, samples), 0),
             SpectrumSpread::AllReplicates => {
                 let all = PixelAddress { replicate: first, ..*address };
-                NumberSequence::Lattice(ShiftedLattice::new(&all, samples * replicates), (address.replicate - first) * samples)
+                NumberSequence::Lattice(
+                    ShiftedLattice::new(&all, samples * replicates),
+                    (address.replicate - first) * samples,
+                )
             }
             SpectrumSpread::Open => NumberSequence::Golden(GoldenSequence::new(address)),
         };

@@ -47,7 +47,11 @@ pub struct IdentityCoverage {
 #[must_use]
 pub fn identity_coverage(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> IdentityCoverage {
     let frame_capture = FrameCapture { frame, capture: 0 };
-    with_lens(camera, frame_capture, CoverageJob { plan, camera, request: LightRequest { frame_capture: shot: frame_capture, simd, ..LightRequest::default() } })
+    with_lens(
+        camera,
+        frame_capture,
+        CoverageJob { plan, camera, request: LightRequest { frame_capture, simd, ..LightRequest::default() } },
+    )
 }
 
 /// Samples per pixel.
@@ -58,8 +62,9 @@ pub(crate) fn spp(camera: &CameraPlan) -> u32 {
 
 /// Maximum memory per pixel while its coverage is computed and written, bytes: the header and four entries of two lists, the same again for writing, and the 24
 /// numbers in the file.
-pub(crate) const BYTES_OF_PIXEL: f64 =
-    (4 * (size_of::<Vec<IdentityFraction>>() + 4 * size_of::<IdentityFraction>() + 2 * size_of::<usize>()) + 24 * size_of::<f32>()) as f64;
+pub(crate) const BYTES_OF_PIXEL: f64 = (4
+    * (size_of::<Vec<IdentityFraction>>() + 4 * size_of::<IdentityFraction>() + 2 * size_of::<usize>())
+    + 24 * size_of::<f32>()) as f64;
 
 struct CoverageJob<'a> {
     plan: &'a Plan,
@@ -134,7 +139,8 @@ impl Tally {
     fn into_fractions(self) -> Vec<IdentityFraction> {
         let total: f64 = self.0.iter().map(|(_, weight)| weight).sum();
         let identities = self.0.into_iter().filter(|(id, weight)| *id > 0 && *weight > 0.0);
-        let mut fractions: Vec<_> = identities.map(|(id, weight)| IdentityFraction { id, coverage: (weight / total) as f32 }).collect();
+        let mut fractions: Vec<_> =
+            identities.map(|(id, weight)| IdentityFraction { id, coverage: (weight / total) as f32 }).collect();
         fractions.sort_by(|a, b| b.coverage.total_cmp(&a.coverage).then(a.id.cmp(&b.id)));
         fractions
     }

@@ -3,8 +3,8 @@
 use crate::plan::NumberedPass;
 use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::film::Film;
-use crate::render::gather::{ReplicateMoments, PixelLight, ReplicateSums};
-use crate::render::heroes::{WavelengthNumbers, ReplicateNumbers};
+use crate::render::gather::{PixelLight, ReplicateMoments, ReplicateSums};
+use crate::render::heroes::{ReplicateNumbers, WavelengthNumbers};
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::tile_bands::TileBands;
@@ -239,9 +239,14 @@ impl RenderJob<'_> {
         let samples = self.sampling.spp() / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
             self.add_replicate(field, block, replicate, 0..samples, &mut block_sample, &mut pixel_sums);
-            gathers.iter_mut().zip(&mut pixel_sums).for_each(|(gather, pixel_sums)| gather.end_replicate(pixel_sums, samples));
+            gathers
+                .iter_mut()
+                .zip(&mut pixel_sums)
+                .for_each(|(gather, pixel_sums)| gather.end_replicate(pixel_sums, samples));
         }
-        let of = |(gather, pixel_sums): (ReplicateMoments, &ReplicateSums)| gather.light(&layout, self.sampling.spp(), pixel_sums.not_finite());
+        let of = |(gather, pixel_sums): (ReplicateMoments, &ReplicateSums)| {
+            gather.light(&layout, self.sampling.spp(), pixel_sums.not_finite())
+        };
         block.iter().copied().zip(gathers.into_iter().zip(&pixel_sums).map(of)).collect()
     }
 
@@ -272,7 +277,13 @@ impl RenderJob<'_> {
     fn wavelength_numbers(&self, pixel: Pixel, replicate: u32) -> WavelengthNumbers {
         let Sampling { replicates, spread, .. } = self.sampling;
         let samples = self.sampling.spp() / replicates;
-        WavelengthNumbers::new(spread, &self.address(pixel, replicate), samples, self.sampling.first_replicate(), replicates)
+        WavelengthNumbers::new(
+            spread,
+            &self.address(pixel, replicate),
+            samples,
+            self.sampling.first_replicate(),
+            replicates,
+        )
     }
 
     /// Adds one sample of each pixel of a block.
@@ -296,12 +307,14 @@ impl RenderJob<'_> {
             if let Some(pupil_ray) = self.pupil_ray(*pixel, displaced_px, &stream, wavelengths.nm[0]) {
                 block_sample.pixels.push(LitPixel { index, weight_sr: pupil_ray.weight_sr, spread });
                 let moment_s = self.exposure.sample_time_s(pixel.y, time_u);
-                let (ray, light_interval) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.light_interval(pixel.y, moment_s));
+                let (ray, light_interval) =
+                    (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.light_interval(pixel.y, moment_s));
                 block_sample.rays.push(FieldRay { ray, stream, light_interval });
             }
         }
         field.radiance_of_group(&block_sample.rays, &wavelengths, &mut block_sample.radiance);
-        for (LitPixel { index, weight_sr, spread }, radiance) in block_sample.pixels.iter().zip(&block_sample.radiance) {
+        for (LitPixel { index, weight_sr, spread }, radiance) in block_sample.pixels.iter().zip(&block_sample.radiance)
+        {
             let radiance = spread.map_or(*radiance, |spread| *radiance * spread);
             pixel_sums[*index].add(*weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
         }
@@ -362,7 +375,8 @@ mod tests {
     }
 
     fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static> {
-        let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
+        let layout =
+            FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
         RenderJob { tile_px, shard, ..still_job(&LeftHalfRays, [9, 5], layout, sampling(NumberedPass::only(64), 2)) }
     }
 

@@ -7,7 +7,7 @@ use etendue_core::TimeInterval;
 use etendue_optics::PupilProjection;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::media::Media;
-use etendue_tracer::precipitation::{ChangeOver, NearParticles, VisibleRegion, ViewPlacement};
+use etendue_tracer::precipitation::{ChangeOver, NearParticles, ViewPlacement, VisibleRegion};
 use glam::{DMat3, DVec2};
 
 /// Points along a side of the film whose rays bound the view.
@@ -26,7 +26,12 @@ const EDGE_OFFSET_PX: f64 = 1e-6;
 const MIDDLE_NM: f64 = 550.0;
 
 /// Region that a camera sees during an exposure of a film of a size in px, relative to the origin of its view.
-pub(super) fn visible_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, width: u32, height: u32) -> VisibleRegion {
+pub(super) fn visible_region(
+    source: &dyn RaySource,
+    exposure: &FilmExposure<'_>,
+    width: u32,
+    height: u32,
+) -> VisibleRegion {
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);
     for [at, within] in grid(width, height) {

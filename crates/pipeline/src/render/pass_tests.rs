@@ -4,7 +4,7 @@ use super::film::Film;
 use super::light::RaySource;
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
-use crate::plan::{Pass, NumberedPass, Passes};
+use crate::plan::{NumberedPass, Pass, Passes};
 use crate::sizes::film::FilmLayout;
 use etendue_core::random::Draw;
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
@@ -36,7 +36,8 @@ impl RadianceField<4> for NoisyField {
 }
 
 fn pass_of(pass: NumberedPass, before: Option<&Film>) -> Film {
-    let layout = FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
+    let layout =
+        FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
     let job = still_job(&ForwardRays, [WIDTH as u32, HEIGHT as u32], layout, sampling(pass, 4));
     job.gather::<4>(&NoisyField, before, &Unobserved).expect("not cancelled")
 }
@@ -91,5 +92,8 @@ fn the_stated_variance_of_joined_passes_is_their_scatter() {
     let scatter = sum(&|x, y| off(x, y) * off(x, y));
     let stated = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
     // For n pixels the relative uncertainty of the scatter is √(2/n), that of the estimate less; the limit is four times that.
-    assert!((scatter / stated - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {stated}");
+    assert!(
+        (scatter / stated - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(),
+        "{scatter} for {stated}"
+    );
 }

@@ -58,7 +58,8 @@ impl TiledCube {
         let scratch = store.room(grid.offset(0, grid.height))?;
         let reader = |first| Arc::new(PlaneReader { grid, scratch: Arc::clone(&scratch), first });
         let mean = reader(0);
-        let variance: Arc<dyn BandReader> = if has_variance { reader(bands.count()) } else { Arc::new(UnknownVariance) };
+        let variance: Arc<dyn BandReader> =
+            if has_variance { reader(bands.count()) } else { Arc::new(UnknownVariance) };
         Ok(Self { bands, grid, store: Arc::clone(store), scratch, mean, variance })
     }
 

@@ -41,7 +41,8 @@ where
         if observer.cancelled() {
             return Err(RenderError::Cancelled);
         }
-        (chunk * CHUNK_PATHS..paths.min((chunk + 1) * CHUNK_PATHS)).for_each(|path| train::<N>(job, tracer, path, &training));
+        (chunk * CHUNK_PATHS..paths.min((chunk + 1) * CHUNK_PATHS))
+            .for_each(|path| train::<N>(job, tracer, path, &training));
         Ok(())
     })?;
     Ok(training.guide())
@@ -75,7 +76,8 @@ fn train<const N: usize>(job: &RenderJob<'_>, tracer: &dyn SpectralPaths<N>, pat
     let (displaced_px, _) = job.displacement(pixel, &stream, &wavelengths);
     let Some(pupil_ray) = job.pupil_ray(pixel, displaced_px, &stream, wavelengths.nm[0]) else { return };
     let moment_s = job.exposure.sample_time_s(pixel.y, job.time_number(&stream));
-    let (ray, light_interval) = (job.exposure.to_render(&pupil_ray, moment_s), job.exposure.light_interval(pixel.y, moment_s));
+    let (ray, light_interval) =
+        (job.exposure.to_render(&pupil_ray, moment_s), job.exposure.light_interval(pixel.y, moment_s));
     tracer.train(&FieldRay { ray, stream, light_interval }, &wavelengths, training);
 }
 

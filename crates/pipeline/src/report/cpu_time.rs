@@ -137,7 +137,9 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
     let sky = plan.sources.environment.is_some();
     let (sources, holds_for) = match plan.sources.suns.iter().any(|sun| is_seen(camera, sun)) {
         true => (DOMINATED_SOURCES, "for an image dominated by a sun; twice as long for uniform illumination"),
-        false if sky => (UNIFORM_SOURCES, "for uniform illumination; half as long for an image dominated by a few lights"),
+        false if sky => {
+            (UNIFORM_SOURCES, "for uniform illumination; half as long for an image dominated by a few lights")
+        }
         false => (DOMINATED_SOURCES, "for an image dominated by a few lights; twice as long for uniform illumination"),
     };
     let work = ghosts::operation_counts(lens, settings, [bands.low_nm(), bands.high_nm()], sources);

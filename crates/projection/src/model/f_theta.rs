@@ -7,7 +7,7 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::profile::{FieldEdge, Profile, Projection, AffineMapped};
+use super::profile::{AffineMapped, FieldEdge, Profile, Projection};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
@@ -100,7 +100,7 @@ impl FThetaPolynomial {
             c,
             slope,
             stated_rad: greatest_angle_rad,
-            max_argument: greatest: maximum,
+            max_argument: maximum,
             edge: FieldEdge { angle_rad, folds: fold.is_some() },
         }
     }

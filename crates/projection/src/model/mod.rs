@@ -40,7 +40,7 @@ mod tabulated;
 use glam::{DVec2, DVec3};
 
 use crate::plane::DistortionTerms;
-use crate::radial::{RadialDistortion, DistortionDirection};
+use crate::radial::{DistortionDirection, RadialDistortion};
 use profile::Projection;
 
 pub use crate::rectilinear::ModelError;
@@ -49,7 +49,7 @@ pub use fisheye::{KannalaBrandt, ThinPrismFisheye};
 pub use ideal::{Ideal, Panorama};
 pub use ocam::Ocam;
 pub use perspective::{Division, FieldOfView, Perspective};
-pub use profile::{FieldEdge, DirectionAndSolidAngle};
+pub use profile::{DirectionAndSolidAngle, FieldEdge};
 pub use spherical::{DoubleSphere, ExtendedUnified, Unified};
 pub use tabulated::Tabulated;
 

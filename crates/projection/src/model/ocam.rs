@@ -11,7 +11,7 @@
 use etendue_core::maths::f64::atan2;
 
 use super::ModelError;
-use super::profile::{FieldEdge, Profile, Projection, AffineMapped};
+use super::profile::{AffineMapped, FieldEdge, Profile, Projection};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
@@ -68,7 +68,12 @@ impl OcamPolynomial {
         let fold = first_sign_change(&turn, MAX_PX);
         let greatest_px = fold.unwrap_or(MAX_PX);
         let angle_rad = atan2(greatest_px, -polynomial(&f, greatest_px));
-        Self { slope: derivative(&f), f, max_radius_px: greatest_px, edge: FieldEdge { angle_rad, folds: fold.is_some() } }
+        Self {
+            slope: derivative(&f),
+            f,
+            max_radius_px: greatest_px,
+            edge: FieldEdge { angle_rad, folds: fold.is_some() },
+        }
     }
 
     /// θ and dθ/dρ.

@@ -27,7 +27,7 @@ use etendue_core::maths::f64::{atan, atan2, sin_cos, tan};
 use glam::{DVec2, DVec3};
 
 use super::ModelError;
-use super::profile::{FieldEdge, Profile, Projection, DirectionAndSolidAngle};
+use super::profile::{DirectionAndSolidAngle, FieldEdge, Profile, Projection};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
 use crate::radial::RadialDistortion;
 use crate::rectilinear::{finite, finite_list, legal};
@@ -137,7 +137,10 @@ impl Projection for Perspective {
 
     fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let ideal = self.ideal(point)?;
-        Some(DirectionAndSolidAngle { direction: ideal.extend(1.0).normalize(), sr_per_area: self.per_area(point, ideal)? })
+        Some(DirectionAndSolidAngle {
+            direction: ideal.extend(1.0).normalize(),
+            sr_per_area: self.per_area(point, ideal)?,
+        })
     }
 }
 
@@ -216,7 +219,10 @@ impl Projection for RadialDistortion {
 
     fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
         let ideal = self.ideal(point)?;
-        Some(DirectionAndSolidAngle { direction: ideal.extend(1.0).normalize(), sr_per_area: per_area(self, point, ideal)? })
+        Some(DirectionAndSolidAngle {
+            direction: ideal.extend(1.0).normalize(),
+            sr_per_area: per_area(self, point, ideal)?,
+        })
     }
 }
 

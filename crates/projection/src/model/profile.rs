@@ -47,7 +47,10 @@ pub(crate) trait Projection {
 
     /// Both results for an image point. Models with a numerical inverse solve it once.
     fn sight(&self, point: DVec2) -> Option<DirectionAndSolidAngle> {
-        Some(DirectionAndSolidAngle { direction: self.unproject(point)?, sr_per_area: self.solid_angle_per_area(point)? })
+        Some(DirectionAndSolidAngle {
+            direction: self.unproject(point)?,
+            sr_per_area: self.solid_angle_per_area(point)?,
+        })
     }
 }
 

@@ -8,7 +8,7 @@ use etendue_projection::model::{
     Perspective, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
-use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, RadialDistortion, DistortionDirection};
+use etendue_projection::{Calibration, CalibrationError, CameraMatrix, DistortionDirection, Model, RadialDistortion};
 use glam::{DVec2, DVec3};
 
 const SIZE: [usize; 2] = [1920, 1208];

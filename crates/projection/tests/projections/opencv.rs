@@ -1,6 +1,6 @@
 //! The radial distortion, the camera matrix and the pixel convention against OpenCV (tests/oracles/distortion.py).
 
-use etendue_projection::{CameraMatrix, RadialDistortion, Raster, Rectilinear, DistortionDirection};
+use etendue_projection::{CameraMatrix, DistortionDirection, RadialDistortion, Raster, Rectilinear};
 use glam::{DVec2, DVec3};
 use serde_json::Value;
 
@@ -39,7 +39,8 @@ fn ideal_to_observed_in_focal_lengths_is_opencv_s_k1_k2() {
     let mut compared = 0;
     for lens in figures["lenses"].as_array().expect("lenses") {
         let [k1, k2] = [number(&lens["k1"]), number(&lens["k2"])];
-        let d = RadialDistortion::new(DistortionDirection::IdealToObserved, k1, k2, PRINCIPAL_DISTANCE_MM).expect("legal");
+        let d =
+            RadialDistortion::new(DistortionDirection::IdealToObserved, k1, k2, PRINCIPAL_DISTANCE_MM).expect("legal");
         for (point, pixel) in rows(&figures["points_m"]).zip(rows(&lens["pixels"])) {
             let point = DVec3::new(number(&point[0]), number(&point[1]), number(&point[2]));
             let ideal_mm = view.project(point).expect("in front");

@@ -7,11 +7,11 @@ mod own_camera;
 use camera::ChartCamera;
 use changes::Changes;
 pub use etendue_charts::design;
-pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
 use etendue_charts::{
-    Contents, Drawing, Footprint, Light, CameraResponse, RasterRay, RayCamera, ChartSpecification, camera_file, camera_stations, files,
-    chart_image,
+    CameraResponse, ChartSpecification, Contents, Drawing, Footprint, Light, RasterRay, RayCamera, camera_file,
+    camera_stations, chart_image, files,
 };
+pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::failure::check_integer;
@@ -109,14 +109,22 @@ impl ChartRequest {
             return Err(ChartError::option("white", white, "expected a fraction of saturation above 0"));
         }
         let unit = named(1.0)?;
-        let saturation = meter.map(|meter| meter.saturation_fraction(unit.radiance())).filter(|saturation| *saturation > 0.0);
+        let saturation =
+            meter.map(|meter| meter.saturation_fraction(unit.radiance())).filter(|saturation| *saturation > 0.0);
         named(saturation.map_or(otherwise_cd_m2, |saturation| white / saturation))
     }
 
     /// Exposures of the series, s; empty without a series.
-    fn exposures_s(&self, light: &Light, drawing: &Drawing, meter: Option<&CameraResponse<'_>>) -> Result<Vec<f64>, ChartError> {
+    fn exposures_s(
+        &self,
+        light: &Light,
+        drawing: &Drawing,
+        meter: Option<&CameraResponse<'_>>,
+    ) -> Result<Vec<f64>, ChartError> {
         let Some(ExposureSeries { exposures, required }) = &self.series else { return Ok(Vec::new()) };
-        let saturation = meter.map(|meter| meter.saturation_fraction(&drawing.inks[0].radiance(light))).filter(|saturation| *saturation > 0.0);
+        let saturation = meter
+            .map(|meter| meter.saturation_fraction(&drawing.inks[0].radiance(light)))
+            .filter(|saturation| *saturation > 0.0);
         let (Some(meter), Some(saturation)) = (meter, saturation) else {
             let problem = || {
                 "this camera has no electronics that respond to the light; give a camera whose sensor has electronics"
@@ -265,7 +273,11 @@ fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamer
     ray_camera.footprint(distance_m).map_err(chart_error)
 }
 
-fn chart_files(request: &ChartSpecification<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
+fn chart_files(
+    request: &ChartSpecification<'_>,
+    camera: &ChartCamera,
+    png_dpi: Option<f64>,
+) -> Result<ChartFiles, Error> {
     let print = png_dpi.map(|dpi| chart_image(request.drawing, dpi)).transpose().map_err(chart_error)?;
     let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Error::run)?;
     let reference = camera.reference_camera().map(|(name, text)| (name, text.as_bytes().to_vec()));

@@ -49,7 +49,8 @@ impl ChartForCamera {
         let camera_file = file.to_string_lossy().into_owned();
         let focus_m = ChartCamera::load(&camera_file, &[])?.body.lens.focus_distance_m();
         let distant_m = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
-        let request = ChartRequest { camera: camera_file, distance_m: request.distance_m.or(distant_m), ..request.clone() };
+        let request =
+            ChartRequest { camera: camera_file, distance_m: request.distance_m.or(distant_m), ..request.clone() };
         make(&request, folder, ExistingFiles::Refuse)?;
         Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
     }
@@ -89,8 +90,7 @@ impl ChartForCamera {
         let folder = self.folder.join(PHOTOGRAPHS);
         let written = request.open()?.save(options, &folder, ExistingFiles::Replace, observer)?;
         let start = if makes_image { "picture." } else { "raw." };
-        let is_image =
-            |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
+        let is_image = |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
         let none = || {
             Error::coded(
                 ErrorCode::UnavailableOutput,

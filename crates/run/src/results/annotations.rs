@@ -11,7 +11,7 @@ use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitt
 use etendue_io::exr::{self, CryptomatteLayer, ExrImage, cryptomatte_image, encode_disparity, encode_motion};
 use etendue_io::failure::Error;
 use etendue_pipeline::boxes::{
-    ObjectBoxes, PixelBox, SolidBox, BoxPose, WorldObject, object_boxes, silhouettes, world_objects,
+    BoxPose, ObjectBoxes, PixelBox, SolidBox, WorldObject, object_boxes, silhouettes, world_objects,
 };
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::identity_coverage::{IdentityCoverage, IdentityFraction, identity_coverage};
@@ -132,7 +132,8 @@ impl CameraResults {
     fn write_disparity(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let Some((disparity, visibility)) = self.disparity() else { return Ok(()) };
         let product = self.camera().products.annotations.disparity.expect("disparity is asked for");
-        let right = self.plan.cameras.iter().find(|camera| camera.index == product.right).expect("a camera of the plan");
+        let right =
+            self.plan.cameras.iter().find(|camera| camera.index == product.right).expect("a camera of the plan");
         let facts: Provenance = self.provenance();
         let exr = encode_disparity(&disparity, &visibility, &right.name, &facts);
         writer.write(&self.file(ResultFiles::DISPARITY), exr)?;
@@ -229,7 +230,8 @@ fn stance(pose: &BoxPose) -> Value {
 fn cryptomatte_image_of(coverage: &IdentityCoverage, plan: &Plan, provenance: &Provenance) -> ExrImage<'static> {
     let objects = numbered(plan.identities.iter().map(|identity| identity.name.as_str()));
     let materials = numbered(plan.materials.iter().map(String::as_str));
-    let (ranked_objects, ranked_materials) = (ranked_identities(&coverage.instances), ranked_identities(&coverage.materials));
+    let (ranked_objects, ranked_materials) =
+        (ranked_identities(&coverage.instances), ranked_identities(&coverage.materials));
     let layers = [
         CryptomatteLayer { name: "CryptoObject", names: &objects, pixels: &ranked_objects },
         CryptomatteLayer { name: "CryptoMaterial", names: &materials, pixels: &ranked_materials },

@@ -75,8 +75,18 @@ impl CameraResults {
         let (frames, simd) = (options.frames.clone(), options.simd);
         let (plan, SensorHistory { state, since }) = (Arc::clone(plan), before);
         let remembered = None;
-        let mut results =
-            Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, cached_frame: remembered, simd };
+        let mut results = Self {
+            plan,
+            camera: place,
+            light,
+            sampling,
+            depth,
+            undistorted,
+            frames,
+            state,
+            cached_frame: remembered,
+            simd,
+        };
         if results.has_own_light() {
             results.cached_frame = results.remembered_frame(since);
         }
@@ -143,7 +153,8 @@ impl CameraResults {
     /// The image cannot be encoded.
     pub fn image_file(&self, frame: &Frame) -> Option<Result<(&'static str, Vec<u8>), Error>> {
         let (image, development) = frame.picture.as_ref().zip(self.camera().body.development.as_ref())?;
-        let bytes = encode_picture(&image.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
+        let bytes =
+            encode_picture(&image.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
         Some(bytes.map(|bytes| (development.format.extension(), bytes)))
     }
 

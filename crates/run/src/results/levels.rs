@@ -106,8 +106,11 @@ mod tests {
         let facts: Vec<Value> = frames
             .iter()
             .map(|(mean_dn, clipped_fraction, black_fraction)| {
-                let levels =
-                    FrameLevels { mean_dn: *mean_dn, clipped_fraction: *clipped_fraction, black_fraction: *black_fraction };
+                let levels = FrameLevels {
+                    mean_dn: *mean_dn,
+                    clipped_fraction: *clipped_fraction,
+                    black_fraction: *black_fraction,
+                };
                 json!({ LEVELS: levels, "black_level_dn": 64.0, "white_level_dn": 4064.0 })
             })
             .collect();

@@ -4,7 +4,7 @@ mod frame;
 
 use frame::pose_rows;
 pub(crate) use frame::{
-    add_time, check_seal, own_frame, raw_frame, with_seal, state_of, time_facts, with_state, without_state,
+    add_time, check_seal, own_frame, raw_frame, state_of, time_facts, with_seal, with_state, without_state,
 };
 
 use etendue_io::Provenance;

@@ -6,7 +6,7 @@ use super::writer::ResultWriter;
 use crate::result_files::{ResultFiles, entry, entry_of};
 use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Radiance, Transmittance};
 use etendue_io::exr::{
-    self, ExrImage, ExrLayer, LengthPlanes, SpectralBands, ground_truth_image, ground_truth_from_planes, layers_image,
+    self, ExrImage, ExrLayer, LengthPlanes, SpectralBands, ground_truth_from_planes, ground_truth_image, layers_image,
     plane_image, radiance_image, spectral_image,
 };
 use etendue_io::failure::Error;
@@ -80,7 +80,9 @@ pub(super) const PRODUCT_FILES: &[ProductFiles] = &[
     ProductFiles {
         entries: |p, files| files.add(p.ghosts, ResultFiles::GHOSTS, entry_of::<Irradiance>()),
         stage: WriteStage::Light,
-        write: |results, writer| writer.ghosts(&results.file(ResultFiles::GHOSTS), &results.light, &results.provenance()),
+        write: |results, writer| {
+            writer.ghosts(&results.file(ResultFiles::GHOSTS), &results.light, &results.provenance())
+        },
     },
     ProductFiles {
         entries: |p, files| {
@@ -128,7 +130,11 @@ fn annotation_entries(products: &Products, files: &mut FileEntries) {
     files.add(disparity == Some(CorrespondenceFormat::Middlebury), ResultFiles::DISPARITY_PFM, map);
     let png_entry = entry("disparity; 0 where unknown", "1/256 px");
     files.add(disparity == Some(CorrespondenceFormat::Kitti), ResultFiles::DISPARITY_PNG, png_entry);
-    files.add(annotations.boxes, ResultFiles::BOXES, entry("bounding boxes of objects in the image and in space", "px, m"));
+    files.add(
+        annotations.boxes,
+        ResultFiles::BOXES,
+        entry("bounding boxes of objects in the image and in space", "px, m"),
+    );
     let ranked = "objects and materials of each pixel by decreasing coverage, Cryptomatte 1.2";
     files.add(annotations.cryptomatte, ResultFiles::CRYPTOMATTE, entry(ranked, "1"));
 }
@@ -199,7 +205,8 @@ impl ResultFiles {
         let video = entry("images of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
         add(p.video, Self::VIDEO, video);
         let mut undistorted = image_entry.clone();
-        undistorted["quantity"] = format!("undistorted {}", image_entry["quantity"].as_str().unwrap_or_default()).into();
+        undistorted["quantity"] =
+            format!("undistorted {}", image_entry["quantity"].as_str().unwrap_or_default()).into();
         for frame in frames.clone() {
             add(has_rectified && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
             add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
@@ -247,7 +254,11 @@ fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &Provenance) -> ExrIm
 }
 
 fn truth_entries(p: &Products, files: &mut FileEntries) {
-    files.add(p.ground_truth, ResultFiles::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+    files.add(
+        p.ground_truth,
+        ResultFiles::GROUND_TRUTH,
+        entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"),
+    );
     if let Some(per_m) = p.depth_png_per_m {
         files.add(true, ResultFiles::DEPTH, entry("planar depth; 0: invalid", &format!("1/{per_m} m")));
     }
@@ -265,7 +276,9 @@ fn write_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result
         writer.exr(&name, image.map_err(|error| Error::Run(format!("{name}: {error}")))?)?;
     }
     match products.depth_png_per_m {
-        Some(per_metre) => writer.write(&results.file(ResultFiles::DEPTH), png::encode_depth16(&truth.depth, per_metre)),
+        Some(per_metre) => {
+            writer.write(&results.file(ResultFiles::DEPTH), png::encode_depth16(&truth.depth, per_metre))
+        }
         None => Ok(()),
     }
 }
@@ -278,7 +291,9 @@ fn write_large_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> 
         writer.exr(&results.file(ResultFiles::GROUND_TRUTH), truth_image(&rows, &results.provenance()))?;
     }
     match camera.products.depth_png_per_m {
-        Some(per_metre) => writer.write(&results.file(ResultFiles::DEPTH), png::encode_depth16(&rows.depth(), per_metre)),
+        Some(per_metre) => {
+            writer.write(&results.file(ResultFiles::DEPTH), png::encode_depth16(&rows.depth(), per_metre))
+        }
         None => Ok(()),
     }
 }
@@ -292,7 +307,10 @@ fn write_weather(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Resu
     writer.exr(&results.file(ResultFiles::TRANSMITTANCE), plane_image(&layers.transmittance, None, &facts))?;
     let airlight = SpectralBands::from_cubes(&layers.airlight, None);
     writer.exr(&results.file(ResultFiles::AIRLIGHT), spectral_image::<Radiance>(airlight, &facts))?;
-    layers.cover.iter().try_for_each(|cover| writer.exr(&results.file(ResultFiles::COVER), plane_image(cover, None, &facts)))
+    layers
+        .cover
+        .iter()
+        .try_for_each(|cover| writer.exr(&results.file(ResultFiles::COVER), plane_image(cover, None, &facts)))
 }
 
 /// Returns true if an image is so large that its ground truth, about as large as all other results together, would exceed the memory limit of film bands.

@@ -46,7 +46,8 @@ impl CameraResults {
 
     fn write_products(&self, stage: WriteStage, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let products = &self.camera().products;
-        let products_of_stage = PRODUCT_FILES.iter().filter(|product| product.stage == stage && product.is_wanted(products));
+        let products_of_stage =
+            PRODUCT_FILES.iter().filter(|product| product.stage == stage && product.is_wanted(products));
         products_of_stage.map(|product| product.write).try_for_each(|write| write(self, writer))
     }
 

@@ -112,7 +112,8 @@ impl FrameSequence {
             let camera = known.camera();
             let files = ResultFiles::for_camera(camera, &known.frames);
             let mut facts = metadata::sidecar(&known.plan, camera, known.frames.start, &files);
-            let rectified = camera.products.undistorted.and_then(|scale| RectifiedCamera::new(&camera.body, scale).ok());
+            let rectified =
+                camera.products.undistorted.and_then(|scale| RectifiedCamera::new(&camera.body, scale).ok());
             facts["undistorted"] = rectified.as_ref().map_or(Value::Null, metadata::undistorted);
             facts["frames"] = known.facts.values().cloned().collect();
             if !known.has_rays {

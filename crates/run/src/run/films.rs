@@ -39,7 +39,7 @@ pub(super) struct RunFilm {
 
 impl RunFilm {
     fn new(frame_capture: FrameCapture) -> Self {
-        Self { frame_capture: shot: frame_capture, stage: FilmStage::New, passes: 0, light: None, with_round: None }
+        Self { frame_capture, stage: FilmStage::New, passes: 0, light: None, with_round: None }
     }
 
     /// Continues from stored light.
@@ -109,11 +109,18 @@ impl RunFilms {
     }
 
     /// Returns those films of cameras over frames that are `wanted`, each in its own entry, in the order of [`shots_of`].
-    pub(super) fn one_film_each(plan: &Plan, frames: &Range<u32>, is_wanted: impl Fn(&CameraPlan, FrameCapture) -> bool) -> Self {
+    pub(super) fn one_film_each(
+        plan: &Plan,
+        frames: &Range<u32>,
+        is_wanted: impl Fn(&CameraPlan, FrameCapture) -> bool,
+    ) -> Self {
         let mut entries = Vec::new();
         for (group, cameras) in plan.by_light().into_iter().enumerate() {
-            let shots = shots_of(cameras[0], frames).into_iter().filter(|frame_capture| is_wanted(cameras[0], *frame_capture));
-            entries.extend(shots.map(|frame_capture| FrameFilms::new(group, frame_capture.frame..frame_capture.frame + 1, vec![frame_capture])));
+            let shots =
+                shots_of(cameras[0], frames).into_iter().filter(|frame_capture| is_wanted(cameras[0], *frame_capture));
+            entries.extend(shots.map(|frame_capture| {
+                FrameFilms::new(group, frame_capture.frame..frame_capture.frame + 1, vec![frame_capture])
+            }));
         }
         Self { entries }
     }

@@ -31,7 +31,7 @@ use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, NumberedPass, TimeDependence};
-use etendue_pipeline::render::{FilmStorage, LightRequest, FrameCapture};
+use etendue_pipeline::render::{FilmStorage, FrameCapture, LightRequest};
 use etendue_pipeline::tile::Shard;
 use etendue_sensor::SensorState;
 use films::{FilmPlace, FilmStage, RunFilms, check_finite, check_frames, check_textures, tile_count};
@@ -346,13 +346,14 @@ impl<'a> Run<'a> {
 
     fn origin(&self, place: FilmPlace) -> FilmOrigin<'_> {
         let frame_capture = self.films.at(place).frame_capture;
-        FilmOrigin { plan: &self.plan, camera: self.first_camera(place), frame_capture: shot: frame_capture, shard: self.shard }
+        FilmOrigin { plan: &self.plan, camera: self.first_camera(place), frame_capture, shard: self.shard }
     }
 
     /// A pass of a film, with its tile count within the run or the round.
     fn watched_pass(&self, place: FilmPlace) -> WatchedPass<'_> {
         let (camera, frame_capture) = (self.first_camera(place), self.films.at(place).frame_capture);
-        let request = LightRequest { frame_capture: shot: frame_capture, simd: self.options.simd, shard: self.shard, keeping: FilmStorage::Planned };
+        let request =
+            LightRequest { frame_capture, simd: self.options.simd, shard: self.shard, keeping: FilmStorage::Planned };
         let (plan, observer) = (&*self.plan, self.observer);
         if let Some(timed) = &self.timed {
             let places = self.films.by_light();

@@ -11,7 +11,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::noise_reached::NoiseReached;
 use etendue_pipeline::plan::{CameraPlan, NumberedPass, TimeDependence};
-use etendue_pipeline::render::{LightRequest, FrameCapture, pass};
+use etendue_pipeline::render::{FrameCapture, LightRequest, pass};
 use etendue_pipeline::tile::Tile;
 use etendue_spectra::colour::linear_srgb_from_xyz;
 use etendue_spectra::observer::xyz_weights;
@@ -80,7 +80,13 @@ impl etendue_pipeline::Observer for WatchedPass<'_> {
             TileCount::OfRun { before, total } => (before + done, total),
             TileCount::OfRound { before, films } => (before * of_film + done, films * of_film),
         };
-        self.observer.progress(Progress { heading: &self.heading, frame: self.frame, unit: ProgressUnit::Tiles, done, total });
+        self.observer.progress(Progress {
+            heading: &self.heading,
+            frame: self.frame,
+            unit: ProgressUnit::Tiles,
+            done,
+            total,
+        });
     }
 
     fn cancelled(&self) -> bool {

@@ -93,7 +93,8 @@ impl Run<'_> {
             let camera = &plan.cameras[self.groups[self.films.entries[place.entry].group][0]];
             let replicates = camera.settings.replicates;
             let stored = StoredPasses { passes: timed.completed_passes().clone(), replicates, elapsed_s };
-            let origin = FilmOrigin { plan: &timed.compiled, camera, frame_capture: film.frame_capture, shard: self.shard };
+            let origin =
+                FilmOrigin { plan: &timed.compiled, camera, frame_capture: film.frame_capture, shard: self.shard };
             if let Some(light) = &film.light {
                 store.store(&origin, light, &stored)?;
             }

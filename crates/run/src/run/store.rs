@@ -175,8 +175,10 @@ impl RunState {
     fn remove_frame_state(&self, camera: &CameraPlan, frame: u32) -> Result<(), Error> {
         let Some(folder) = &self.progressive else { return Ok(()) };
         let captures = camera.body.exposure.distinct_captures();
-        let names: Vec<String> =
-            captures.into_iter().map(|capture| state_name(camera, FrameCapture { frame, capture: capture as u32 })).collect();
+        let names: Vec<String> = captures
+            .into_iter()
+            .map(|capture| state_name(camera, FrameCapture { frame, capture: capture as u32 }))
+            .collect();
         folder.remove(names.iter().map(String::as_str)).map_err(Error::run)
     }
 }

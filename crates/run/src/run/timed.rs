@@ -10,7 +10,7 @@ use etendue_core::maths::least_common_multiple;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, NumberedPass, Passes};
+use etendue_pipeline::plan::{MAX_PASSES, NumberedPass, PARTS, Pass, Passes};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -137,11 +137,16 @@ impl<'a> TimedPasses<'a> {
     /// Returns `most` replicates, or fewer if the time does not allow so many.
     fn affordable_replicates(&self, plan: &Plan, max_replicates: u32, sample_s: f64) -> u32 {
         let min_replicates = if plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
-        let choice: Vec<u32> = (min_replicates..=max_replicates).rev().filter(|replicates| max_replicates.is_multiple_of(*replicates)).collect();
+        let choice: Vec<u32> = (min_replicates..=max_replicates)
+            .rev()
+            .filter(|replicates| max_replicates.is_multiple_of(*replicates))
+            .collect();
         let replicates = self.pace(plan).replicates(sample_s, &choice);
         if replicates < max_replicates {
-            let note =
-                format!("`time_s` {} does not allow passes of {max_replicates} replicates; {replicates} are used", self.total_s);
+            let note = format!(
+                "`time_s` {} does not allow passes of {max_replicates} replicates; {replicates} are used",
+                self.total_s
+            );
             self.observer.message(Message::Note(&note));
         }
         replicates
@@ -189,13 +194,21 @@ impl<'a> TimedPasses<'a> {
 
     fn pace(&self, plan: &Plan) -> PassSchedule {
         let min_pass_spp = min_samples(plan);
-        PassSchedule { total_s: self.total_s, min_pass_spp: least: min_pass_spp, has_parts: plan.replicates().all(|replicates| replicates == min_pass_spp) }
+        PassSchedule {
+            total_s: self.total_s,
+            min_pass_spp,
+            has_parts: plan.replicates().all(|replicates| replicates == min_pass_spp),
+        }
     }
 
     fn warn(&self, schedule: PassSchedule, rate: SampleRate) {
         let needed_s = rate.sample_s * f64::from(schedule.min_pass_spp);
         if needed_s > DISCARD_RATIO * self.total_s {
-            let samples = if schedule.min_pass_spp == 1 { "one sample".to_owned() } else { format!("{} samples", schedule.min_pass_spp) };
+            let samples = if schedule.min_pass_spp == 1 {
+                "one sample".to_owned()
+            } else {
+                format!("{} samples", schedule.min_pass_spp)
+            };
             self.observer.message(Message::Warning(&format!(
                 "rendering {samples} per pixel, the minimum for a result, takes about {needed_s:.0} s, more than \
                  `time_s` {}; give more time, smaller images, or fewer frames, cameras or replicates",

@@ -29,7 +29,7 @@ pub use prescription::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, Presc
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, ReplacedMaterials, SpectrumValues};
 pub use slot_layers::{
-    SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotTopLayer, SlotPicture, SlotSolid, SlotTransmission, SlotWrap,
+    SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotPicture, SlotSolid, SlotTopLayer, SlotTransmission, SlotWrap,
     is_gltf,
 };
 pub use store::Assets;

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotMaterial;
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ReplacedMaterials, ImageAsset, LargeImage,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ImageAsset, LargeImage,
     LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PointSpreadAsset,
-    PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
+    PrescriptionAsset, RayTransferAsset, ReplacedMaterials, RetroTableAsset, SpectrumAsset, TexelStore,
+    TrajectoryAsset,
 };
 use crate::numbered_files::is_numbered;
 use crate::place::Place;
@@ -137,7 +138,8 @@ fn textures_of<'a>(
 ) -> impl Iterator<Item = AssetRequest> + 'a {
     let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
     let is_requested = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
-    let visible_slots = mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, is_visible)| is_visible.then_some(slot));
+    let visible_slots =
+        mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, is_visible)| is_visible.then_some(slot));
     visible_slots.filter(is_requested).filter_map(picture).map(move |path| {
         let (path, place) = (path.to_owned(), Place::file_head(file));
         AssetRequest { path, kind: AssetKind::Texture, place, covered: ReplacedMaterials::All }
@@ -152,7 +154,9 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, FieldPoint, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, SpectrumValues};
+    use super::super::{
+        CalibrationFormat, FieldPoint, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, SpectrumValues,
+    };
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use super::files::{FileKind, open};
 use super::read_text::ReadText;
 use crate::document::{Node, Table, Value};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::limits::BASES;
 use crate::place::Place;
 use crate::reader::{Rule as _, path};

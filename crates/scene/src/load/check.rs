@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::names;
 use super::usage::NameUse;
 use crate::document::Node;
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::Placed;
 use crate::suggest::nearest;
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use super::base;
 use super::read_text::ReadText;
 use crate::document::{Node, Value, parse};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::overrides::Overrides;
 use crate::place::Place;
 use crate::reader::{Record as _, Rule as _, path};
@@ -51,7 +51,12 @@ impl FileKind {
 }
 
 /// Returns the tree of a job, with the trees of its scene and cameras instead of their file names.
-pub(super) fn job(file: &Path, read: &ReadText<'_>, overrides: &Overrides, errors: &mut DescriptionErrors) -> Option<Node> {
+pub(super) fn job(
+    file: &Path,
+    read: &ReadText<'_>,
+    overrides: &Overrides,
+    errors: &mut DescriptionErrors,
+) -> Option<Node> {
     let mut document = document(file, FileKind::Job, read, &Place::file_head(file), errors)?;
     overrides.apply(&mut document, true, errors);
     let table = document.as_table_mut()?;

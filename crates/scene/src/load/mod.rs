@@ -94,7 +94,8 @@ impl Description {
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
         cameras.iter().for_each(|c| check_merged(&c.render, errors));
         // A camera with errors of its own is missing here, and it may be the one that traces paths.
-        let camera_count = document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
+        let camera_count =
+            document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
         if cameras.len() == camera_count {
             check_path_keys(cameras.iter().map(|c| &c.render), errors);
         }
@@ -230,7 +231,9 @@ pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, D
 /// `cameras.front.render.spp`. An unreadable file gives none; [`Description::load`] reports the cause.
 #[must_use]
 pub fn stated_render_keys(file: &Path, camera: &str, read: &ReadText<'_>) -> Vec<String> {
-    let Some(job) = files::job(file, read, &Overrides::default(), &mut DescriptionErrors::none()) else { return Vec::new() };
+    let Some(job) = files::job(file, read, &Overrides::default(), &mut DescriptionErrors::none()) else {
+        return Vec::new();
+    };
     let keys = |node: &Node, prefix: &str| -> Vec<String> {
         let render = node.as_table().and_then(|table| table.get("render")).and_then(Node::as_table);
         let keys = render.map(|render| render.entries.iter().map(|entry| format!("{prefix}render.{}", entry.key)));

@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 
 use super::usage::UnusedNames;
 use crate::asset::file_list::{FileList, NamesFiles as _};
-use crate::asset::{AssetKind, AssetRequest, ReplacedMaterials, LensQuantity, SpectrumValues};
+use crate::asset::{AssetKind, AssetRequest, LensQuantity, ReplacedMaterials, SpectrumValues};
 use crate::record::effects::ModulationSource;
 use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::{IlluminationSource, PixelDirections};
 use crate::record::lens::prescription::{IrCutCurve, SurfaceListSource};
 use crate::record::sensor::QuantumEfficiency;
 use crate::record::weather::Weather;
-use crate::record::{Body, Camera, MotionKeys, Environment, ExternalOptics, Lens, Light, Object, Pose, Processing, Scene};
+use crate::record::{
+    Body, Camera, Environment, ExternalOptics, Lens, Light, MotionKeys, Object, Pose, Processing, Scene,
+};
 
 /// Returns every named file, each once.
 pub(crate) fn requests<'d>(
@@ -167,8 +169,12 @@ fn camera(camera: &Camera, files: &mut FileList) {
     camera.isp.iter().flat_map(Processing::files).for_each(|file| files.add(AssetKind::Numbers, file));
     match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
         Some(QuantumEfficiency::Same(curve)) => curve.name_file(SpectrumValues::Share, files),
-        Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| c.name_file(SpectrumValues::Share, files)),
-        Some(QuantumEfficiency::Named(list)) => list.iter().for_each(|(_, c)| c.name_file(SpectrumValues::Share, files)),
+        Some(QuantumEfficiency::PerChannel(curves)) => {
+            curves.iter().for_each(|c| c.name_file(SpectrumValues::Share, files))
+        }
+        Some(QuantumEfficiency::Named(list)) => {
+            list.iter().for_each(|(_, c)| c.name_file(SpectrumValues::Share, files))
+        }
         Some(QuantumEfficiency::Measured { .. }) | None => {}
     }
 }

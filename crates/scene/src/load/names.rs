@@ -1,7 +1,7 @@
 //! Checks that names are unique among their kind.
 
 use crate::document::{Node, Table};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 
 /// Lists of a scene whose entries have names.
 const LISTS: [&str; 7] = ["meshes", "textures", "materials", "frames", "objects", "lights", "media"];

@@ -48,7 +48,9 @@ impl UnusedNames {
         };
         let materials: BTreeSet<String> = rest(NameKind::Material, &mut scene.materials.iter().map(|m| &m.name));
         let has_texture = |name: &str| {
-            by_owner.get(&Some((NameKind::Material, name))).is_some_and(|uses| uses.iter().any(|u| u.0 == NameKind::Texture))
+            by_owner
+                .get(&Some((NameKind::Material, name)))
+                .is_some_and(|uses| uses.iter().any(|u| u.0 == NameKind::Texture))
         };
         let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(*m));
         Self {

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use crate::document::{Entry, Node, Table, Value, parse};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Place;
 use crate::reader::word;
 
@@ -62,7 +62,7 @@ impl Preset {
             entry.and_then(|e| e.node.as_text().map(str::to_owned)).unwrap_or_default()
         };
         let (description, source) = (words("about"), words("source"));
-        Self { name: name.to_owned(), description: about: description, source, keys }
+        Self { name: name.to_owned(), description, source, keys }
     }
 
     /// Its keys and values, in the words of the format: `type = "conductor"`, …

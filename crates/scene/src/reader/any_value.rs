@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use super::rule::{ValueKind, Rule};
+use super::rule::{Rule, ValueKind};
 use crate::document::{Node, Value};
 use crate::fault::DescriptionErrors;
 use crate::written::{Item, Table, Value as WrittenValue};
@@ -34,11 +34,15 @@ impl Rule for AnyValueRule {
     fn read(&self, node: &Node, errors: &mut DescriptionErrors) -> Option<Item> {
         let value = match &node.value {
             Value::Flag(flag) => WrittenValue::Flag(*flag),
-            Value::Whole(number) => u64::try_from(*number).map_or(WrittenValue::Number(*number as f64), WrittenValue::Whole),
+            Value::Whole(number) => {
+                u64::try_from(*number).map_or(WrittenValue::Number(*number as f64), WrittenValue::Whole)
+            }
             Value::Number(number) if number.is_finite() => WrittenValue::Number(*number),
             Value::Text(text) => WrittenValue::Text(text.clone()),
             Value::Moment(text) => WrittenValue::Moment(text.clone()),
-            Value::List(list) => WrittenValue::List(list.iter().map(|entry| self.read(entry, errors)).collect::<Option<_>>()?),
+            Value::List(list) => {
+                WrittenValue::List(list.iter().map(|entry| self.read(entry, errors)).collect::<Option<_>>()?)
+            }
             Value::Table(table) => {
                 let mut written = Table::new().in_line();
                 for entry in &table.entries {

@@ -326,7 +326,7 @@ pub(crate) use {as_table, constructor, field, keyed, record, variant, variants};
 use super::rule::Rule;
 use super::table::{Form, Key, Reader};
 use super::word::{one_of, quoted, word};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::written::Table;
 
 /// Adds a key to each form.
@@ -374,7 +374,11 @@ pub(crate) fn variant_word<'t>(
 }
 
 /// Returns the one of `keys` that is given.
-pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], errors: &mut DescriptionErrors) -> Option<&'k str> {
+pub(crate) fn only_key<'k>(
+    reader: &mut Reader<'_>,
+    keys: &[&'k str],
+    errors: &mut DescriptionErrors,
+) -> Option<&'k str> {
     let present: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
     if let [only] = present.as_slice() {
         return Some(only);

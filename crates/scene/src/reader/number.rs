@@ -2,9 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-use super::rule::{ValueKind, Rule};
+use super::rule::{Rule, ValueKind};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::written::{Item, Value as WrittenValue};
 use etendue_core::ExactTime;
@@ -93,7 +93,9 @@ impl Rule for NumberRule {
 
 /// A percentile, above 1 and at most 100. A smaller number is refused, because it reads as a fraction and would silently mean something else.
 pub(crate) const fn percentile() -> PercentileRule {
-    PercentileRule(NumberRule { unit: "", low: Some(NumberBound { value: 1.0, included: false }), high: None }.at_most(100.0))
+    PercentileRule(
+        NumberRule { unit: "", low: Some(NumberBound { value: 1.0, included: false }), high: None }.at_most(100.0),
+    )
 }
 
 /// See [`percentile`].

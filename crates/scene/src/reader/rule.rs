@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::table::{Reader, Record, record_schema};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::written::{Item, Table, Value as WrittenValue};
 
@@ -144,7 +144,7 @@ impl<A: Rule, B: Rule<Out = A::Out>> Rule for EitherRule<A, B> {
 
 /// A list of at least `least` values. Wrong entries are reported and omitted.
 pub(crate) fn list<R: Rule>(rule: R, min_length: usize) -> ListRule<R> {
-    ListRule { rule, min_length: least: min_length }
+    ListRule { rule, min_length }
 }
 
 /// See [`list`].

@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use super::rule::Rule;
 use super::word::quoted;
 use crate::document::{Node, Table};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Place;
 use crate::suggest::nearest;
 use crate::written::Table as Written;
@@ -280,7 +280,12 @@ impl<'t> Reader<'t> {
     }
 
     /// Reads the value of `key` by `rule`, if given; the outer `None` follows an error.
-    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, errors: &mut DescriptionErrors) -> Option<Option<R::Out>> {
+    pub(crate) fn optional<R: Rule>(
+        &mut self,
+        key: &str,
+        rule: &R,
+        errors: &mut DescriptionErrors,
+    ) -> Option<Option<R::Out>> {
         self.take(key).map_or(Some(None), |node| rule.read(node, errors).map(Some))
     }
 
@@ -299,7 +304,8 @@ impl<'t> Reader<'t> {
                 continue;
             }
             let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
-            let choice_value = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
+            let choice_value =
+                owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
             errors.add_without_effect(
                 ErrorCode::NoEffect,
                 &entry.key,

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use etendue_core::Word;
 use serde_json::{Value as Json, json};
 
-use super::rule::{ValueKind, Rule};
+use super::rule::{Rule, ValueKind};
 use crate::document::{Node, Value};
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::Placed;
 use crate::suggest::nearest;
 use crate::written::{Item, Value as WrittenValue};

@@ -5,7 +5,7 @@ use super::front::ExternalOptics;
 use super::lens::Lens;
 use super::processing::Processing;
 use super::sensor::Sensor;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::reader::record;
 
 record! {

@@ -1,7 +1,7 @@
 //! A camera's EMVA 1288 data sheet, as printed: the input from which `etendue datasheet` makes a camera file.
 
 use super::sensor::cfa::Cfa;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, text, variant, vector, whole};
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{
     Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole, words,

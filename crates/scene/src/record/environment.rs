@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::light::Emission;
 use super::moment::{Date, TimeOfDay, date, time_of_day};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, flag, number, path, record, variants, words};
 

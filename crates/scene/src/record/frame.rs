@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::motion::{MotionKeys, Wheel, check_motion, check_placements, trajectory_placement};
 use super::transform::{yaw_pitch_roll, yaw_pitch_roll_quaternion};
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{list, name_of, number, record, text, time, vector};
 

@@ -9,9 +9,9 @@ use super::render::Render;
 use super::scene::Scene;
 use super::sequence::Sequence;
 use crate::document::Node;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{Form, Key, ValueKind, Reader, Record, Rule, file_name, list, number, path, record};
+use crate::reader::{Form, Key, Reader, Record, Rule, ValueKind, file_name, list, number, path, record};
 use crate::written::{Item, Table};
 
 record! {

@@ -1,6 +1,6 @@
 //! A laboratory file: facts about the images of a laboratory folder that the images do not contain.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
 
@@ -91,7 +91,9 @@ fn check(laboratory: &Laboratory, errors: &mut DescriptionErrors) {
         );
     }
     let are_integers = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
-    if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !are_integers(&g.value)) {
+    if let Some(grid) =
+        laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !are_integers(&g.value))
+    {
         errors.add(
             ErrorCode::WrongType,
             &grid.place,

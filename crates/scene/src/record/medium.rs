@@ -4,7 +4,7 @@ use super::curve::{Curve, curve};
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{ReplacedMaterials, SpectrumValues};
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, name_of, number, path, record, text, variants, vector, whole};
 use std::path::PathBuf;

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::vertex_animation::VertexAnimation;
 use crate::asset::is_gltf;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, number, path, record, text, words};
 

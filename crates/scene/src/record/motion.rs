@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3};
 use std::path::PathBuf;
 
 use crate::asset::TrajectoryRow;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, number, path, record, time, words};
 

@@ -5,7 +5,7 @@ use etendue_core::ExactTime;
 use super::motion::{MotionKeys, Wheel, check_motion, check_placements, trajectory_placement};
 use super::shape::Shape;
 use super::transform::Transform;
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::Placed;
 use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text, time};
 

@@ -1,6 +1,6 @@
 //! The keys of `[render]` that belong to integrator = "path".
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{among, flag, record, whole};
 

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 
 use super::motion::{MotionKeys, check_motion, check_placements, trajectory_placement};
 use super::transform::yaw_pitch_roll;
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, time, vector};
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::curve::spectrum_file;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, SpectrumValues};
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{NumberRule, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
 use etendue_spectra::reflectance;

@@ -1,6 +1,6 @@
 //! `[render]`: light transport and sampling. `None` means that the plan decides.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{Record, Rule, among, choice, either, keyed, number, record, variant, vector, whole, words};
 use crate::record::paths::PathKeys;

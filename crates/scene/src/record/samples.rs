@@ -2,7 +2,7 @@
 //!
 //! Only one of them counts. A camera's choice overrides the job's, and the command line overrides files. Two in one record exclude each other.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{list, number, record, whole};
 
@@ -124,7 +124,14 @@ impl SampleKeys {
         for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
             let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
             let cause = SampleKey::in_force(self).and_then(|choice| choice.place(self));
-            errors.add_without_effect(ErrorCode::NoEffect, key, &value.place, cause, problem, "add it, or remove the key");
+            errors.add_without_effect(
+                ErrorCode::NoEffect,
+                key,
+                &value.place,
+                cause,
+                problem,
+                "add it, or remove the key",
+            );
         }
     }
 }

@@ -9,7 +9,7 @@ use super::mesh::Mesh;
 use super::object::Object;
 use super::precipitation::Precipitation;
 use super::texture::Texture;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{keyed_by_name, list, record, whole};
 

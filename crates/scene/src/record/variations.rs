@@ -1,7 +1,7 @@
 //! A variations file: differences between the samples of a data set, and the layout of its files.
 
 use super::render::MAX_SEED;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{
     RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole, words,
@@ -177,7 +177,12 @@ fn check(file: &Variations, errors: &mut DescriptionErrors) {
     }
 }
 
-fn unique<'a>(names: impl Iterator<Item = &'a Placed<String>>, problem: &str, remedy: &str, errors: &mut DescriptionErrors) {
+fn unique<'a>(
+    names: impl Iterator<Item = &'a Placed<String>>,
+    problem: &str,
+    remedy: &str,
+    errors: &mut DescriptionErrors,
+) {
     let mut known = Vec::new();
     for name in names {
         if known.contains(&&name.value) {

@@ -4,7 +4,7 @@ use etendue_core::{Cycle, Epoch, ExactTime};
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
@@ -147,7 +147,10 @@ mod tests {
         let near = animation(FrameRepeat::Loop).frame_times_s(Epoch::default());
         let distant = animation(FrameRepeat::Loop).frame_times_s(epoch);
         // Sums and differences with whole seconds below 2^31 round to 2^-53 of a second each.
-        assert!(near.len() == distant.len() && near.iter().zip(&distant).all(|(a, b)| (a - b).abs() < 1e-15), "{distant:?}");
+        assert!(
+            near.len() == distant.len() && near.iter().zip(&distant).all(|(a, b)| (a - b).abs() < 1e-15),
+            "{distant:?}"
+        );
         assert_eq!(animation(FrameRepeat::Hold).frame_times_s(epoch)[0], -1.7e9);
     }
 }

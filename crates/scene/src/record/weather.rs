@@ -1,12 +1,12 @@
 //! A weather file: weather that `etendue weather` adds to stored radiance.
 
 use super::light::Emission;
-use super::medium::{Extinction, MediumShape, DensityNoise};
+use super::medium::{DensityNoise, Extinction, MediumShape};
 use super::precipitation::Precipitation;
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::SpectrumValues;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{list, number, record, text, variants};
 

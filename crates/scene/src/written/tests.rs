@@ -40,7 +40,9 @@ fn check<T: Record>() {
 fn read<T: Record>(tree: &Node) -> T {
     let mut errors = DescriptionErrors::none();
     let read = record::<T>().read(tree, &mut errors);
-    read.unwrap_or_else(|| panic!("{}", errors.as_slice().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
+    read.unwrap_or_else(|| {
+        panic!("{}", errors.as_slice().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+    })
 }
 
 /// A value that the schema admits, different in each turn.

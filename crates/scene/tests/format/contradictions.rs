@@ -198,7 +198,10 @@ fn a_point_spread_function_is_of_an_aperture_or_from_a_picture() {
     assert_eq!(psf("image = \"k.exr\", image_pitch_um = 2, image_wavelength_nm = 550"), "");
     let says = |keys: &str, words: [&str; 2]| {
         let message = psf(keys);
-        assert!(message.starts_with("camera.toml:2:") && words.iter().all(|w| message.contains(w)), "{keys}: {message}");
+        assert!(
+            message.starts_with("camera.toml:2:") && words.iter().all(|w| message.contains(w)),
+            "{keys}: {message}"
+        );
         assert_eq!(message.lines().count(), 1, "{message}");
     };
     says("image = \"k.exr\"", ["effects.psf.image:", "add \"image_pitch_um\""]);
@@ -266,7 +269,8 @@ fn an_aperture_says_what_it_means() {
 #[test]
 fn openings_contradict_what_a_surface_cannot_be() {
     let lamp = "type = \"point\"\nposition_m = [0, 0, 3]\nintensity_cd = 10\nilluminant = \"E\"";
-    let message = light(&format!("{lamp}\nattenuation_per_m = 0.1\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
+    let message =
+        light(&format!("{lamp}\nattenuation_per_m = 0.1\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
     assert!(message.contains("lights.l.attenuation_per_m: \"attenuation_per_m\" contradicts \"opening\""), "{message}");
     let message = light(&format!("{lamp}\nopening = {{ shape = \"file\" }}"));
     assert!(message.contains("lights.l.opening: shape = \"file\" has no effect here"), "{message}");

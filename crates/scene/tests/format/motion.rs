@@ -40,7 +40,10 @@ fn frames_that_are_not_there_or_carry_themselves() {
     assert!(framed("").contains("there is no frame \"car\"; define the frame, the scene has none"), "{}", framed(""));
     assert_eq!(framed(&frame("car", "position_m = [5, 0, 1]")), "");
     let unknown_parent = framed(&frame("car", "parent = \"roda\"\n[[scene.frames]]\nname = \"road\""));
-    assert!(unknown_parent.contains("scene.frames.car.parent: there is no frame \"roda\"; did you mean \"road\"?"), "{unknown_parent}");
+    assert!(
+        unknown_parent.contains("scene.frames.car.parent: there is no frame \"roda\"; did you mean \"road\"?"),
+        "{unknown_parent}"
+    );
     let circle = framed(&[frame("car", "parent = \"arm\""), frame("arm", "parent = \"car\"")].concat());
     assert!(
         circle.contains("scene.frames.car.parent: the frame carries itself: car in arm in car; name another parent")

@@ -16,7 +16,8 @@ fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
     if of("not").is_some_and(|not| misfit(value, not, path).is_none()) {
         return fail("is excluded by");
     }
-    if let Some(problem) = of("allOf").and_then(Json::as_array).into_iter().flatten().find_map(|s| misfit(value, s, path))
+    if let Some(problem) =
+        of("allOf").and_then(Json::as_array).into_iter().flatten().find_map(|s| misfit(value, s, path))
     {
         return Some(problem);
     }

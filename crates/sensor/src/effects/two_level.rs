@@ -51,7 +51,12 @@ pub(crate) struct RandomPurposes {
 }
 
 /// The sites of a capture's array, and those at their upper level, given the levels `before` in the last frame.
-pub(crate) fn next_levels(two: &TwoLevel, purposes: RandomPurposes, context: &Context, before: &[bool]) -> (Vec<RtsPixel>, Vec<bool>) {
+pub(crate) fn next_levels(
+    two: &TwoLevel,
+    purposes: RandomPurposes,
+    context: &Context,
+    before: &[bool],
+) -> (Vec<RtsPixel>, Vec<bool>) {
     let key = context.pattern(purposes.which);
     let mut sites = Vec::new();
     for y in 0..context.height as u32 {
@@ -120,8 +125,10 @@ struct PreparedRts {
 
 impl PreparedRts {
     fn new(sites: &[RtsPixel], high: &[bool]) -> Self {
-        let half =
-            |(site, high): (&RtsPixel, &bool)| RtsPixel { amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude, ..*site };
+        let half = |(site, high): (&RtsPixel, &bool)| RtsPixel {
+            amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude,
+            ..*site
+        };
         Self { halves: sites.iter().zip(high).map(half).collect() }
     }
 }
@@ -151,7 +158,12 @@ mod tests {
             let purposes = RandomPurposes { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
             let address = FrameAddress { seed: 1, camera: 0, frame, capture: 0 };
             let operation = p.operation(p.described_point());
-            next_levels(&two, purposes, &Context { facts: p.facts(), operation, address, width: 200, height: 200 }, before)
+            next_levels(
+                &two,
+                purposes,
+                &Context { facts: p.facts(), operation, address, width: 200, height: 200 },
+                before,
+            )
         };
         let (sites, mut high) = frame(0, &[]);
         let n = sites.len() as f64;

@@ -219,7 +219,12 @@ impl Sensor {
     }
 
     /// The raw of the captures: binned numbers, the region that is read, invalid means.
-    fn raw(&self, results: CaptureResults, array: &Plane<MeanElectrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
+    fn raw(
+        &self,
+        results: CaptureResults,
+        array: &Plane<MeanElectrons>,
+        point: OperatingPoint,
+    ) -> (Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;
         let CaptureResults { mut numbers, mut signal_breakdown, accounts } = results;

@@ -198,7 +198,8 @@ fn causes_add_up_to_the_digital_number_and_do_not_change_it() {
     for p in [one_dn_an_electron(), everything()] {
         let sensor = Sensor::new(p).expect("legal");
         let (after, raw) = sensor.step(SensorState::default(), &scene(), ADDRESS);
-        let (state, raw_with_breakdown, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &scene(), ADDRESS);
+        let (state, raw_with_breakdown, signal_breakdown) =
+            sensor.step_with_breakdown(SensorState::default(), &scene(), ADDRESS);
         assert_eq!((&after, &raw), (&state, &raw_with_breakdown));
         let read_out = &sensor.parameters().read_out;
         let gain = read_out.gain_dn_e * read_out.digital_gain;

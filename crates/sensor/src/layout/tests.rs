@@ -95,8 +95,11 @@ fn optical_black_sees_heat_and_no_light() {
     let black = raw.linear().optical_black.expect("rows without light");
     assert!(black.height() == 2 && black.samples().iter().all(|dn| *dn == 10));
     p.read_out.layout.optical_black = OpticalBlack { rows: 0, columns: 3 };
-    let optical_black = run(&p, &Plane::filled(5, 4, 500.0), ADDRESS).linear().optical_black.expect("columns without light");
-    assert!((optical_black.width(), optical_black.height()) == (3, 4) && optical_black.samples().iter().all(|dn| *dn == 10));
+    let optical_black =
+        run(&p, &Plane::filled(5, 4, 500.0), ADDRESS).linear().optical_black.expect("columns without light");
+    assert!(
+        (optical_black.width(), optical_black.height()) == (3, 4) && optical_black.samples().iter().all(|dn| *dn == 10)
+    );
     assert_eq!(raw.image, Region { x: 3, y: 2, width: 5, height: 4 });
     for (x, y) in (0..48).map(|i| (i % 8, i / 8)) {
         assert_eq!(raw.plane.at(x, y), if x >= 3 && y >= 2 { 510 } else { 10 });

@@ -49,7 +49,12 @@ pub(crate) struct Deviations {
 }
 
 impl Deviations {
-    pub(crate) fn new(sigmas: Sigmas, purposes: PartPurposes, key: impl Fn(NoiseDraw) -> NoiseKey, width: usize) -> Self {
+    pub(crate) fn new(
+        sigmas: Sigmas,
+        purposes: PartPurposes,
+        key: impl Fn(NoiseDraw) -> NoiseKey,
+        width: usize,
+    ) -> Self {
         let [white, row, column] = purposes.map(key);
         let part = |sigma: f64, key| (sigma > 0.0).then_some((sigma, key));
         let columns = match part(sigmas.column, column) {

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use etendue_core::maths;
 
 use super::{
-    BANDS, MEANS, BandWeights, BandRow, SHAPES, SkyError, check_albedo, check_elevation, check_turbidity, sky_spectrum,
+    BANDS, BandRow, BandWeights, MEANS, SHAPES, SkyError, check_albedo, check_elevation, check_turbidity, sky_spectrum,
     turbidity_step,
 };
 use crate::Spectrum;

@@ -7,7 +7,7 @@ use super::build::over_triangles;
 use super::collapse::{WideTree, collapse};
 use super::lanes::{LaneTask, Lanes, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, HalfPacket, PrimitiveNames, Packet, RayLanes};
+use super::packet::{BestHit, HalfPacket, Packet, PrimitiveNames, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;

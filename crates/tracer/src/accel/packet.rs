@@ -10,7 +10,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::lanes::{F32x8, F32x4, Lanes};
+use super::lanes::{F32x4, F32x8, Lanes};
 use super::ray::LocalRay;
 use crate::geometry::Hit;
 
@@ -118,7 +118,10 @@ impl HalfPacket {
     pub(super) const SIZE: usize = HALF_SIZE;
 
     /// Halves, one or two, of at most eight triangles by their numbers.
-    pub(super) fn from_primitives(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> impl Iterator<Item = Self> {
+    pub(super) fn from_primitives(
+        primitives: &[u32],
+        corners: impl Fn(u32) -> [Vec3; 3],
+    ) -> impl Iterator<Item = Self> {
         primitives.chunks(HALF_SIZE).map(move |chunk| Self::new(chunk, &corners))
     }
 

@@ -104,5 +104,9 @@ fn check_sphere(index: usize, placed: &Placement, instance: &Instance, world: &W
     let reach = placed
         .rough_bounds(instance, world.meshes())
         .map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-    if (0.0..=MAX_DISTANCE).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
+    if (0.0..=MAX_DISTANCE).contains(&reach) {
+        Ok(())
+    } else {
+        Err(WorldError::Sphere { instance: index, reach_m: reach })
+    }
 }

@@ -5,7 +5,7 @@
 
 use core::arch::x86_64::*;
 
-use super::lanes::{F32x8, F32x4, LaneTask, Lanes, PlaneOffset};
+use super::lanes::{F32x4, F32x8, LaneTask, Lanes, PlaneOffset};
 
 /// Proof that this machine has AVX2 with fused multiplication and bit-manipulation instructions.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use etendue_core::{Accelerator, TimeInterval};
 use super::collapse::{WideTree, collapse};
 use super::lanes::{LaneTask, Lanes, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, HalfPacket, PrimitiveNames, Packet, RayLanes};
+use super::packet::{BestHit, HalfPacket, Packet, PrimitiveNames, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use super::{blas::Blas, boxes::Box3, build::over_moving};

@@ -2,7 +2,7 @@
 
 use super::lanes::{LaneTask, Lanes, Plain, Visit};
 use super::node::{Child, Node};
-use super::packet::{BestHit, PrimitiveNames, PrimitiveHit};
+use super::packet::{BestHit, PrimitiveHit, PrimitiveNames};
 use super::ray::{LocalRay, NO_PRIMITIVE, SlabRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
@@ -77,7 +77,12 @@ pub(crate) struct Tlas<'w> {
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame; small ones are merged.
-    pub(crate) fn with_merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
+    pub(crate) fn with_merging(
+        world: &'w World,
+        mut placed: Vec<Placement>,
+        interval: TimeInterval,
+        simd: Simd,
+    ) -> Self {
         let merged = MergedMesh::new(world, &mut placed, interval);
         Self::new(world, placed, merged, interval, simd)
     }

@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use super::lanes::{F32x8, F32x4, LaneTask, Lanes, PlaneOffset, Plain, Visit};
+use super::lanes::{F32x4, F32x8, LaneTask, Lanes, Plain, PlaneOffset, Visit};
 
 /// Number of visits of one or more rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -75,9 +75,11 @@ impl<'m> MeshPose<'m> {
     pub(crate) fn facet(&self, primitive: u32) -> TriangleFacet {
         match self.moved {
             None => *self.mesh.facet(primitive),
-            Some(_) => {
-                TriangleFacet::new(self.corners(primitive), self.normals(primitive), self.mesh.slots()[primitive as usize])
-            }
+            Some(_) => TriangleFacet::new(
+                self.corners(primitive),
+                self.normals(primitive),
+                self.mesh.slots()[primitive as usize],
+            ),
         }
     }
 

@@ -90,7 +90,10 @@ const EMPTY: u32 = u32::MAX;
 
 impl Guide {
     /// From the statistics in cubes and, aggregated from these, in those four times as wide.
-    pub(super) fn new(fine: &BTreeMap<GuideCell, CellStatistics>, coarse: &BTreeMap<GuideCell, CellStatistics>) -> Self {
+    pub(super) fn new(
+        fine: &BTreeMap<GuideCell, CellStatistics>,
+        coarse: &BTreeMap<GuideCell, CellStatistics>,
+    ) -> Self {
         let wide: BTreeMap<GuideCell, [f64; BINS]> =
             coarse.iter().map(|(place, statistics)| (*place, squares(statistics, &[1.0; BINS]))).collect();
         let places = wide.len() + fine.len();
@@ -144,7 +147,8 @@ impl Guide {
 
 /// Mean squares by bin, over their mean. If there were few paths they are close to the `expected` values and to those of neighbouring bins.
 fn squares(statistics: &CellStatistics, expected: &[f64; BINS]) -> [f64; BINS] {
-    let mean = statistics.iter().map(|bin| bin.squares).sum::<f64>() / statistics.iter().map(|bin| bin.paths).sum::<f64>();
+    let mean =
+        statistics.iter().map(|bin| bin.squares).sum::<f64>() / statistics.iter().map(|bin| bin.paths).sum::<f64>();
     let of = |bin: usize| (statistics[bin].squares / mean, statistics[bin].paths);
     let squares: [f64; BINS] = core::array::from_fn(|bin| {
         let around = neighbours(bin).map(of).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
@@ -227,7 +231,10 @@ impl Training {
 }
 
 /// Statistics of the places that enough paths have left.
-fn statistics_by_cell(sums: &[TrainingSum], place_of: impl Fn(GuideCell) -> GuideCell) -> BTreeMap<GuideCell, CellStatistics> {
+fn statistics_by_cell(
+    sums: &[TrainingSum],
+    place_of: impl Fn(GuideCell) -> GuideCell,
+) -> BTreeMap<GuideCell, CellStatistics> {
     let mut paths: BTreeMap<GuideCell, u32> = BTreeMap::new();
     for TrainingSum { place, sum, .. } in sums {
         *paths.entry(place_of(*place)).or_default() += sum.paths;

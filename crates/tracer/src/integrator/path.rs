@@ -267,7 +267,14 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
         let (position, time_s) = (vertex.point.position, vertex.point.time_s);
         let samples = self.branch_count(vertex);
-        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_directly_visible(), samples, time_s };
+        let receiver = LightSampleContext {
+            position,
+            normal,
+            gloss,
+            in_view: self.history.is_directly_visible(),
+            samples,
+            time_s,
+        };
         self.sample_direct_light(vertex, &receiver);
         if samples > 1 { self.branch(vertex, &receiver) } else { self.continue_from(vertex, &receiver) }
     }

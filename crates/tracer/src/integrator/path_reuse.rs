@@ -287,7 +287,11 @@ mod tests {
             let mut turns = [0; PARTS];
             for sample in 0..64 {
                 let stream = PathStream::new(&address, sample);
-                let ray = FieldRay { ray: Ray::new(Vec3::ZERO, Vec3::Z, 0.0), stream, light_interval: TimeInterval::default() };
+                let ray = FieldRay {
+                    ray: Ray::new(Vec3::ZERO, Vec3::Z, 0.0),
+                    stream,
+                    light_interval: TimeInterval::default(),
+                };
                 turns[TailSelection::new(&[ray; 16], samples).part] += 1;
             }
             assert_eq!(turns, [64 / PARTS; PARTS], "{samples}");

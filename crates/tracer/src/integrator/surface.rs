@@ -193,7 +193,8 @@ mod tests {
         for density in [0.4_f32, 1.3, 4.0, 30.0, 1000.0, 1e6] {
             for cos in [1.0_f32, 0.7, 0.2, 0.03, 1e-3] {
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-                let peak = |alpha| Ggx::from_alpha(alpha).map_or(f32::INFINITY, |facets| facets.reflect_pdf(wo, Vec3::Z));
+                let peak =
+                    |alpha| Ggx::from_alpha(alpha).map_or(f32::INFINITY, |facets| facets.reflect_pdf(wo, Vec3::Z));
                 let alpha = alpha_of_density(density, cos);
                 assert!(alpha == 1.0 || peak(alpha) <= density * 1.001, "{density} {cos}: {}", peak(alpha));
                 assert!(peak(0.6 * alpha) > density || alpha < 1e-4, "{density} {cos}: {alpha}");

@@ -67,7 +67,8 @@ struct MeanEmission {
 
 impl<'a> EmissionWeights<'a> {
     fn new(material_table: &'a MaterialTable, range: WavelengthRange, interval: TimeInterval) -> Self {
-        let counts = |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.selection_level(interval));
+        let counts =
+            |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.selection_level(interval));
         let weigh = |e: &Emission| MeanEmission {
             radiance: e.mean_radiance(material_table.textures(), range.low_nm, range.high_nm) * counts(e),
             is_two_sided: e.sides == EmissionSides::Both,
@@ -219,7 +220,13 @@ impl SceneLights {
         self.primitives.push(lights);
     }
 
-    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: LightPlacement, weights: &EmissionWeights<'_>) {
+    fn add_sphere(
+        &mut self,
+        radius_m: f64,
+        material: MaterialId,
+        place: LightPlacement,
+        weights: &EmissionWeights<'_>,
+    ) {
         let light = weights.emission(material).and_then(|emission| {
             let (light, bounds) = place.sphere(radius_m, material, weights.material_table, emission.radiance)?;
             Some(self.add(bounds, light))

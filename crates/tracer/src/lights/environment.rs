@@ -13,7 +13,7 @@ use etendue_spectra::{Spectrum, upsample};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::patches::{EnvironmentCell, patches};
-use super::{MAX_LIGHT_VALUE, LightSample, sky::SkyEnvironment};
+use super::{LightSample, MAX_LIGHT_VALUE, sky::SkyEnvironment};
 
 /// Surroundings of the scene.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use core::f32::consts::{FRAC_1_PI, PI};
 
 use glam::{Mat3, Vec3};
 
-use crate::materials::{Gloss, GlossLobe, LobeCentre, ShadingFrame, MAX_GLOSS_LOBES, schlick};
+use crate::materials::{Gloss, GlossLobe, LobeCentre, MAX_GLOSS_LOBES, ShadingFrame, schlick};
 
 /// Minimum diffuse part, as a fraction of the light that the lobes reflect.
 const MIN_DIFFUSE_FRACTION: f32 = 0.05;

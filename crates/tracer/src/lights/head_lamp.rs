@@ -49,7 +49,8 @@ fn low(v: f64, h: f64) -> f64 {
     let above = (v - cut_off(h)) / CUT_OFF_WIDTH_DEG;
     let passed = 1.0 / (1.0 + maths::f64::exp(above.min(700.0)));
     let side = if h < 1.0 { 3.5 } else { 5.0 };
-    let beam = 24_000.0 * gaussian(h - 1.0, side) * gaussian(v + 1.2, 2.0) + 3_500.0 * gaussian(h, 20.0) * gaussian(v + 3.0, 5.0);
+    let beam = 24_000.0 * gaussian(h - 1.0, side) * gaussian(v + 1.2, 2.0)
+        + 3_500.0 * gaussian(h, 20.0) * gaussian(v + 3.0, 5.0);
     160.0 * gaussian(h, 15.0) * gaussian(v, 5.0) + passed * beam
 }
 

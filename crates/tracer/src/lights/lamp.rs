@@ -14,7 +14,7 @@ use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
 use super::{
-    MAX_LIGHT_VALUE, LightSample, LightSampleContext, light_sample::LampIrradiance, opening::Opening, profile::Profile,
+    LightSample, LightSampleContext, MAX_LIGHT_VALUE, light_sample::LampIrradiance, opening::Opening, profile::Profile,
     tree::LightBounds,
 };
 use crate::materials::{EmissionQuery, selection_level};
@@ -144,7 +144,8 @@ impl Lamp {
             return Err(LampError::AttenuatedOpening { per_m: self.attenuation_per_m });
         }
         let level = self.modulation.as_ref().map_or(1.0, |modulation| modulation.max_level() as f32);
-        let radiance = self.intensity.max_value() * level * self.profile.peak() as f32 / opening.min_projected_area_m2();
+        let radiance =
+            self.intensity.max_value() * level * self.profile.peak() as f32 / opening.min_projected_area_m2();
         if radiance <= MAX_LIGHT_VALUE {
             Ok(Self { opening: Some((opening, instance)), ..self })
         } else {

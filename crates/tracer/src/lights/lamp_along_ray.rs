@@ -160,7 +160,8 @@ impl Lights {
         let (mut total, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
         for light in &self.points {
             let along = self.lamp_near_ray(*light, ray, segment);
-            let places = EVALUATION_FRACTIONS.map(|(fraction, weight)| weight * self.visible_light(&along, ray, fraction, &visibility));
+            let places = EVALUATION_FRACTIONS
+                .map(|(fraction, weight)| weight * self.visible_light(&along, ray, fraction, &visibility));
             let counts = places.iter().sum::<f32>() * along.angles.extent_rad() / along.angles.away_m;
             if counts > 0.0 && counts.is_finite() {
                 // Each lamp replaces the one before with the probability of its fraction so far. The remainder of the number stays uniform.
@@ -199,11 +200,17 @@ impl Lights {
             Light::MovingLamp(lamp) => lamp.point(ray.time_s),
             _ => (Vec3::ZERO, 0.0),
         };
-        LampNearRay { light, position, max_intensity: greatest: maximum, angles: SegmentAngles::new(position, ray, segment) }
+        LampNearRay { light, position, max_intensity: maximum, angles: SegmentAngles::new(position, ray, segment) }
     }
 
     /// Approximate visible light of a lamp per angle at the lamp, at a fraction of that angle.
-    fn visible_light(&self, lamp: &LampNearRay, ray: &Ray, fraction: f32, visibility: impl Fn(f32, Vec3) -> f32) -> f32 {
+    fn visible_light(
+        &self,
+        lamp: &LampNearRay,
+        ray: &Ray,
+        fraction: f32,
+        visibility: impl Fn(f32, Vec3) -> f32,
+    ) -> f32 {
         let t = lamp.angles.place(fraction);
         let place = ray.at(t);
         let receiver = LightSampleContext::in_medium(place, ray.time_s);

@@ -9,7 +9,7 @@
 //! often enough. A sample that falls on a sun behind the receiver's surface evaluates nothing, so that surfaces in shade do not sample the
 //! surroundings more often either. Figures are in `docs/decisions/surroundings.md`.
 
-use super::tree::{LightBounds, LightTree, DIFFUSE_FRACTION, TreeStart, TreeQuery};
+use super::tree::{DIFFUSE_FRACTION, LightBounds, LightTree, TreeQuery, TreeStart};
 use super::{LightSampleContext, light_sample::LampIrradiance, sun::Sun};
 use crate::ALL_EFFECTS;
 
@@ -154,7 +154,11 @@ impl LightSampler {
 
     /// The fraction of the samples for lights in the scene.
     #[inline(always)]
-    pub(super) fn local_fraction<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, start: &TreeStart) -> f32 {
+    pub(super) fn local_fraction<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        query: &TreeQuery<'_, F>,
+        start: &TreeStart,
+    ) -> f32 {
         let Some(tree) = &self.tree else { return 0.0 };
         if !(ALL_EFFECTS && self.has_distant) {
             return 1.0;

@@ -40,7 +40,11 @@ impl MovingLight {
         material: MaterialId,
         material_table: &MaterialTable,
     ) -> Self {
-        Self { shape: MovingShape::Sphere { radius_m, surface: SphereSurface::new(material, material_table) }, motion, material }
+        Self {
+            shape: MovingShape::Sphere { radius_m, surface: SphereSurface::new(material, material_table) },
+            motion,
+            material,
+        }
     }
 
     /// Number of its triangles.
@@ -63,8 +67,10 @@ impl MovingLight {
                 self.motion.bounds(bounds, low, high)
             }
             MovingShape::Sphere { radius_m, surface } => {
-                let moments =
-                    self.motion.moments().map(|place| SphereLight::with_surface(*radius_m, &place, self.material, *surface));
+                let moments = self
+                    .motion
+                    .moments()
+                    .map(|place| SphereLight::with_surface(*radius_m, &place, self.material, *surface));
                 let bounds = moments.map(|light| light.bounds(radiance)).collect();
                 let (low, high) = to_world.bounds_of_ball(*interval, DVec3::ZERO, *radius_m);
                 self.motion.bounds(bounds, low, high)

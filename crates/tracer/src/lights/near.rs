@@ -223,7 +223,8 @@ mod tests {
                 let place = near.place(u).expect("a point") * CELLS as f32;
                 counts[(place.x as usize).min(CELLS - 1) * CELLS + (place.y as usize).min(CELLS - 1)] += 1;
             }
-            let parts: Vec<f64> = (0..CELLS * CELLS).map(|k| part_solid_angle_sr(&flat, [k / CELLS, k % CELLS])).collect();
+            let parts: Vec<f64> =
+                (0..CELLS * CELLS).map(|k| part_solid_angle_sr(&flat, [k / CELLS, k % CELLS])).collect();
             let total: f64 = parts.iter().sum();
             assert!((total / near.solid_angle_sr - 1.0).abs() < 1e-5, "{flat:?}: {total} {}", near.solid_angle_sr);
             assert!((f64::from(near.per_sr) * total - 1.0).abs() < 1e-5);

@@ -3,7 +3,7 @@
 use etendue_core::Spectral;
 use glam::{DAffine3, Vec2, Vec3};
 
-use super::opening::{FacetSample, OpeningFacets, Opening};
+use super::opening::{FacetSample, Opening, OpeningFacets};
 use super::{
     LightHit, LightSample, LightSampleContext, ROUNDING, lamp::LampLight, light_sample::LampIrradiance,
     sphere::SphereLight, tree::LightBounds,

@@ -7,7 +7,7 @@ use super::collect::{self, LightError};
 use super::light::{Light, Primitives};
 use super::light_sample::{DistantLight, LampIrradiance, LightHit, LightSample, LightSampleContext};
 use super::light_sampler::{LightId, LightSampler, SampledLight, WeightedSun};
-use super::tree::{TreeStart, TreeQuery};
+use super::tree::{TreeQuery, TreeStart};
 use super::{environment::Environment, lamp::Lamp, sun::Sun};
 use crate::materials::{EmissionQuery, MaterialTable};
 use crate::{ALL_EFFECTS, geometry::SurfacePoint, is_optional, render_space::RenderSpace};

@@ -77,7 +77,8 @@ impl SkyEnvironment {
     pub fn new(model: &SkyModel, azimuth_rad: f64, albedo: f64, sun_on_ground: &Spectrum) -> Option<Self> {
         let irradiance = model.horizontal_irradiance();
         let fraction = albedo / core::f64::consts::PI;
-        let ground = Spectrum::from_fn(|nm| fraction * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
+        let ground =
+            Spectrum::from_fn(|nm| fraction * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
         let emission = towards(azimuth_rad, model.glow_elevation_rad());
         let [gradient, around] = tables(model);
         let weights = weights(model);
@@ -235,7 +236,8 @@ mod tests {
         for (turbidity, elevation_deg) in [(1.0, 2.0), (3.0, 40.0), (10.0, 89.0), (2.0, -4.0)] {
             let (model, sky) = sky(turbidity, elevation_deg);
             let emission = towards(0.7, model.glow_elevation_rad());
-            let near = (0..50).map(|i| (emission + 1e-3 * f64::from(i) * DVec3::new(0.3, 0.1, 1.0)).normalize().as_vec3());
+            let near =
+                (0..50).map(|i| (emission + 1e-3 * f64::from(i) * DVec3::new(0.3, 0.1, 1.0)).normalize().as_vec3());
             for direction in lattice(2000).map(uniform_sphere).chain(near).filter(|d| d.z >= 0.0) {
                 let cos_sun = direction.as_dvec3().dot(emission).clamp(-1.0, 1.0);
                 let exact = model.radiance(f64::from(direction.z), cos_sun);

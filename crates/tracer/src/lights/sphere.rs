@@ -64,7 +64,12 @@ impl SphereLight {
     }
 
     /// A sphere of a material with these properties.
-    pub(super) fn with_surface(radius_m: f64, to_render: &DAffine3, material: MaterialId, surface: SphereSurface) -> Self {
+    pub(super) fn with_surface(
+        radius_m: f64,
+        to_render: &DAffine3,
+        material: MaterialId,
+        surface: SphereSurface,
+    ) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -123,7 +128,7 @@ impl SphereLight {
         let (uv, uv_per_m) = self.texture(self.linear.transpose() * normal);
         let pdf = 1.0 / (TAU * cone.one_minus_cos);
         let to_light = self.centre + normal * radius - from;
-        SurfaceSample { to_light: way: to_light, distance: to_light.length(), normal, pdf, uv, uv_per_m }
+        SurfaceSample { to_light, distance: to_light.length(), normal, pdf, uv, uv_per_m }
     }
 
     fn sample_area(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
@@ -135,7 +140,7 @@ impl SphereLight {
         let distance = to_light.length();
         let pdf = solid_angle_pdf(per_area, to_light, distance, normal);
         let (uv, uv_per_m) = self.texture(own);
-        (pdf > 0.0).then_some(SurfaceSample { to_light: way: to_light, distance, normal, pdf, uv, uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample { to_light, distance, normal, pdf, uv, uv_per_m })
     }
 
     /// Texture coordinates where the sphere's own normal is along `own`, and their change per metre.

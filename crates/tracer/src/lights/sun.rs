@@ -12,7 +12,7 @@ use etendue_spectra::Spectrum;
 use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, sun as model};
 use glam::{DVec3, Vec2, Vec3};
 
-use super::{MAX_LIGHT_VALUE, LightSample};
+use super::{LightSample, MAX_LIGHT_VALUE};
 
 /// Mean angular diameter of the sun, degrees.
 pub const SUN_ANGULAR_DIAMETER_DEG: f64 = 0.5338;
@@ -73,7 +73,11 @@ impl Sun {
     ///
     /// # Errors
     /// As [`Sun::of_radiance`].
-    pub fn from_irradiance(direction: DVec3, angular_diameter_deg: f64, irradiance: &Spectrum) -> Result<Self, SunError> {
+    pub fn from_irradiance(
+        direction: DVec3,
+        angular_diameter_deg: f64,
+        irradiance: &Spectrum,
+    ) -> Result<Self, SunError> {
         let sun = Self::from_radiance(direction, angular_diameter_deg, irradiance.clone())?;
         let radiance = irradiance.scaled(1.0 / (core::f64::consts::PI * sun.sin2));
         Self::from_radiance(direction, angular_diameter_deg, radiance)
@@ -173,7 +177,8 @@ mod tests {
     #[test]
     fn irradiance_is_radiance_times_the_projected_solid_angle() {
         let irradiance = Spectrum::constant(1.5);
-        let sun = Sun::from_irradiance(DVec3::new(1.0, 2.0, 3.0), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
+        let sun =
+            Sun::from_irradiance(DVec3::new(1.0, 2.0, 3.0), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
         assert!((f64::from(sun.radiance().at(550.0)) * 6.8171e-5 - 1.5).abs() < 1e-4);
         assert!((sun.mean_irradiance(400.0, 700.0) - 1.5).abs() < 1e-6);
     }
@@ -196,7 +201,8 @@ mod tests {
     #[test]
     fn a_dark_limb_keeps_the_irradiance_and_has_the_centre_of_the_table() {
         let irradiance = model::normal_irradiance(3.0, 1.0).expect("a sun");
-        let sun = Sun::from_irradiance(DVec3::new(0.2, 0.5, 0.7), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
+        let sun =
+            Sun::from_irradiance(DVec3::new(0.2, 0.5, 0.7), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
         let sun = sun.with_limb();
         let table = model::radiance(3.0, 1.0).expect("a radiance");
         for nm in [330.0, 450.0, 555.0, 700.0, 1000.0] {

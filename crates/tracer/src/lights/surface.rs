@@ -57,7 +57,8 @@ impl SurfaceEmission<'_> {
     ) -> Option<LightSample<N>> {
         let distance = surface.distance;
         let direction = surface.direction()?;
-        let emission = self.material_table.emission(self.material).filter(|e| e.emits_towards(surface.normal, -direction))?;
+        let emission =
+            self.material_table.emission(self.material).filter(|e| e.emits_towards(surface.normal, -direction))?;
         let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
         Some(LightSample {
             direction,

@@ -106,7 +106,14 @@ impl TriangleLight {
         let distance = to_light.length();
         let pdf = self.density(near.as_ref(), to_light, distance);
         let uv = self.uvs[0] * (1.0 - b.x - b.y) + self.uvs[1] * b.x + self.uvs[2] * b.y;
-        (pdf > 0.0).then_some(SurfaceSample { to_light: way: to_light, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample {
+            to_light,
+            distance,
+            normal: self.normal,
+            pdf,
+            uv,
+            uv_per_m: self.uv_per_m,
+        })
     }
 
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
@@ -149,7 +156,8 @@ impl FlatShape {
     /// `None` if the two form no parallelogram, to the rounding of coordinates.
     pub(super) fn two(mesh: &Mesh, primitives: [usize; 2]) -> Option<Self> {
         let corners = primitives.map(|primitive| TriangleCorners::new(mesh, primitive));
-        let turn = (0..9).find(|turn| corners[0].rotated(turn % 3).forms_parallelogram_with(&corners[1].rotated(turn / 3)))?;
+        let turn =
+            (0..9).find(|turn| corners[0].rotated(turn % 3).forms_parallelogram_with(&corners[1].rotated(turn / 3)))?;
         Some(Self { near: corners[0].rotated(turn % 3), far: Some(corners[1].rotated(turn / 3)) })
     }
 

@@ -179,7 +179,8 @@ impl<const N: usize> BlinnPhongBsdf<'_, N> {
         let lobe_pdf = (n + 2.0) / TAU * power * h.z / (4.0 * wo.dot(h)).max(1e-20);
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.gloss * (scale * power * wi.z),
-            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * lobe_pdf,
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z)
+                + discrete_sampler.probability(1) * lobe_pdf,
         }
     }
 }

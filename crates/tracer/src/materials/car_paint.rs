@@ -284,7 +284,8 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         let (flake, flake_pdf) = self.flake(wo, wi);
         let diffuse = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
         let mut value_cos = self.flakes * (both * flake) + diffuse * (both * FRAC_1_PI * wi.z);
-        let mut pdf = discrete_sampler.probability(1) * flake_pdf + discrete_sampler.probability(2) * cosine_hemisphere_pdf(wi.z);
+        let mut pdf =
+            discrete_sampler.probability(1) * flake_pdf + discrete_sampler.probability(2) * cosine_hemisphere_pdf(wi.z);
         if let Some(facets) = self.coat_facets {
             let m = half_vector(wo, wi);
             let reflected = if self.is_widened { 1.0 - self.through(wo.z) } else { fresnel::dielectric(wo.dot(m), n) };

@@ -216,7 +216,8 @@ impl<const N: usize> ClothBsdf<'_, N> {
         let left = self.colour.map(|c| (1.0 - c * wo_albedo) * (1.0 - c * wi_albedo));
         BsdfValue {
             value_cos: self.under * left * (FRAC_1_PI * wi.z) + self.colour * self.cloth.sheen.value_cos(wo, wi),
-            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * self.sheen_pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z)
+                + discrete_sampler.probability(1) * self.sheen_pdf(wo, wi),
         }
     }
 

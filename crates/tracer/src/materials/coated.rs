@@ -21,7 +21,9 @@ use glam::{Vec2, Vec3};
 use super::microfacet::{Distribution, Ggx, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
-use super::{energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::VisibleFacets};
+use super::{
+    energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::VisibleFacets,
+};
 
 /// Range of a coat's refractive index: from a little above air's, below which neither f32 nor the table would resolve the coat, to that of
 /// germanium. Scene files state the same range.
@@ -89,7 +91,7 @@ impl SurfaceModel for Coated {
             place,
             mean_transmittance: mean,
             base_mean: base.mean(),
-            base: seen: base,
+            base,
         }
     }
 
@@ -183,7 +185,9 @@ fn reflectance_of_coat(n: f32, facets: Option<Ggx>, cos_o: f32) -> f64 {
     let fresnel = |cos: f64| f64::from(fresnel::dielectric(cos as f32, n));
     match facets {
         None => fresnel(f64::from(cos_o)),
-        Some(facets) => VisibleFacets::new(Distribution::Ggx, facets.alpha, cos_o).reflected(|cos_facet, _| fresnel(cos_facet)),
+        Some(facets) => {
+            VisibleFacets::new(Distribution::Ggx, facets.alpha, cos_o).reflected(|cos_facet, _| fresnel(cos_facet))
+        }
     }
 }
 

@@ -73,7 +73,8 @@ impl SurfaceModel for Dielectric {
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DielectricBsdf {
         let eta = if point.front { self.n } else { 1.0 / self.n };
-        let facets = Ggx::from_alpha(point.widened(point.factor(self.alpha))).filter(|_| self.n - 1.0 >= MIN_ROUGH_INDEX_STEP);
+        let facets =
+            Ggx::from_alpha(point.widened(point.factor(self.alpha))).filter(|_| self.n - 1.0 >= MIN_ROUGH_INDEX_STEP);
         DielectricBsdf { eta, facets }
     }
 

@@ -74,7 +74,7 @@ impl Gloss {
 
     /// A diffuse part alone, of mean BSDF `matt`, 1/sr.
     pub(super) fn from_diffuse(diffuse: f32) -> Self {
-        Self { diffuse: matt: diffuse, ..Self::MATT }
+        Self { diffuse, ..Self::MATT }
     }
 
     /// Keeps only the lobes that `keep` selects.
@@ -89,8 +89,8 @@ impl Gloss {
 
     /// Adds a lobe; of too many the weakest is left out.
     pub(super) fn with(mut self, lobe: GlossLobe) -> Self {
-        let weakest =
-            (0..MAX_GLOSS_LOBES).fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
+        let weakest = (0..MAX_GLOSS_LOBES)
+            .fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
         if lobe.peak > self.lobes[weakest].peak && lobe.peak.is_finite() {
             self.lobes[weakest] = lobe;
         }

@@ -105,7 +105,7 @@ impl LossTable {
     pub(super) fn at_alpha(&self, alpha: f32) -> RoughnessLoss<'_> {
         let ((row, fraction), (node, beyond)) = (row_of(alpha), mean_of(alpha));
         let mean = self.mean[node] + (self.mean[node + 1] - self.mean[node]) * beyond;
-        RoughnessLoss { table: self, alpha, row, row_fraction: share: fraction, mean: mean * alpha * alpha }
+        RoughnessLoss { table: self, alpha, row, row_fraction: fraction, mean: mean * alpha * alpha }
     }
 
     /// ∫ (1 − E) μ dμ over each cell of the slant.

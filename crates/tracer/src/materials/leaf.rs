@@ -67,7 +67,7 @@ impl<const N: usize> LeafBsdf<N> {
     fn new(reflectance: Spectral<N>, transmittance: Spectral<N>) -> Self {
         let (r, t) = (reflectance.mean(), transmittance.mean());
         let fraction = if r + t > 0.0 { r / (r + t) } else { 1.0 };
-        Self { reflectance, transmittance, reflected_fraction: share: fraction }
+        Self { reflectance, transmittance, reflected_fraction: fraction }
     }
 }
 

@@ -82,8 +82,8 @@ pub use model::{BsdfSample, BsdfValue, Event};
 pub use parameter::{Factor, Reflectance};
 pub use puddles::{GroundRelief, Puddles};
 pub use retro::{
-    DaytimeBrightness, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
-    Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
+    DaytimeBrightness, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES,
+    SHEETING_COLOURS, Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
 };
 pub use shading::{GreenDirection, NormalMap, ShadingFrame};
 pub use thin_sheet::{ThinSheet, ThinSheetBsdf};

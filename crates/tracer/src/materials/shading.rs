@@ -202,7 +202,11 @@ mod tests {
         let n = mapped_normal([204, 128, 230], GreenDirection::Up, 1.0, normal, [Vec3::X, Vec3::Y]);
         assert!((n.length() - 1.0).abs() < 1e-6 && n.dot(Vec3::new(0.8, 0.0, -0.6)) > 0.5, "{n}");
         assert_eq!(mapped_normal([204, 230, 230], GreenDirection::Up, 1.0, normal, [normal, Vec3::ZERO]), normal);
-        assert_eq!(mapped_normal([0, 0, 0], GreenDirection::Up, 1.0, Vec3::Z, [Vec3::X, Vec3::Y]), Vec3::Z, "below the surface");
+        assert_eq!(
+            mapped_normal([0, 0, 0], GreenDirection::Up, 1.0, Vec3::Z, [Vec3::X, Vec3::Y]),
+            Vec3::Z,
+            "below the surface"
+        );
         assert!(NormalMap::new(TextureId(0), GreenDirection::Up, f64::NAN).is_err());
     }
 }

@@ -72,8 +72,9 @@ impl VisibleFacets {
     /// Fraction of light that leaves after one reflection, for facets whose reflectance `of` depends on the cosine at the facet and on the
     /// cosine at which the light leaves.
     pub(super) fn reflected(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
-        let light =
-            |strip: &SlopeStrip| strip.weight * self.along(strip, self.upward(strip), |cos_facet, up| self.free(up) * of(cos_facet, up));
+        let light = |strip: &SlopeStrip| {
+            strip.weight * self.along(strip, self.upward(strip), |cos_facet, up| self.free(up) * of(cos_facet, up))
+        };
         self.strips().0.iter().map(light).sum()
     }
 
@@ -100,7 +101,9 @@ impl VisibleFacets {
                 let cos = cos.max(1e-15);
                 SlopeStrip { y: sin / cos, stretch: 1.0 / cos, weight: 2.0 * weight * cos }
             }
-            Distribution::Beckmann => SlopeStrip { y: t, stretch: 1.0, weight: 2.0 * weight * FRAC_1_SQRT_PI * exp(-t * t) },
+            Distribution::Beckmann => {
+                SlopeStrip { y: t, stretch: 1.0, weight: 2.0 * weight * FRAC_1_SQRT_PI * exp(-t * t) }
+            }
         }
     }
 

@@ -112,7 +112,12 @@ impl<const N: usize> BsdfModel<N> for ThinSheetBsdf<N> {
             return Some(BsdfSample::mirror(wo, reflected / fraction));
         }
         // If nothing passes, the fraction is 1; NaN if the pane neither reflects nor transmits.
-        (fraction < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - fraction), pdf: 0.0, event: Event::Null })
+        (fraction < 1.0).then(|| BsdfSample {
+            wi: -wo,
+            weight: passed / (1.0 - fraction),
+            pdf: 0.0,
+            event: Event::Null,
+        })
     }
 }
 

@@ -177,8 +177,7 @@ impl<'a> Media<'a> {
                 piece.end = piece.end.min(from);
             } else if t < to {
                 piece.end = piece.end.min(to);
-                piece.majorant_per_m +=
-                    f64::from(placed.medium.optics(peak).max_per_m * placed.medium.max_density());
+                piece.majorant_per_m += f64::from(placed.medium.optics(peak).max_per_m * placed.medium.max_density());
             }
         }
         piece

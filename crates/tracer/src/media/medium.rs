@@ -56,7 +56,7 @@ pub(super) struct MediumOptics {
 impl MediumOptics {
     fn new(extinction: Spectrum, albedo: Spectrum, phase: Arc<Phase>) -> Self {
         let max_per_m = extinction.max_value();
-        Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, max_per_m: greatest_per_m: max_per_m }
+        Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, max_per_m }
     }
 
     /// The same if light scattered by the forward peak, a fraction f, counts as not scattered: β (1 − ω f), albedo ω (1 − f)/(1 − ω f).
@@ -65,7 +65,8 @@ impl MediumOptics {
         let at = |of: &Spectrum, nm: f64| f64::from(of.at(nm as f32));
         let remaining = |nm: f64| 1.0 - at(&self.albedo, nm) * at(&fraction, nm);
         let extinction = Spectrum::from_fn(|nm| at(&self.extinction, nm) * remaining(nm));
-        let albedo = Spectrum::from_fn(|nm| (at(&self.albedo, nm) * (1.0 - at(&fraction, nm)) / remaining(nm)).min(1.0));
+        let albedo =
+            Spectrum::from_fn(|nm| (at(&self.albedo, nm) * (1.0 - at(&fraction, nm)) / remaining(nm)).min(1.0));
         Self::new(extinction, albedo, Arc::new(phase))
     }
 }
@@ -125,7 +126,8 @@ impl Medium {
     pub fn absent_without_peaks(self) -> Self {
         let MediumOptics { albedo, phase, .. } = &self.exact;
         let (albedo, phase) = (albedo.clone(), phase.clone());
-        let without_peak = MediumOptics { extinction: Arc::new(Spectrum::constant(0.0)), albedo, phase, max_per_m: 0.0 };
+        let without_peak =
+            MediumOptics { extinction: Arc::new(Spectrum::constant(0.0)), albedo, phase, max_per_m: 0.0 };
         Self { without_peak, ..self }
     }
 
@@ -167,7 +169,9 @@ impl Medium {
     pub(super) fn density(&self, point_m: DVec3, time_s: f64) -> f64 {
         match &self.unevenness {
             None => 1.0,
-            Some(DensityVariation { noise, amplitude, wind_mps }) => 1.0 + amplitude * noise.at(point_m - *wind_mps * time_s),
+            Some(DensityVariation { noise, amplitude, wind_mps }) => {
+                1.0 + amplitude * noise.at(point_m - *wind_mps * time_s)
+            }
         }
     }
 

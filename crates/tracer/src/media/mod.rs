@@ -19,7 +19,7 @@ mod solid;
 
 pub use collide::{Collision, FlightRandom};
 pub use media::{Media, MediaRay, RandomCounter};
-pub use medium::{ForwardPeak, Medium, MediumError, DensityVariation};
+pub use medium::{DensityVariation, ForwardPeak, Medium, MediumError};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;

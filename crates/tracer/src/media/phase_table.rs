@@ -285,8 +285,10 @@ mod tests {
     #[test]
     fn the_fit_is_as_far_from_the_series_as_others_find_it() {
         for diameter_um in [5.0, 12.0, 20.0] {
-            let (mie, fit) =
-                (SpectralTable::from_water(diameter_um), SpectralTable::fitted_to_water(diameter_um).expect("in range"));
+            let (mie, fit) = (
+                SpectralTable::from_water(diameter_um),
+                SpectralTable::fitted_to_water(diameter_um).expect("in range"),
+            );
             let ratio = |degrees: f32| {
                 let d = 2.0 * etendue_core::maths::f32::sin_cos(0.5 * degrees.to_radians()).0;
                 let v = 0.5 * d * d;

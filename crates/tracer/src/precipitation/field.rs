@@ -99,7 +99,8 @@ impl PrecipitationField {
         let mut particles = vec![];
         for (class, radius_m) in change_over.radii_m.iter().enumerate() {
             if *radius_m > change_over.clear_m {
-                ParticleSearch { field: self, class, origin_m, interval, region, radius_m: *radius_m }.run(&mut particles);
+                ParticleSearch { field: self, class, origin_m, interval, region, radius_m: *radius_m }
+                    .run(&mut particles);
             }
         }
         particles
@@ -225,7 +226,8 @@ impl ParticleSearch<'_> {
         let middle = centre_m + self.velocity() * self.interval.middle_s() - self.origin_m;
         let (from, displacement) = (middle - self.swept_m(), 2.0 * self.swept_m());
         let Some([enter, leave]) = within(from, displacement, self.radius_m + radius_m) else { return false };
-        let (centre, half_m) = (from + displacement * (0.5 * (enter + leave)), 0.5 * (leave - enter) * displacement.length());
+        let (centre, half_m) =
+            (from + displacement * (0.5 * (enter + leave)), 0.5 * (leave - enter) * displacement.length());
         self.region.may_see(centre, radius_m + half_m)
     }
 }

@@ -14,8 +14,8 @@ mod field;
 mod near;
 mod size_law;
 
-pub use change_over::{ChangeOver, CameraResolution, VisibleRegion};
-pub use field::{PrecipitationField, Particle};
+pub use change_over::{CameraResolution, ChangeOver, VisibleRegion};
+pub use field::{Particle, PrecipitationField};
 pub use near::{NearParticles, ParticleHit, ViewPlacement};
 pub use size_law::{Crystals, SizeClass, SizeLaw, SizeLawError, SizeRange, axis_ratio, terminal_speed_mps};
 

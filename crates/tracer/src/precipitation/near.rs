@@ -12,10 +12,10 @@ use etendue_spectra::{Spectrum, dielectric};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::change_over::{ChangeOver, VisibleRegion};
-use super::field::{PrecipitationField, Particle};
+use super::field::{Particle, PrecipitationField};
 use crate::accel::{Simd, Streak, Streaks};
 use crate::materials::fresnel;
-use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, Phase, MediumRegion, SpectralTable};
+use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, MediumRegion, Phase, SpectralTable};
 
 /// Mean cosine of scattering by an ice crystal, without diffraction: that of snow grains by geometric optics (Warren, Rev. Geophys. 20,
 /// 1982: 0.89 with the half that is diffracted straight on).

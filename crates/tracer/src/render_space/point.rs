@@ -183,7 +183,12 @@ pub(super) struct Normals {
 }
 
 impl Normals {
-    pub(super) fn from_mesh(mesh: &MeshPose<'_>, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
+    pub(super) fn from_mesh(
+        mesh: &MeshPose<'_>,
+        primitive: u32,
+        weights: [f64; 3],
+        placed: &InstanceTransform,
+    ) -> Self {
         let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
         let local = (b - a).cross(c - a);
         let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);

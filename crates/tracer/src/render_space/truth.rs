@@ -113,8 +113,9 @@ fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> TruthLine {
 fn on_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, hit: &Hit, lines: [TruthLine; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -MAX_BARYCENTRIC_EXCESS;
-    let solve =
-        |(origin, along, start): TruthLine| plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v));
+    let solve = |(origin, along, start): TruthLine| {
+        plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v))
+    };
     let solved = lines.into_iter().find_map(solve);
     // A ray in the plane itself has no better result than the accelerator's.
     let (t, u, v) = solved.unwrap_or((lines[1].2 + f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));

@@ -11,7 +11,7 @@ use etendue_core::{maths::f32::log2, storage::Blocks};
 use glam::{Vec2, Vec3};
 
 use super::mipmap::{Level, TexelLevel, pyramid, weighted_pyramid};
-use super::projection::{TextureFootprint, Projection};
+use super::projection::{Projection, TextureFootprint};
 use super::texels::{Store, Texel, TexelEncoding, Texels, TextureError, TiledError};
 use super::tiled::{TileMemory, TiledLevel, levels};
 use super::{Channel, Lookup, Wrap};

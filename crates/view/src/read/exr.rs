@@ -12,7 +12,7 @@ use etendue_io::exr::{
 
 use super::facts::{self, FileLayers, SideCar};
 use crate::found::ResultFile;
-use crate::layer::{LayerKind, Layer, NamedPlane, Role, Samples};
+use crate::layer::{Layer, LayerKind, NamedPlane, Role, Samples};
 
 /// Parts of a digital number, in the order of the signal path; others follow in their own order.
 const PARTS: [&str; 10] =
@@ -54,7 +54,8 @@ fn all(file: &ResultFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>
     let is_spectral = |channel: &ExrChannel| parse_channel_name(&channel.name).is_some();
     let mut layers = Vec::new();
     let [quantity, unit] = side_car.entry(&file.name);
-    let unit_prefix = if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
+    let unit_prefix =
+        if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
     let stated = exr.attributes.get("etendue:units").cloned();
     let stated = stated.unwrap_or_else(|| side_car.entry(&file.name)[1].to_owned());
     let spectral = exr.channels.iter().any(is_spectral);

@@ -44,7 +44,8 @@ impl SideCar {
 pub(super) fn names(layer: &str, ids: &[u32], side_car: &SideCar) -> Vec<NamedIdentifier> {
     let known = known(layer, side_car);
     let present: BTreeSet<u32> = ids.iter().copied().collect();
-    let name = |id| NamedIdentifier { id, name: known.get(&id).cloned().unwrap_or_default(), colour: identity_colour(id) };
+    let name =
+        |id| NamedIdentifier { id, name: known.get(&id).cloned().unwrap_or_default(), colour: identity_colour(id) };
     present.into_iter().map(name).collect()
 }
 
@@ -129,7 +130,8 @@ mod tests {
         let side_car = SideCar::read(std::path::Path::new("")).expect("none");
         let actual =
             |layer| names(layer, &[3, 1, 1, 0], &side_car).into_iter().map(|n| (n.id, n.name)).collect::<Vec<_>>();
-        let expected = [(0, "not known"), (1, "seen"), (3, "outside the picture")].map(|(id, name)| (id, name.to_owned()));
+        let expected =
+            [(0, "not known"), (1, "seen"), (3, "outside the picture")].map(|(id, name)| (id, name.to_owned()));
         assert_eq!(actual("visibility.forward"), expected);
         assert_eq!(actual("instance")[1], (1, String::new()));
         assert_eq!(numbered("0: no ray; 1: the principal ray", "; ", ": ")[&1], "the principal ray");

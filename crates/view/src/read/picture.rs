@@ -4,12 +4,12 @@
 use etendue::Error;
 use etendue_core::{Plane, quantity::OpticalFlow};
 use etendue_io::inspect::{ObjectBox, identity_colour, read_boxes};
-use etendue_io::photograph::{PhotographChannel, Encoding, Photograph, read_photograph};
+use etendue_io::photograph::{Encoding, Photograph, PhotographChannel, read_photograph};
 use serde_json::{Value, json};
 
 use super::facts::{self, SideCar};
 use crate::found::ResultFile;
-use crate::layer::{LayerKind, Layer, NamedPlane, Samples};
+use crate::layer::{Layer, LayerKind, NamedPlane, Samples};
 
 pub(super) fn picture_layer(file: &ResultFile, side_car: &SideCar) -> Result<Layer, Error> {
     let photograph = read_photograph(&file.path).map_err(Error::input)?;

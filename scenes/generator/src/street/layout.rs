@@ -33,7 +33,8 @@ fn kerbs() -> Vec<Placement> {
     let tens = (0..22).map(|i| REACH_X[0] + 10.0 * f64::from(i));
     let right = tens.clone().filter(|x| *x + 10.0 <= NOSE_X[0] || *x >= NOSE_X[1] - 10.0);
     let left = tens.map(|x| Placement::new(x + 10.0, LANE_M, 0.0, 180.0));
-    let nose = [Placement::new(NOSE_X[0], -LANE_M - 0.1, 0.0, 0.0), Placement::new(NOSE_X[1] - 10.0, -LANE_M - 0.1, 0.0, 0.0)];
+    let nose =
+        [Placement::new(NOSE_X[0], -LANE_M - 0.1, 0.0, 0.0), Placement::new(NOSE_X[1] - 10.0, -LANE_M - 0.1, 0.0, 0.0)];
     right.map(|x| Placement::new(x, PARKING_Y, 0.0, 0.0)).chain(left).chain(nose).collect()
 }
 
@@ -98,7 +99,11 @@ pub(super) fn furniture(street: &mut Description) {
     street.mesh("bollard", things::bollard());
     street.object("bollard", "pole", [13.2, 14.6, 21.4, 22.8].map(|x| Placement::new(x, -3.75, KERB_M, 0.0)).to_vec());
     street.mesh("bin", things::bin());
-    street.object("bin", "pole", vec![Placement::new(10.4, -5.85, KERB_M, 0.0), Placement::new(29.2, 7.0, KERB_M, 0.0)]);
+    street.object(
+        "bin",
+        "pole",
+        vec![Placement::new(10.4, -5.85, KERB_M, 0.0), Placement::new(29.2, 7.0, KERB_M, 0.0)],
+    );
     street.mesh("bench", things::bench());
     street.object("bench", "pole", vec![Placement::new(35.0, 6.7, KERB_M, 180.0)]);
     signs(street);
@@ -124,7 +129,11 @@ fn signs(street: &mut Description) {
             vec![(Board::Round, 0.21, 2.3, "sign-no-parking")],
             vec![Placement::new(11.4, 3.75, KERB_M, 180.0), Placement::new(66.0, -5.75, KERB_M, 0.0)],
         ),
-        ("board-danger", vec![(Board::Triangle, 0.45, 2.4, "sign-danger")], vec![Placement::new(43.0, -5.75, KERB_M, 0.0)]),
+        (
+            "board-danger",
+            vec![(Board::Triangle, 0.45, 2.4, "sign-danger")],
+            vec![Placement::new(43.0, -5.75, KERB_M, 0.0)],
+        ),
     ];
     let mut standing = Vec::new();
     for (mesh, boards, spots) in posts {

@@ -82,7 +82,9 @@ impl House {
             Some(name) => item(name, &import.path).into_iter().collect(),
             None => {
                 let each = |word: &String| item(word, &[import.path.clone(), vec![word.clone()]].concat());
-                let PathEnd::Module(from) = self.follow(module, &import.path, &mut Vec::new()) else { return Vec::new() };
+                let PathEnd::Module(from) = self.follow(module, &import.path, &mut Vec::new()) else {
+                    return Vec::new();
+                };
                 source.words.iter().filter(|word| self.binds(&from, word)).filter_map(each).collect()
             }
         }
@@ -145,7 +147,13 @@ impl House {
         if named { PathEnd::Item(module.clone()) } else { PathEnd::Elsewhere }
     }
 
-    fn glob_binds(&self, module: &Module, path: &[String], name: &str, visited: &mut Vec<(Module, Vec<String>)>) -> bool {
+    fn glob_binds(
+        &self,
+        module: &Module,
+        path: &[String],
+        name: &str,
+        visited: &mut Vec<(Module, Vec<String>)>,
+    ) -> bool {
         matches!(self.follow(module, path, visited), PathEnd::Module(from) if self.binds(&from, name))
     }
 }

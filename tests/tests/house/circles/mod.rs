@@ -9,7 +9,7 @@ pub(crate) mod tokens;
 
 use std::collections::BTreeMap;
 
-use house::{ImportedNames, House};
+use house::{House, ImportedNames};
 
 /// The only circles: files, and why they may stand in one. Those of folders are circles of these files alone.
 const EXCEPTIONS: &[(&[&str], &str)] = &[
@@ -52,7 +52,12 @@ fn no_files_import_each_other_in_a_circle() {
     for (folder, files) in crates() {
         let arrows = House::new(&folder, &files).arrows();
         for (n, circle) in components::circles(&arrows).iter().filter(|circle| !is_allowed(circle)).enumerate() {
-            violations.push_str(&format!("\n{folder} circle {}: {} files{}", n + 1, circle.len(), ties(circle, &arrows)));
+            violations.push_str(&format!(
+                "\n{folder} circle {}: {} files{}",
+                n + 1,
+                circle.len(),
+                ties(circle, &arrows)
+            ));
         }
     }
     assert!(violations.is_empty(), "files that import each other in a circle:{violations}");

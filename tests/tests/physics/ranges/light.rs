@@ -181,7 +181,10 @@ fn wavelengths() -> Vec<Row> {
     .with_spectrum("line.csv", &[(588.0, 0.0), (589.0, 1.0), (590.0, 0.0)]);
     let flat = band_image("wavelength_range_nm = [580, 600]\n        band_width_nm = 20", "radiance_w_m2_sr_nm = 1");
     let ends = |low: u32, high: u32| {
-        band_image(&format!("wavelength_range_nm = [{low}, {high}]\n        band_width_nm = 5"), "radiance_w_m2_sr_nm = 1")
+        band_image(
+            &format!("wavelength_range_nm = [{low}, {high}]\n        band_width_nm = 5"),
+            "radiance_w_m2_sr_nm = 1",
+        )
     };
     // A triangle of base 2 nm in a band of 20 nm: a twentieth of the flat one.
     let ratio = 20.0 * mean(&irradiances(&line)) / mean(&irradiances(&flat));
@@ -296,7 +299,8 @@ fn long_sums() -> Vec<Row> {
     let moments = Moments::from_values((0..COUNT).map(|i| if i % 2 == 0 { 0.1 } else { 0.3 }));
     let variance = 0.01 * f64::from(COUNT) / f64::from(COUNT - 1);
     let error = (moments.mean() / 0.2 - 1.0).abs().max((moments.variance().unwrap_or(f64::NAN) / variance - 1.0).abs());
-    let layout = FilmLayout { bands: Bands::covering(500.0, 600.0, 100.0), accumulates_electrons: false, watched: false };
+    let layout =
+        FilmLayout { bands: Bands::covering(500.0, 600.0, 100.0), accumulates_electrons: false, watched: false };
     let wavelengths = Wavelengths { nm: [550.0], pdf: [0.01] };
     let mut sums = ReplicateSums::new(layout);
     (0..COUNT).for_each(|_| sums.add(0.1, Spectral([0.7]), &wavelengths, None));

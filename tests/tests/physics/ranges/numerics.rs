@@ -46,7 +46,11 @@ pub(crate) fn ulp_single(value: f64) -> f64 {
 }
 
 /// Of all rows the greatest distance, over `unit` of the true value, and where.
-pub(crate) fn worst(rows: &[KnownValues], unit: fn(f64) -> f64, function: impl Fn(&[f64]) -> Vec<f64>) -> (f64, Vec<f64>) {
+pub(crate) fn worst(
+    rows: &[KnownValues],
+    unit: fn(f64) -> f64,
+    function: impl Fn(&[f64]) -> Vec<f64>,
+) -> (f64, Vec<f64>) {
     let mut worst = (0.0, Vec::new());
     for KnownValues { arguments: at, values: is } in rows {
         for (actual, [value, rest]) in function(at).into_iter().zip(is) {
@@ -83,7 +87,8 @@ const DOUBLE: [UnaryFunction<f64>; 14] = [
     ("log10", double::log10),
     ("cbrt", double::cbrt),
 ];
-const DOUBLE_BINARY: [BinaryFunction<f64>; 3] = [("pow", double::pow), ("atan2", double::atan2), ("hypot", double::hypot)];
+const DOUBLE_BINARY: [BinaryFunction<f64>; 3] =
+    [("pow", double::pow), ("atan2", double::atan2), ("hypot", double::hypot)];
 const SINGLE: [UnaryFunction<f32>; 14] = [
     ("sin", single::sin),
     ("cos", single::cos),
@@ -100,7 +105,8 @@ const SINGLE: [UnaryFunction<f32>; 14] = [
     ("log10", single::log10),
     ("cbrt", single::cbrt),
 ];
-const SINGLE_BINARY: [BinaryFunction<f32>; 3] = [("pow", single::pow), ("atan2", single::atan2), ("hypot", single::hypot)];
+const SINGLE_BINARY: [BinaryFunction<f32>; 3] =
+    [("pow", single::pow), ("atan2", single::atan2), ("hypot", single::hypot)];
 
 /// What the functions in double and in single precision promise, units in the last place: half a unit is what rounding alone leaves.
 const DOUBLE_ULP: f64 = 2.0;
@@ -160,8 +166,9 @@ fn relative(value: f64) -> f64 {
 fn closed_forms_keep_their_digits() {
     let figures = figures();
     let single = |name: &str, function: &dyn Fn(&[f32]) -> Vec<f32>| {
-        let double_function =
-            |at: &[f64]| function(&at.iter().map(|v| *v as f32).collect::<Vec<_>>()).into_iter().map(f64::from).collect();
+        let double_function = |at: &[f64]| {
+            function(&at.iter().map(|v| *v as f32).collect::<Vec<_>>()).into_iter().map(f64::from).collect()
+        };
         worst(&known(&figures[name]), relative, double_function).0
     };
     let dielectric = single("dielectric", &|at| fresnel::planes(at[0], at[1]).to_vec());
@@ -170,8 +177,7 @@ fn closed_forms_keep_their_digits() {
     let lab = |at: &[f64]| Lab { l: at[0], a: at[1], b: at[2] };
     let difference =
         worst(&known(&figures["ciede2000"]), relative, |at| vec![ciede2000(lab(&at[..3]), lab(&at[3..]))]).0;
-    let black_bodies =
-        observer_error(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
+    let black_bodies = observer_error(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
     let line = |at: &[f64], nm: f64| double::exp(-((nm - at[0]) / at[1]) * ((nm - at[0]) / at[1]));
     let lines = observer_error(&known(&figures["lines"]), |at| Spectrum::from_fn(|nm| line(at, nm)));
     let observed = "≤ 1.5·10⁻⁷ of X + Y + Z, and of x and y: spectra and observer have 32 bits (6·10⁻⁸ each)";

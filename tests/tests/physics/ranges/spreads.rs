@@ -6,7 +6,9 @@ use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{cos, exp};
 use etendue_core::quantity::Irradiance;
 use etendue_core::random::Pixel;
-use etendue_optics::effects::{FilmPart, PointSpread, SpreadMethod, SpreadRandomNumbers, SpreadImage, SpreadImageParameters};
+use etendue_optics::effects::{
+    FilmPart, PointSpread, SpreadImage, SpreadImageParameters, SpreadMethod, SpreadRandomNumbers,
+};
 use etendue_optics::{Effects, EffectsParameters};
 use etendue_projection::Raster;
 use etendue_testkit::page::{Row, check, worst};
@@ -18,7 +20,12 @@ const SAMPLES_PER_AXIS: usize = 160;
 const RANGE: WavelengthRange = WavelengthRange::new(500.0, 600.0);
 
 /// A picture of so many pixels a side behind a Gaussian of `sigma_px`, sampled `per_px` times a pixel.
-fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spread_by: SpreadMethod) -> (Raster, Effects) {
+fn behind_gaussian(
+    (side, margin): (usize, f64),
+    sigma_px: f64,
+    per_px: f64,
+    spread_by: SpreadMethod,
+) -> (Raster, Effects) {
     let raster = Raster::centred(side, side, 1e-3 * PITCH_UM).expect("legal");
     let width = 2 * (6.0 * sigma_px * per_px) as usize + 1;
     let at = |i: usize| (DVec2::new((i % width) as f64, (i / width) as f64) - (width / 2) as f64) / per_px;
@@ -44,8 +51,10 @@ fn contrast_of_samples(sigma_px: f64, cycles: f64) -> f64 {
     let wave = |i: usize| {
         // A lattice, with a golden-ratio sequence for the choice.
         let choice = (0.618_033_988_75 * i as f64).fract();
-        let place = (DVec2::new((i % SAMPLES_PER_AXIS) as f64, (i / SAMPLES_PER_AXIS) as f64) + 0.5) / SAMPLES_PER_AXIS as f64;
-        let (offset_px, [weight]) = spread.sample_offset(Pixel { x: 32, y: 32 }, &[550.0], SpreadRandomNumbers { choice, place });
+        let place =
+            (DVec2::new((i % SAMPLES_PER_AXIS) as f64, (i / SAMPLES_PER_AXIS) as f64) + 0.5) / SAMPLES_PER_AXIS as f64;
+        let (offset_px, [weight]) =
+            spread.sample_offset(Pixel { x: 32, y: 32 }, &[550.0], SpreadRandomNumbers { choice, place });
         f64::from(weight) * cos(TAU * cycles * offset_px.x)
     };
     (0..SAMPLES_PER_AXIS * SAMPLES_PER_AXIS).map(wave).sum::<f64>() / (SAMPLES_PER_AXIS * SAMPLES_PER_AXIS) as f64

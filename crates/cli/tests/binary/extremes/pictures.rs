@@ -1,7 +1,7 @@
 //! Measurements of images without content, or with other content.
 
 use super::table_text;
-use crate::bad_pictures::{MEASUREMENTS, SIZE, coloured, floats, grey, commands_for_image};
+use crate::bad_pictures::{MEASUREMENTS, SIZE, coloured, commands_for_image, floats, grey};
 use crate::support::{error_message, etendue};
 use etendue_testkit::page::{Row, check};
 use std::path::Path;
@@ -32,7 +32,12 @@ fn pictures_that_show_nothing() {
     let rows = [
         measured("an image of one pixel", all, &grey(folder, "pixel.png", (1, 1), 20_000), folder),
         measured("a uniform image", expected_result, &grey(folder, "even.png", SIZE, 20_000), folder),
-        measured("a uniform image in colour", expected_result, &coloured(folder, "coloured-even.png", SIZE, 0.4), folder),
+        measured(
+            "a uniform image in colour",
+            expected_result,
+            &coloured(folder, "coloured-even.png", SIZE, 0.4),
+            folder,
+        ),
         measured("a uniform image of 3·10³⁸", expected_result, &floats(folder, "huge.tif", |_| 3e38), folder),
         measured("a dark image", all, &grey(folder, "dark.png", SIZE, 0), folder),
         measured("an image that is clipped everywhere", all, &grey(folder, "clipped.png", SIZE, 65_535), folder),

@@ -1,6 +1,6 @@
 //! Seeded geometric defects: distortion, centre, focal length, axes, channels.
 
-use super::{TestFolder, CAMERA, COLOUR, ComparedQuantities, assert_flagged, assert_none_flagged};
+use super::{CAMERA, COLOUR, ComparedQuantities, TestFolder, assert_flagged, assert_none_flagged};
 use crate::support::{etendue, text};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
@@ -23,7 +23,11 @@ fn pitch_mm(chart: &Path) -> String {
 
 fn distortion(folder: &TestFolder, image: &Path) -> ComparedQuantities {
     let image = text(image);
-    folder.compare_with_declaration(&["distortion", &image, "--target", "dots", "--centre-px", "197.25,143.5"], CAMERA, &[])
+    folder.compare_with_declaration(
+        &["distortion", &image, "--target", "dots", "--centre-px", "197.25,143.5"],
+        CAMERA,
+        &[],
+    )
 }
 
 fn focal(folder: &TestFolder, image: &Path, pitch: &str) -> ComparedQuantities {
@@ -54,7 +58,13 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     let defective = distortion(&folder, &with("k1", "lens.distortion.k1=-0.101"));
     assert_flagged("k1 + 1 %", "`lens.distortion.k1` −0.101 for −0.1", "forward_k1", &defective, &curve);
     let defective = distortion(&folder, &with("centre", "sensor.principal_point_px=[197.75,143.5]"));
-    assert_flagged("centre + 0.5 px", "`sensor.principal_point_px` 197.75 for 197.25", "forward_centre_x_px", &defective, &curve);
+    assert_flagged(
+        "centre + 0.5 px",
+        "`sensor.principal_point_px` 197.75 for 197.25",
+        "forward_centre_x_px",
+        &defective,
+        &curve,
+    );
     let defective = focal(&folder, &with("focal", "lens.focal_length_mm=2.4072"), &pitch);
     assert_flagged("focal length + 0.3 %", "`lens.focal_length_mm` 2.4072 for 2.4", "fx_px", &defective, &length);
 
@@ -71,8 +81,7 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
 
 /// The chart's marks reveal a mirrored axis, wherever the centre lies.
 fn refused(defect: &str, seeded: &str, image: &Path) {
-    etendue(["measure", "distortion", &text(image), "--target", "dots"])
-        .refused(&["shows its chart mirrored", "dots"]);
+    etendue(["measure", "distortion", &text(image), "--target", "dots"]).refused(&["shows its chart mirrored", "dots"]);
     super::assert_in_page(defect, &format!("| {defect} | {seeded} | the chart's marks: refused | – | – | – |"));
 }
 
@@ -92,7 +101,8 @@ fn a_channel_that_is_shifted_is_flagged() {
             [0.5 * (r + next), g, b]
         },
     );
-    let chromatic = |file: &Path| folder.compare_with_declaration(&["chromatic", &text(file), "--target", "dots"], COLOUR, &[]);
+    let chromatic =
+        |file: &Path| folder.compare_with_declaration(&["chromatic", &text(file), "--target", "dots"], COLOUR, &[]);
     let healthy = chromatic(&image);
     assert_none_flagged(&healthy);
     let seeded = "red of the developed image half a pixel to the left";

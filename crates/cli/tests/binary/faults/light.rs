@@ -1,6 +1,6 @@
 //! Seeded photometric defects: fall-off, tone curve.
 
-use super::{TestFolder, CAMERA, ComparedQuantities, assert_flagged, assert_none_flagged};
+use super::{CAMERA, ComparedQuantities, TestFolder, assert_flagged, assert_none_flagged};
 use crate::support::{etendue, text};
 use etendue_core::maths::f64::{atan, cos, pow};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Seeded defects of the sensor: gain, noise, patterns, filters, dark current.
 
-use super::{TestFolder, CAMERA, COLOUR, ComparedQuantities, assert_flagged, assert_none_flagged};
+use super::{CAMERA, COLOUR, ComparedQuantities, TestFolder, assert_flagged, assert_none_flagged};
 use crate::support::{etendue, text};
 
 const SMALL: [&str; 4] = ["--set", "sensor.width_px=240", "--set", "sensor.height_px=180"];
@@ -64,10 +64,17 @@ fn a_swapped_law_of_the_dark_current_is_flagged() {
             let levels = ["--photon-transfer", "8", "--stack", "3", "--set", &warm];
             let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64"];
             let folder = format!("{name}-{celsius}");
-            format!("{celsius}:{}", series(&test_folder, CAMERA, &folder, "550", &[&small[..], &long, &levels, law].concat()))
+            format!(
+                "{celsius}:{}",
+                series(&test_folder, CAMERA, &folder, "550", &[&small[..], &long, &levels, law].concat())
+            )
         };
         let [a, b, c, d] = ["25", "35", "45", "55"].map(at);
-        test_folder.compare_with_declaration(&["dark-current", &a, &b, &c, &d, "--reference-c", "25"], CAMERA, &declared)
+        test_folder.compare_with_declaration(
+            &["dark-current", &a, &b, &c, &d, "--reference-c", "25"],
+            CAMERA,
+            &declared,
+        )
     };
     let healthy = measured("healthy", &law);
     assert_none_flagged(&healthy);

@@ -31,7 +31,10 @@ fn close(actual: f32, exact: f64, x: Vec2) {
     }
     let rounded = exact as f32;
     if actual == rounded {
-        return assert!(actual != 0.0 || actual.is_sign_negative() == exact.is_sign_negative(), "{x:?}: sign of {actual}");
+        return assert!(
+            actual != 0.0 || actual.is_sign_negative() == exact.is_sign_negative(),
+            "{x:?}: sign of {actual}"
+        );
     }
     let error = (f64::from(actual) - exact).abs() / unit_in_last_place(exact);
     assert!(error <= BOUND_ULP, "{x:?}: {actual} against {exact}, {error} units");

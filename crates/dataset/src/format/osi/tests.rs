@@ -23,7 +23,10 @@ fn classes_have_the_kinds_of_the_standard() {
     assert_eq!(OsiObjectType::from_class("Car", false), Some(OsiObjectType::Vehicle(4)));
     assert_eq!(OsiObjectType::from_class("guard_rail", false), Some(OsiObjectType::Stationary(8)));
     assert_eq!(OsiObjectType::from_class("person", false), Some(OsiObjectType::Mover(PEDESTRIAN)));
-    assert_eq!([OsiObjectType::from_class("crate", false), OsiObjectType::from_class("crate", true)], [Some(OsiObjectType::Stationary(1)), Some(OsiObjectType::Mover(1))]);
+    assert_eq!(
+        [OsiObjectType::from_class("crate", false), OsiObjectType::from_class("crate", true)],
+        [Some(OsiObjectType::Stationary(1)), Some(OsiObjectType::Mover(1))]
+    );
     assert_eq!([OsiObjectType::from_class("road", false), OsiObjectType::from_class("sky", false)], [None, None]);
     assert_eq!(OsiObjectType::Vehicle(12).moving_type(), Some(VEHICLE));
 }
@@ -43,7 +46,10 @@ fn names_follow_the_convention() {
 #[test]
 fn bytes_are_those_of_the_description() {
     assert_eq!(ProtobufMessage::default().varint(1, 150).bytes(), [0x08, 0x96, 0x01]);
-    assert_eq!(ProtobufMessage::default().text(2, "testing").bytes(), [0x12, 0x07, 0x74, 0x65, 0x73, 0x74, 0x69, 0x6e, 0x67]);
+    assert_eq!(
+        ProtobufMessage::default().text(2, "testing").bytes(),
+        [0x12, 0x07, 0x74, 0x65, 0x73, 0x74, 0x69, 0x6e, 0x67]
+    );
     let inner = ProtobufMessage::default().varint(1, 150);
     assert_eq!(ProtobufMessage::default().message(3, &inner).bytes(), [0x1a, 0x03, 0x08, 0x96, 0x01]);
     assert_eq!(

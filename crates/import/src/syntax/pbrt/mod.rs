@@ -52,7 +52,8 @@ impl PbrtReader<'_, '_> {
             match directive {
                 PbrtDirective::Include(name) => self.include(file, line, &name, depth)?,
                 directive => {
-                    (self.take)(directive, PbrtPlace { file, line }).map_err(|problem| Error::at(file, line, problem))?;
+                    (self.take)(directive, PbrtPlace { file, line })
+                        .map_err(|problem| Error::at(file, line, problem))?;
                 }
             }
         }

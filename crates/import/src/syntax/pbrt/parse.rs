@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::token::{SyntaxError, PbrtDirective, PbrtParameter, PbrtValues, Token, Tokens};
+use super::token::{PbrtDirective, PbrtParameter, PbrtValues, SyntaxError, Token, Tokens};
 
 /// Arguments of a directive.
 #[derive(Clone, Copy)]

@@ -87,7 +87,8 @@ impl Layers {
             Some((package, name)) if is_package_relative_path(resolved) => {
                 let file = PathBuf::from(package);
                 let content = self.package(&file)?.file(&name).map(<[u8]>::to_vec);
-                let content = content.ok_or_else(|| Error::new(&file, format!("the package has no file \"{name}\"")))?;
+                let content =
+                    content.ok_or_else(|| Error::new(&file, format!("the package has no file \"{name}\"")))?;
                 (file, content)
             }
             _ if Path::new(resolved).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("usdz")) => {

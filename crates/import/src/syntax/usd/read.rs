@@ -106,7 +106,9 @@ impl UsdReader<'_> {
     /// `None` if it is no prim of the scene.
     fn prim(&mut self, prim: &Prim, depth: usize) -> Result<Option<UsdPrim>, Error> {
         let path = prim.path().as_str().to_owned();
-        let Some(mut converted) = self.plain_prim(prim).map_err(|problem| self.scene_error(format!("{path}: {problem}")))? else {
+        let Some(mut converted) =
+            self.plain_prim(prim).map_err(|problem| self.scene_error(format!("{path}: {problem}")))?
+        else {
             return Ok(None);
         };
         self.prims += 1;

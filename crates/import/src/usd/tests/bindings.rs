@@ -21,7 +21,11 @@ fn strong_bindings_and_those_for_full_rendering_go_before_near_ones() {
     let names = ["a", "b", "c"].map(|name| converted.material_name(name));
     assert_eq!(names, ["Outer", "Inner", "Full"]);
     assert!(converted.material_name("d").starts_with("default"), "{}", converted.material_name("d"));
-    assert!(converted.reports("Mesh: the relationship \"material:binding:preview\" is not used"), "{}", converted.report_text);
+    assert!(
+        converted.reports("Mesh: the relationship \"material:binding:preview\" is not used"),
+        "{}",
+        converted.report_text
+    );
 }
 
 /// A subset whose mesh has a material for full rendering takes that one, as its own is for all purposes.
@@ -45,6 +49,10 @@ fn collections_and_other_relationships_are_reported() {
         plain(&["Outer"])
     ));
     assert!(converted.reports("material bindings of collections are not used"), "{}", converted.report_text);
-    assert!(converted.reports("Mesh: the relationship \"skel:skeleton\" is not used (/a)"), "{}", converted.report_text);
+    assert!(
+        converted.reports("Mesh: the relationship \"skel:skeleton\" is not used (/a)"),
+        "{}",
+        converted.report_text
+    );
     assert_eq!(converted.report_text.matches("relationship").count(), 1, "{}", converted.report_text);
 }

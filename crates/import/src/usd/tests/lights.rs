@@ -48,9 +48,14 @@ fn a_mesh_light_is_normalised_by_all_of_its_faces() {
         )
     };
     let red = surface("Red", "color3f inputs:diffuseColor = (1, 0, 0)");
-    let converted = ConvertedScene::in_units(&[red, light("plain", ""), light("even", "bool inputs:normalize = 1")].concat(), 0.1);
+    let converted =
+        ConvertedScene::in_units(&[red, light("plain", ""), light("even", "bool inputs:normalize = 1")].concat(), 0.1);
     for (object, luminance) in [("plain", 40.0), ("plain-2", 40.0), ("even", 5.0), ("even-2", 5.0)] {
         near(converted.luminance(object), luminance);
     }
-    assert!(converted.reports("mesh light: 40 cd/m², in addition to the emission of its material (2 times"), "{}", converted.report_text);
+    assert!(
+        converted.reports("mesh light: 40 cd/m², in addition to the emission of its material (2 times"),
+        "{}",
+        converted.report_text
+    );
 }

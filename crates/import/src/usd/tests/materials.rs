@@ -38,14 +38,24 @@ fn opacity_that_is_presence_makes_no_glass() {
 fn an_index_beyond_those_of_coats_is_the_nearest() {
     for (stated, expected) in [("0.8", 1.1), ("1.05", 1.1), ("5", 4.0), ("1.5", 1.5)] {
         let converted = ball(&format!("float inputs:ior = {stated}"));
-        let Surface::Coated(coated) = &converted.material("a").surface.0 else { panic!("{stated}: {}", converted.report_text) };
+        let Surface::Coated(coated) = &converted.material("a").surface.0 else {
+            panic!("{stated}: {}", converted.report_text)
+        };
         assert_eq!(coated.index.as_ref().map(|index| index.value), Some(expected));
         let message = format!("the refractive index {stated} of \"ior\" is limited to {expected}: expected 1.1 … 4");
         assert_eq!(converted.reports(&message), expected.to_string() != stated, "{}", converted.report_text);
     }
     let sheet = ball("float inputs:opacity = 0.1 float inputs:ior = 5");
-    assert!(sheet.reports("the refractive index 5 of \"ior\" is limited to 4: expected 1 … 4"), "{}", sheet.report_text);
+    assert!(
+        sheet.reports("the refractive index 5 of \"ior\" is limited to 4: expected 1 … 4"),
+        "{}",
+        sheet.report_text
+    );
     // An index of 1 reflects nothing.
     let converted = ball("float inputs:ior = 1");
-    assert!(matches!(converted.material("a").surface.0, Surface::Diffuse(_)) && !converted.reports("refractive"), "{}", converted.report_text);
+    assert!(
+        matches!(converted.material("a").surface.0, Surface::Diffuse(_)) && !converted.reports("refractive"),
+        "{}",
+        converted.report_text
+    );
 }

@@ -22,8 +22,16 @@ fn only_smooth_schemes_are_smoothed() {
     assert!(has_normals(&ridge_with("none")), "its own");
     let flat = ridge_with("bilinear");
     assert!(!has_normals(&flat) && !flat.reports("smooth"), "{}", flat.report_text);
-    assert!(flat.reports("a bilinear subdivision surface becomes its control mesh with flat faces"), "{}", flat.report_text);
+    assert!(
+        flat.reports("a bilinear subdivision surface becomes its control mesh with flat faces"),
+        "{}",
+        flat.report_text
+    );
     for smooth in [ridge(""), ridge_with("catmullClark"), ridge_with("loop")] {
-        assert!(has_normals(&smooth) && smooth.reports("its control mesh with smooth normals"), "{}", smooth.report_text);
+        assert!(
+            has_normals(&smooth) && smooth.reports("its control mesh with smooth normals"),
+            "{}",
+            smooth.report_text
+        );
     }
 }

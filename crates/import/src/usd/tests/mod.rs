@@ -48,7 +48,7 @@ impl ConvertedScene {
         let mut importer = Importer::new(&file, place.path(), &stage);
         importer.read().expect("a scene");
         let report_text = importer.scenery.report.lines().join("\n");
-        Self { scene: importer.scenery.scene, report_text: told: report_text, files: importer.scenery.files }
+        Self { scene: importer.scenery.scene, report_text, files: importer.scenery.files }
     }
 
     /// Name of the material of an object.

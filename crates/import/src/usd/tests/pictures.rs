@@ -22,7 +22,9 @@ fn card_of(end: f64, file: &str, inputs: &str, used: &str) -> ConvertedScene {
 }
 
 fn texture(converted: &ConvertedScene) -> &Texture {
-    let [texture] = &converted.scene.textures[..] else { panic!("{} textures: {}", converted.scene.textures.len(), converted.report_text) };
+    let [texture] = &converted.scene.textures[..] else {
+        panic!("{} textures: {}", converted.scene.textures.len(), converted.report_text)
+    };
     texture
 }
 
@@ -84,7 +86,9 @@ fn colours_by_different_rules_are_different_pictures() {
     let converted = card_of(1.0, "letter.png", "float4 inputs:scale = (3, 3, 3, 1)", used);
     let [a, b] = &converted.scene.textures[..] else { panic!("{}", converted.scene.textures.len()) };
     let Surface::Coated(coated) = &converted.material("a").surface.0 else { panic!("{}", converted.report_text) };
-    let Reflectance::Texture { name: reflectance, .. } = &coated.reflectance else { panic!("{}", converted.report_text) };
+    let Reflectance::Texture { name: reflectance, .. } = &coated.reflectance else {
+        panic!("{}", converted.report_text)
+    };
     let light = converted.material("a").emission.as_ref().and_then(|light| light.texture.as_ref()).expect("a texture");
     let mut named = [&reflectance.value, &light.value];
     named.sort();

@@ -6,7 +6,7 @@
 use etendue_core::CameraPose;
 use etendue_projection::{Model, plane::DistortionTerms};
 
-use super::{NamedCamera, ExportError, fisheye, no_model, number, perspective, quaternion, shortest, without_skew};
+use super::{ExportError, NamedCamera, fisheye, no_model, number, perspective, quaternion, shortest, without_skew};
 
 const FORMAT: &str = "COLMAP";
 

@@ -16,7 +16,7 @@ use etendue_core::CameraPose;
 use etendue_projection::{Model, plane::DistortionTerms};
 use glam::{DMat4, DVec3};
 
-use super::{NamedCamera, ExportError, fisheye, list, no_model, number, perspective, quoted, shortest, without_skew};
+use super::{ExportError, NamedCamera, fisheye, list, no_model, number, perspective, quoted, shortest, without_skew};
 
 const FORMAT: &str = "Kalibr";
 

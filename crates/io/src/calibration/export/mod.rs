@@ -14,7 +14,7 @@ pub mod colmap;
 pub mod kalibr;
 pub mod ros;
 
-use etendue_projection::{Calibration, Model, DistortionDirection, model::Ideal, plane::DistortionTerms};
+use etendue_projection::{Calibration, DistortionDirection, Model, model::Ideal, plane::DistortionTerms};
 use glam::{DMat3, DQuat};
 
 /// Camera with its name.

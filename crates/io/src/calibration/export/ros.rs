@@ -13,7 +13,7 @@ use etendue_core::CameraPose;
 use etendue_projection::Model;
 
 use super::{
-    NamedCamera, ExportError, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
+    ExportError, NamedCamera, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
 };
 
 const FORMAT: &str = "ROS";

@@ -61,7 +61,10 @@ fn light(lamp: &PhotometryAsset, report: &mut FileReport) {
 fn stated(lamp: &PhotometryAsset, flux: f64) -> String {
     match (lamp.rated_lumens, lamp.output_ratio, lamp.stated_flux_lm()) {
         (Some(rated), Some(fraction), Some(stated)) => {
-            format!("{stated:.1} lm ({rated} lm of the lamps × light output ratio {fraction}); ratio {:.4}", flux / stated)
+            format!(
+                "{stated:.1} lm ({rated} lm of the lamps × light output ratio {fraction}); ratio {:.4}",
+                flux / stated
+            )
         }
         (Some(rated), None, _) => format!("{rated} lm of the lamps; ratio {:.4}", flux / rated),
         _ => "none: absolute photometry".to_owned(),
@@ -85,7 +88,8 @@ fn tilt(lamp: &PhotometryAsset, report: &mut FileReport) {
         Tilt::None => {}
         Tilt::Measured(degrees) => report.state("tilt during measurement", format!("{degrees}°")),
         Tilt::Table { geometry, factors } => {
-            let entries: Vec<String> = factors.iter().map(|(degrees, factor)| format!("{degrees}°: {factor}")).collect();
+            let entries: Vec<String> =
+                factors.iter().map(|(degrees, factor)| format!("{degrees}°: {factor}")).collect();
             report.state("tilt", format!("lamp-to-luminaire geometry {geometry}; {}", entries.join(", ")));
         }
     }

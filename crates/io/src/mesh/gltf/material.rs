@@ -6,8 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{
-    COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotTopLayer, SlotSolid,
-    SlotSurface, SlotTransmission,
+    COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotSolid, SlotSurface,
+    SlotTopLayer, SlotTransmission,
 };
 use gltf::json::material::{AlphaMode, Material};
 use gltf::{json::Root, json::validation::Checked};
@@ -178,7 +178,8 @@ impl MaterialReader<'_, '_, '_> {
         let stated = self.material.extensions.as_ref().and_then(|e| e.ior.as_ref()).map(|ior| f64::from(ior.ior.0));
         match stated {
             Some(index) if !(1.0..=4.0).contains(&index) => {
-                self.notes.push(format!("the refractive index (ior) {index} is outside 1 … 4; {DEFAULT_INDEX} is used"));
+                self.notes
+                    .push(format!("the refractive index (ior) {index} is outside 1 … 4; {DEFAULT_INDEX} is used"));
                 DEFAULT_INDEX
             }
             stated => stated.unwrap_or(DEFAULT_INDEX),
@@ -211,7 +212,11 @@ impl MaterialReader<'_, '_, '_> {
         match coat {
             Some(coat) => {
                 let alpha = coat.roughness * coat.roughness;
-                SlotTopLayer::TwoCoats { index: index.clamp(DEFAULT_INDEX, *COAT_INDICES.end()), fraction: coat.weight, alpha }
+                SlotTopLayer::TwoCoats {
+                    index: index.clamp(DEFAULT_INDEX, *COAT_INDICES.end()),
+                    fraction: coat.weight,
+                    alpha,
+                }
             }
             None if *alpha == SlotNumber::Number(1.0) || !COAT_INDICES.contains(&index) => SlotTopLayer::Nothing,
             None => SlotTopLayer::Coat { index },
@@ -288,7 +293,8 @@ impl MaterialReader<'_, '_, '_> {
         let Some(map) = &self.material.normal_texture else { return Ok(None) };
         let strength = f64::from(map.scale);
         if !(0.0..=MAX_STRENGTH).contains(&strength) {
-            self.notes.push(format!("the normal map is not used: its scale is {strength}; expected 0 … {MAX_STRENGTH}"));
+            self.notes
+                .push(format!("the normal map is not used: its scale is {strength}; expected 0 … {MAX_STRENGTH}"));
             return Ok(None);
         }
         Ok(Some((self.images.original(map.index.value(), false)?, strength)))

@@ -211,7 +211,12 @@ struct TrackValues<'a> {
     what: &'static str,
 }
 
-fn track<const N: usize>(times: Vec<f64>, output: TrackValues<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, Problem> {
+fn track<const N: usize>(
+    times: Vec<f64>,
+    output: TrackValues<'_>,
+    cubic: bool,
+    steps: bool,
+) -> Result<GltfTrack<N>, Problem> {
     let values = finite(numbers::<N>(output.root, output.buffers, output.accessor, output.what)?, output.what)?;
     tracks::track(times, values, cubic, steps)
 }

@@ -228,5 +228,11 @@ pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
 }
 
 fn with_pixels(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
-    ImageAsset { width: image.width, height: image.height, pixels, to_rec_709: None, hash: hash::hash_bytes(&image.hash) }
+    ImageAsset {
+        width: image.width,
+        height: image.height,
+        pixels,
+        to_rec_709: None,
+        hash: hash::hash_bytes(&image.hash),
+    }
 }

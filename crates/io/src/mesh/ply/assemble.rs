@@ -153,7 +153,10 @@ impl PlyMeshBuilder {
 }
 
 /// Reads without moving the input, except to an error, whose line it then states.
-fn peek<'a>(input: &mut PlyInput<'a>, read: impl FnOnce(&mut PlyInput<'a>) -> Result<(), Problem>) -> Result<(), Problem> {
+fn peek<'a>(
+    input: &mut PlyInput<'a>,
+    read: impl FnOnce(&mut PlyInput<'a>) -> Result<(), Problem>,
+) -> Result<(), Problem> {
     let mut ahead = input.clone();
     read(&mut ahead).inspect_err(|_| *input = ahead)
 }

@@ -182,7 +182,8 @@ proptest::proptest! {
 }
 
 fn by_all_pairs(flat: &[Point2]) -> bool {
-    let edges: Vec<PolygonEdge> = (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
+    let edges: Vec<PolygonEdge> =
+        (0..flat.len()).filter_map(|i| PolygonEdge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
     edges.iter().any(|a| edges.iter().any(|b| a.crosses(b)))
 }
 

@@ -3,7 +3,7 @@
 use etendue_scene::asset::{OpeningShape, PhotometryAxes, Tilt};
 use proptest::prelude::*;
 
-use super::support::{Ies, assert_same_light, read_bytes, steps, read_asset};
+use super::support::{Ies, assert_same_light, read_asset, read_bytes, steps};
 
 /// Whole numbers without any symmetry, so that a wrong place is detected.
 fn odd(h: f64, v: f64) -> f64 {
@@ -164,7 +164,10 @@ fn factors_of_tilts_are_stored_and_reported() {
     let path = folder.path().join("lamp.ies");
     std::fs::write(&path, lamp.text()).expect("write");
     let message = read_asset(folder.path(), &path).expect_err("no such file");
-    assert!(message.starts_with("tilts/a.tlt: no such tilt file; check the path (named at lamp.ies:5: TILT;"), "{message}");
+    assert!(
+        message.starts_with("tilts/a.tlt: no such tilt file; check the path (named at lamp.ies:5: TILT;"),
+        "{message}"
+    );
     std::fs::write(folder.path().join("tilts/a.tlt"), table).expect("write");
     let named = read_asset(folder.path(), &path).expect("readable");
     assert_eq!((named.tilt, named.candela), (expected, included.candela));

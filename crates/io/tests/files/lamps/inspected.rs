@@ -50,7 +50,10 @@ fn a_street_light_is_reported_with_units() {
     assert_eq!(fact(&street_light, "vertical angles"), "91 from 0° to 90°");
     // ∫ (1 − γ/½π) sin γ dγ over ½π is 1 − 2/π: 318.31 × 2π × 0.36338 = 726.8 lm.
     assert_eq!(fact(&street_light, "flux from the intensities"), "726.8 lm");
-    assert_eq!(fact(&street_light, "stated flux"), "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268");
+    assert_eq!(
+        fact(&street_light, "stated flux"),
+        "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268"
+    );
     assert_eq!(fact(&street_light, "beam angle, C0–C180"), "90.0° at 50 %, field angle 162.0° at 10 %");
     assert!(street_light.facts.iter().all(|(name, _)| !name.contains("passing beam")), "no direction ahead");
     assert_eq!(street_light.notes.len(), 1, "{:?}", street_light.notes);

@@ -27,8 +27,9 @@ fn quadrants(c: f64, v: f64) -> f64 {
 fn every_symmetry_is_the_lamp_written_out() {
     let (all, vertical) = (steps(0.0, 345.0, 15.0), steps(0.0, 180.0, 10.0));
     let complete = |value: fn(f64, f64) -> f64| Ldt::new(0, &all, &all, &vertical, value).read();
-    let part =
-        |symmetry, stored: &[f64], value: fn(f64, f64) -> f64| Ldt::new(symmetry, &all, stored, &vertical, value).read();
+    let part = |symmetry, stored: &[f64], value: fn(f64, f64) -> f64| {
+        Ldt::new(symmetry, &all, stored, &vertical, value).read()
+    };
     assert_same_light(&part(2, &steps(0.0, 180.0, 15.0), about_c0), &complete(about_c0));
     let from_behind: Vec<f64> = steps(270.0, 450.0, 15.0).into_iter().map(|c| c % 360.0).collect();
     assert_same_light(&part(3, &from_behind, about_c90), &complete(about_c90));

@@ -24,7 +24,7 @@ use etendue_sensor::{SensorParameters, effects::dark_current::DarkCurrent};
 use glam::DVec2;
 
 use super::super::distortion::centre_words;
-use super::side::{Light, Quantity, ComparisonSide, channel};
+use super::side::{ComparisonSide, Light, Quantity, channel};
 use super::{mean::Curve, response, tone};
 
 type Quantities = BTreeMap<String, Quantity>;
@@ -118,8 +118,11 @@ fn distortion(body: &CameraBody, add_quantity: &mut impl FnMut(&str, f64, &str))
 
 /// Observed over ideal distance from the principal point.
 fn ratio(body: &CameraBody, field: f64) -> Option<f64> {
-    let relative_radius = |at: DVec2| Some(at.length() / (body.lens.principal_distance_mm() * body.lens.tangent(at)?.length()));
-    places(body, field, body.raster.principal_px()).into_iter().try_fold(0.0, |sum, at| Some(sum + 0.25 * relative_radius(at)?))
+    let relative_radius =
+        |at: DVec2| Some(at.length() / (body.lens.principal_distance_mm() * body.lens.tangent(at)?.length()));
+    places(body, field, body.raster.principal_px())
+        .into_iter()
+        .try_fold(0.0, |sum, at| Some(sum + 0.25 * relative_radius(at)?))
 }
 
 fn intrinsics(body: &CameraBody, measured: &ComparisonSide, add_quantity: &mut impl FnMut(&str, f64, &str)) {
@@ -185,7 +188,11 @@ fn electronics(
 }
 
 /// Dark current at the measured temperatures.
-fn growth(body: &CameraBody, measured: &ComparisonSide, add_quantity: &mut impl FnMut(&str, f64, &str)) -> Result<Vec<Curve>, String> {
+fn growth(
+    body: &CameraBody,
+    measured: &ComparisonSide,
+    add_quantity: &mut impl FnMut(&str, f64, &str),
+) -> Result<Vec<Curve>, String> {
     let dark = body.sensor.as_ref().map(|s| s.parameters().charge.dark);
     let (dark, stated) = dark.and_then(|dark| Some((dark, dark.temperature?))).ok_or(
         "the camera states no temperature of its dark current; give [sensor.dark] temperature_c and reference_c",

@@ -46,7 +46,12 @@ fn combined(gaps: &[&CurveGap]) -> CurveGap {
         let squares = gaps.iter().map(|g| side(g).standard_uncertainty * side(g).standard_uncertainty).sum::<f64>();
         Estimate::new(value, squares.sqrt() / count)
     };
-    CurveGap { x: gaps[0].x, a: mean_side(|g| g.a), b: mean_side(|g| g.b), significant: gaps.iter().all(|g| g.significant) }
+    CurveGap {
+        x: gaps[0].x,
+        a: mean_side(|g| g.a),
+        b: mean_side(|g| g.b),
+        significant: gaps.iter().all(|g| g.significant),
+    }
 }
 
 /// Tables that are curves: table, abscissa, ordinate, and label of the ordinate.

@@ -21,7 +21,7 @@ use etendue_metrology::Estimate;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use mean::{ComparedCurve, Curve, CurveGap, gaps, limit, means};
-use side::{Light, Quantity, ComparisonSide};
+use side::{ComparisonSide, Light, Quantity};
 use sides::sides;
 
 /// `etendue measure compare`
@@ -105,7 +105,10 @@ fn contradictions(a: &ComparisonSide, b: &ComparisonSide) -> Result<(), String> 
     }
     for (key, quantity_a) in &a.quantities {
         if let Some(quantity_b) = b.quantities.get(key).filter(|quantity_b| quantity_b.unit != quantity_a.unit) {
-            return Err(format!("{key}: units '{}' and '{}' differ; expected the same unit", quantity_a.unit, quantity_b.unit));
+            return Err(format!(
+                "{key}: units '{}' and '{}' differ; expected the same unit",
+                quantity_a.unit, quantity_b.unit
+            ));
         }
     }
     let common = a.quantities.keys().any(|key| b.quantities.contains_key(key));

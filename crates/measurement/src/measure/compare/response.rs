@@ -86,7 +86,8 @@ impl<'a> ResponseInputs<'a> {
         let at = place_of(p, channel);
         let mut neighbours = Vec::new();
         for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
-            let crosstalk_weight = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| c.0.weight(dx, dy));
+            let crosstalk_weight =
+                p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| c.0.weight(dx, dy));
             let there = sensor.channel_at(at[0] + p.cfa.width() + dx - 1, at[1] + p.cfa.height() + dy - 1);
             neighbours.push((crosstalk_weight * response_of(there), dx as f64 - 1.0, dy as f64 - 1.0));
         }
@@ -125,7 +126,8 @@ impl<'a> ResponseInputs<'a> {
         let pitch = self.body.raster.pitch_mm();
         let per_mm = nu / if down { pitch.y } else { pitch.x };
         let axis = if down { DVec2::Y } else { DVec2::X };
-        let average = |response_at: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * response_at(*nm)).sum();
+        let average =
+            |response_at: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * response_at(*nm)).sum();
         match self.body.effects.psf() {
             None => 1.0,
             Some(PointSpread::Aperture(psf)) => {

@@ -40,7 +40,8 @@ pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<us
         let several_colours = || format!("the pixels have colour filters ({}); choose one with `channel`", names());
         return if p.channels.len() == 1 { Ok(0) } else { Err(several_colours()) };
     };
-    let matches = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
+    let matches =
+        |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
     let position = p.channels.iter().position(|c| matches(&c.name));
     position.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
 }

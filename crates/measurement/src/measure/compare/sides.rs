@@ -7,7 +7,7 @@ use etendue_io::source::text_of;
 use etendue_plan_report::open_camera;
 use serde_json::Value;
 
-use super::side::{Light, Quantity, ComparisonSide};
+use super::side::{ComparisonSide, Light, Quantity};
 use super::{declared, mean::curves};
 
 fn is_camera(file: &Path) -> bool {
@@ -18,7 +18,8 @@ fn is_camera(file: &Path) -> bool {
 pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[ComparisonSide; 2], Error> {
     let declaration = |file: &Path, measured: &ComparisonSide| {
         let body = open_camera(file, set)?;
-        let unsuitable = |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", file.display()));
+        let unsuitable =
+            |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", file.display()));
         declared::side(&body, measured, light).map_err(unsuitable)
     };
     match (is_camera(a), is_camera(b)) {

@@ -46,7 +46,12 @@ pub(crate) fn declared(body: &CameraBody, measured: &ComparisonSide, light: &str
 }
 
 /// The light of a column's mean pixel relative to that of the measured channel, after development if the image was developed.
-fn column_light(sensor: &Sensor, development: Option<&Development>, measured: &ComparisonSide, light: &str) -> Result<f64, String> {
+fn column_light(
+    sensor: &Sensor,
+    development: Option<&Development>,
+    measured: &ComparisonSide,
+    light: &str,
+) -> Result<f64, String> {
     let p = sensor.parameters();
     if p.channels.len() == 1 {
         return Ok(1.0);

@@ -35,14 +35,17 @@ pub(super) fn body(request: &LensRequest) -> Result<MeasuredBody, Error> {
     }
     let body_for_radius = |radius_mm: f64| {
         let text = generated_camera(&request.lens, radius_mm);
-        compiled(request, &PathBuf::from(GENERATED_FILE), Some(text)).map_err(|failure| without_location(failure, &request.lens))
+        compiled(request, &PathBuf::from(GENERATED_FILE), Some(text))
+            .map_err(|failure| without_location(failure, &request.lens))
     };
     let first = body_for_radius(request.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
     let fields = match request.picture_radius_mm {
         None if is_lens_file(&request.lens) => read_prescription(lens_file).ok().and_then(Fields::from_asset),
         _ => None,
     };
-    match fields.and_then(|fields| fields.radius_mm(&first.0.lens, |radius_mm| body_for_radius(radius_mm).map(|measured_body| measured_body.0))) {
+    match fields.and_then(|fields| {
+        fields.radius_mm(&first.0.lens, |radius_mm| body_for_radius(radius_mm).map(|measured_body| measured_body.0))
+    }) {
         Some(radius_mm) => body_for_radius(radius_mm),
         None => Ok(first),
     }
@@ -66,7 +69,11 @@ const GENERATED_FILE: &str = "measure.toml";
 
 /// Reports errors of a generated camera against the lens, not against a line of text.
 fn without_location(failure: Error, lens: &str) -> Error {
-    let with_message = |error: InputError| match error.message.strip_prefix(GENERATED_FILE).and_then(|rest| rest.splitn(4, ':').last()) {
+    let with_message = |error: InputError| match error
+        .message
+        .strip_prefix(GENERATED_FILE)
+        .and_then(|rest| rest.splitn(4, ':').last())
+    {
         Some(words) => InputError { file: Some(lens.into()), ..InputError::new(error.code, format!("{lens}:{words}")) },
         None => error,
     };

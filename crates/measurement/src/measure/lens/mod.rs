@@ -7,7 +7,7 @@ mod request;
 use std::fmt::Write as _;
 
 use etendue_core::wavelength::{MAX_NM, MIN_NM};
-use etendue_io::failure::{Error, ErrorCode, check_number, check_integer};
+use etendue_io::failure::{Error, ErrorCode, check_integer, check_number};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, PRINCIPAL_NM, PrescriptionLens};
 use etendue_pipeline::plan::CameraBody;

@@ -235,7 +235,12 @@ pub(crate) fn measure_groups(groups: &[FrameGroup]) -> Result<PtcResults, Transf
     figures.dark_current_variance_e_per_s = all.dark_current_variance_e_per_s;
     let fixed = match stacks(groups, &data) {
         Some((dark, bright)) => {
-            let patterns = nonuniformity(&Pattern::from_stack(dark)?, &Pattern::from_stack(bright)?, figures.gain_dn_per_e, &data)?;
+            let patterns = nonuniformity(
+                &Pattern::from_stack(dark)?,
+                &Pattern::from_stack(bright)?,
+                figures.gain_dn_per_e,
+                &data,
+            )?;
             Some(FixedPatterns { dark: dark.clone(), bright: bright.clone(), patterns })
         }
         None => None,
@@ -246,7 +251,8 @@ pub(crate) fn measure_groups(groups: &[FrameGroup]) -> Result<PtcResults, Transf
 /// The stacks of the fixed patterns: dark and lit.
 fn stacks<'a>(groups: &'a [FrameGroup], data: &TransferData) -> Option<(&'a Stack, &'a Stack)> {
     let saturation = data.bright()[data.saturation()].statistics.mean_dn.value;
-    let below = |group: &&FrameGroup| group.level.photons > 0.0 && group.level.statistics.mean_dn.value < 0.9 * saturation;
+    let below =
+        |group: &&FrameGroup| group.level.photons > 0.0 && group.level.statistics.mean_dn.value < 0.9 * saturation;
     let many = |group: &&FrameGroup| group.stack.frames() >= MIN_STACK_FRAMES;
     let dark_of = |bright: &FrameGroup| {
         let dark = groups.iter().filter(|g| g.level.photons == 0.0 && g.level.exposure_s == bright.level.exposure_s);

@@ -1,10 +1,10 @@
 //! Results of photon transfer, as text and as keys of a camera file.
 
 use etendue_metrology::Estimate;
-use etendue_metrology::photon_transfer::{Figures, Nonuniformity, VarianceComponents, TransferData};
+use etendue_metrology::photon_transfer::{Figures, Nonuniformity, TransferData, VarianceComponents};
 
 use super::plots;
-use super::request::{self, PtcResults, PtcRequest};
+use super::request::{self, PtcRequest, PtcResults};
 use crate::report::{Cell, Report, Table};
 
 pub(crate) fn report(request: &PtcRequest, results: &PtcResults) -> Report {

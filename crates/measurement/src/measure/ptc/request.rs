@@ -72,8 +72,9 @@ pub(super) fn report_patterns(report: &mut Report, fixed: &FixedPatterns) {
 }
 
 fn counts(key: &'static str, deviations: &Deviations) -> Table {
-    let row =
-        |(x, n): &(f64, u64)| vec![Cell::Number(*x, 4), Cell::Number(*n as f64, 0), Cell::Number(deviations.normal(*x), 2)];
+    let row = |(x, n): &(f64, u64)| {
+        vec![Cell::Number(*x, 4), Cell::Number(*n as f64, 0), Cell::Number(deviations.normal(*x), 2)]
+    };
     let columns = vec![("deviation", "deviation"), ("pixels", "pixels"), ("normal_pixels", "normal")];
     Table { key, columns, rows: deviations.bins.iter().map(row).collect() }
 }
@@ -99,7 +100,11 @@ fn logarithmic(title: &str, axis: &str, deviations: &Deviations) -> Plot {
 }
 
 fn cumulative(title: &str, axis: &str, deviations: &Deviations) -> Plot {
-    let percentages = deviations.accumulated.iter().filter(|(_, fraction)| *fraction > 0.0).map(|(x, fraction)| (*x, 100.0 * fraction));
+    let percentages = deviations
+        .accumulated
+        .iter()
+        .filter(|(_, fraction)| *fraction > 0.0)
+        .map(|(x, fraction)| (*x, 100.0 * fraction));
     Plot {
         title: format!("pixels with larger deviation {title}"),
         x: Axis::linear(axis).showing(&[0.0]),

@@ -90,7 +90,11 @@ fn edge_regions(request: &SfrRequest, truth: Option<&Truth>, readings: &Readings
 }
 
 /// The response in cycles per pixel of the image, whatever the distance of the readings.
-fn measured(request: &SfrRequest, edge_region: &EdgeRegion, readings: &Readings) -> Result<Result<Sfr, SfrError>, Error> {
+fn measured(
+    request: &SfrRequest,
+    edge_region: &EdgeRegion,
+    readings: &Readings,
+) -> Result<Result<Sfr, SfrError>, Error> {
     let settings = SfrSettings {
         edge_degree: request.edge_degree.into(),
         reach_px: request.reach_px.map(|px| px / readings.period.0 as f64),

@@ -3,7 +3,7 @@
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
 
-use super::request::{self, MeasuredEdge, StarPlane, SfrRequest, shading_hint};
+use super::request::{self, MeasuredEdge, SfrRequest, StarPlane, shading_hint};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use crate::{measure::readings::Readings, measure::truth::place::EdgeRegion};
@@ -69,7 +69,8 @@ fn place(edge_region: &EdgeRegion) -> String {
 /// The edges of a chart that could not be measured, with the reasons.
 fn refusals(request: &SfrRequest, left_out: &[(&EdgeRegion, SfrError)]) -> Table {
     let words = |error: &SfrError| format!("{error}{}", shading_hint(request, error));
-    let row = |(edge_region, error): &(&EdgeRegion, SfrError)| vec![Cell::Text(place(edge_region)), Cell::Text(words(error))];
+    let row =
+        |(edge_region, error): &(&EdgeRegion, SfrError)| vec![Cell::Text(place(edge_region)), Cell::Text(words(error))];
     Table {
         key: "refused",
         columns: vec![("at_px", "at px"), ("reason", "not measured because")],
@@ -162,7 +163,8 @@ fn curves(measured: &[MeasuredEdge<'_>], key: &'static str, includes: fn(&SfrPoi
         let names = [place(one.region), direction(one).to_owned()].map(Cell::Text);
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |one: &MeasuredEdge<'_>| one.sfr.curve.iter().filter(|p| includes(p)).map(|p| row(one, p)).collect::<Vec<_>>();
+    let rows =
+        |one: &MeasuredEdge<'_>| one.sfr.curve.iter().filter(|p| includes(p)).map(|p| row(one, p)).collect::<Vec<_>>();
     Table {
         key,
         columns: vec![
@@ -180,7 +182,8 @@ fn plane_curves(planes: &[StarPlane], key: &'static str, includes: fn(&SfrPoint)
         let names = [Cell::Text(plane.place.clone()), Cell::Text(plane.name.to_owned())];
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |plane: &StarPlane| plane.curve.iter().filter(|p| includes(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
+    let rows =
+        |plane: &StarPlane| plane.curve.iter().filter(|p| includes(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
     Table {
         key,
         columns: vec![("at_px", "star at px"), ("plane", "plane"), ("cycles_per_px", "c/px"), ("response", "response")],
@@ -210,7 +213,8 @@ fn name(one: &MeasuredEdge<'_>, count: usize) -> String {
 }
 
 fn edge_plot(measured: &[MeasuredEdge<'_>]) -> Plot {
-    let edge_series = |one: &MeasuredEdge<'_>| Series::with_errors(&name(one, measured.len()), Mark::Line, points(&one.sfr.curve));
+    let edge_series =
+        |one: &MeasuredEdge<'_>| Series::with_errors(&name(one, measured.len()), Mark::Line, points(&one.sfr.curve));
     response_plot(measured.iter().map(edge_series).collect())
 }
 

@@ -13,7 +13,7 @@ use etendue_metrology::sfr::Strip;
 use glam::DVec2;
 
 use super::readings::{Readings, pixels};
-use place::{PatchPlace, EdgeRegion, Spoke, StarCentre, StarPlace, TrapPlace};
+use place::{EdgeRegion, PatchPlace, Spoke, StarCentre, StarPlace, TrapPlace};
 use truth_file::{CameraRecord, FeatureRecord, TruthFile};
 
 /// Location of the chart's ground truth.
@@ -58,7 +58,8 @@ impl TruthInput {
 impl Truth {
     fn read(file: &Path, camera: Option<&str>, charts: &[&str]) -> Result<Self, Error> {
         let truth_file = truth_file::read(file)?;
-        let refused = |problem: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {problem}", file.display()));
+        let refused =
+            |problem: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {problem}", file.display()));
         if !charts.contains(&truth_file.chart.as_str()) {
             let supported = charts.join(", ");
             return Err(refused(format!(
@@ -120,8 +121,13 @@ impl Truth {
         self.filled()?;
         let [w, h] = self.camera_record().picture_px.map(|n| n as f64);
         let side = |fraction: f64| [fraction * w, fraction * h];
-        pixels(side(0.5 - 0.5 * CENTRE_FRACTION), side(0.5 + 0.5 * CENTRE_FRACTION), readings.picture_px.0, readings.picture_px.1)
-            .ok_or_else(|| self.refused("the image is too small"))
+        pixels(
+            side(0.5 - 0.5 * CENTRE_FRACTION),
+            side(0.5 + 0.5 * CENTRE_FRACTION),
+            readings.picture_px.0,
+            readings.picture_px.1,
+        )
+        .ok_or_else(|| self.refused("the image is too small"))
     }
 
     /// Refuses a sheet that does not fill the camera's view.
@@ -210,7 +216,12 @@ impl Truth {
         let incomplete = || self.refused("the star is not entirely in the image");
         let feature = |kind: &str| self.visible_features().find(|(f, _)| f.kind == kind).map(|(_, points)| points);
         let (centre, edge) = (feature("centre").ok_or_else(incomplete)?[0], feature("rim").ok_or_else(incomplete)?);
-        let ground = self.camera_record().patches_px.first().and_then(|places| complete_points(places)).ok_or_else(incomplete)?;
+        let ground = self
+            .camera_record()
+            .patches_px
+            .first()
+            .and_then(|places| complete_points(places))
+            .ok_or_else(incomplete)?;
         let radii = |outline: &[DVec2]| outline.iter().map(|p| (*p - centre).length()).collect::<Vec<f64>>();
         let cycles = self.content.size("cycles").ok_or_else(incomplete)? as u32;
         Ok(StarPlace {
@@ -234,7 +245,8 @@ impl Truth {
             let part = |fraction: f64| ends[0].lerp(ends[1], fraction);
             spoke(index, centre, [part(SPOKE_RANGE[0]), part(SPOKE_RANGE[1])], clear, readings)
         };
-        let spokes: Vec<EdgeRegion> = visible_edges.iter().filter(|(f, _)| f.kind == "edge").filter_map(spoke).collect();
+        let spokes: Vec<EdgeRegion> =
+            visible_edges.iter().filter(|(f, _)| f.kind == "edge").filter_map(spoke).collect();
         if spokes.is_empty() {
             return Err(self.refused("no star of this chart is entirely in the image"));
         }
@@ -294,7 +306,13 @@ fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
     let [a, b] = [*ends.first()?, *ends.get(1)?];
     let run = (b - a).abs();
     let length = run.max_element();
-    let half = 0.5 * length * if run.y > run.x { DVec2::new(ACROSS_FRACTION, ALONG_FRACTION) } else { DVec2::new(ALONG_FRACTION, ACROSS_FRACTION) };
+    let half = 0.5
+        * length
+        * if run.y > run.x {
+            DVec2::new(ACROSS_FRACTION, ALONG_FRACTION)
+        } else {
+            DVec2::new(ALONG_FRACTION, ACROSS_FRACTION)
+        };
     let middle = 0.5 * (a + b);
     pixels((middle - half).into(), (middle + half).into(), readings.picture_px.0, readings.picture_px.1)
 }

@@ -155,8 +155,10 @@ pub(super) fn orientation_error(patches: &[PatchPlace], readings: &Readings) -> 
         return None;
     }
     let square = if size.0 == size.1 { &SQUARE[..] } else { &[] };
-    let others =
-        UPRIGHT.iter().chain(square).filter_map(|(words, transform)| Some((words, agreement(&|at| transform(at, size))?)));
+    let others = UPRIGHT
+        .iter()
+        .chain(square)
+        .filter_map(|(words, transform)| Some((words, agreement(&|at| transform(at, size))?)));
     let best = others.reduce(|a, b| if b.1 > a.1 { b } else { a });
     match best {
         Some((words, other)) if other >= MIN_RANK_CORRELATION => Some(format!(

@@ -35,7 +35,8 @@ impl Truth {
     }
 
     fn distance_mm(&self) -> Option<f64> {
-        let (sheet, camera) = (&self.content.panels.first()?.sheet_mm_to_world_m, self.camera_record().camera_to_world?);
+        let (sheet, camera) =
+            (&self.content.panels.first()?.sheet_mm_to_world_m, self.camera_record().camera_to_world?);
         let column = |m: &[[f64; 4]; 3], k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
         let normal = column(sheet, 0).cross(column(sheet, 1)).try_normalize()?;
         Some(1000.0 * normal.dot(column(sheet, 3) - column(&camera, 3)).abs())

@@ -5,8 +5,8 @@ use std::{fmt::Display, path::Path};
 use etendue_core::{maths::f64::ln, observer::Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::calibrate::{
-    CalibrateError, CalibrationResult, CameraModel, Family, CalibrationOptions, RadialTerms, Sightings, calibrate, calibrate_as_stated,
-    calibrate_rejecting_outliers,
+    CalibrateError, CalibrationOptions, CalibrationResult, CameraModel, Family, RadialTerms, Sightings, calibrate,
+    calibrate_as_stated, calibrate_rejecting_outliers,
 };
 use etendue_pipeline::stated_projection;
 use etendue_scene::record::{self, Camera, Lens, Sensor};
@@ -27,17 +27,26 @@ fn with_files(error: &CalibrateError, views: &[DetectedChart]) -> String {
 }
 
 impl ViewsRequest {
-    pub(crate) fn calibrate(&self, options: CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
+    pub(crate) fn calibrate(
+        &self,
+        options: CalibrationOptions,
+        observer: &dyn Observer,
+    ) -> Result<CalibratedViews, Error> {
         self.calibrate_with(|_| options, observer)
     }
 
     /// The same with the principal point at the image centre, with its uncertainty.
-    pub(crate) fn calibrate_centred(&self, options: CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
+    pub(crate) fn calibrate_centred(
+        &self,
+        options: CalibrationOptions,
+        observer: &dyn Observer,
+    ) -> Result<CalibratedViews, Error> {
         let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
         let centred_options = |size| CalibrationOptions { principal_px: Some(middle(size)), ..options };
         let mut calibrated = self.calibrate_with(centred_options, observer)?;
         let pitch_mm = self.pitch_mm()?;
-        let sightings: Vec<Sightings> = calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
+        let sightings: Vec<Sightings> =
+            calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
         let size = calibrated.camera.calibration.size_px();
         widen(&mut calibrated, &sightings, self.model.family(), centred_options(size))?;
         let px = PRINCIPAL_UNCERTAINTY * size[0].max(size[1]) as f64;
@@ -49,7 +58,11 @@ impl ViewsRequest {
     }
 
     /// Fit with options that may depend on the image size.
-    fn calibrate_with(&self, options: impl Fn([usize; 2]) -> CalibrationOptions, observer: &dyn Observer) -> Result<CalibratedViews, Error> {
+    fn calibrate_with(
+        &self,
+        options: impl Fn([usize; 2]) -> CalibrationOptions,
+        observer: &dyn Observer,
+    ) -> Result<CalibratedViews, Error> {
         let detected = all(&self.chart, &self.files, observer)?;
         let options = options(detected.0[0].size_px);
         let calibrated = self.fitted(self.model, &detected.0, &detected.1, options)?;
@@ -66,8 +79,11 @@ impl ViewsRequest {
         observer: &dyn Observer,
     ) -> Result<(CalibratedViews, Vec<CandidateModel>), Error> {
         let detected = all(&self.chart, &self.files, observer)?;
-        let (mut best, mut candidates, mut first_error): (Option<(f64, CameraModel, CalibratedViews)>, Vec<CandidateModel>, _) =
-            (None, Vec::new(), None);
+        let (mut best, mut candidates, mut first_error): (
+            Option<(f64, CameraModel, CalibratedViews)>,
+            Vec<CandidateModel>,
+            _,
+        ) = (None, Vec::new(), None);
         for model in models {
             let calibrated = match self.fitted(*model, &detected.0, &detected.1, options) {
                 Ok(calibrated) => calibrated,
@@ -82,7 +98,12 @@ impl ViewsRequest {
             let information = ln(squares / count) + 2.0 * coefficients * ln(count) / count;
             // A model that folds the image over is not a valid camera.
             let is_valid = calibrated.camera.calibration.check().is_ok();
-            candidates.push(CandidateModel { model: *model, rms_px: calibrated.camera.rms_px(), information, is_valid });
+            candidates.push(CandidateModel {
+                model: *model,
+                rms_px: calibrated.camera.rms_px(),
+                information,
+                is_valid,
+            });
             if is_valid && best.as_ref().is_none_or(|(min_information, ..)| information < *min_information) {
                 best = Some((information, *model, calibrated));
             }
@@ -117,9 +138,15 @@ impl ViewsRequest {
     }
 
     /// The same with a warning if another model would fit the points much better.
-    fn advised(&self, model: CameraModel, mut calibrated: CalibratedViews, options: CalibrationOptions) -> Result<CalibratedViews, Error> {
+    fn advised(
+        &self,
+        model: CameraModel,
+        mut calibrated: CalibratedViews,
+        options: CalibrationOptions,
+    ) -> Result<CalibratedViews, Error> {
         let pitch_mm = self.pitch_mm()?;
-        let sightings: Vec<Sightings> = calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
+        let sightings: Vec<Sightings> =
+            calibrated.views.iter().map(|v| Sightings::from_grid(&v.grid, pitch_mm)).collect();
         let sightings: Vec<&Sightings> = sightings.iter().collect();
         calibrated.notes.extend(model_warning(model, &calibrated.camera, &calibrated.views, &sightings, options));
         Ok(calibrated)
@@ -142,7 +169,12 @@ pub(crate) const PRINCIPAL_UNCERTAINTY: f64 = 0.01;
 /// Adds two uncertainties to a camera's covariance: the unknown principal point, and possible distortion beyond the model. The
 /// first is half the change between plus and minus one standard uncertainty, and the second-order remainder (z² of a normal z has
 /// the mean square 3). The second is the change to a model with one more term, where that exceeds the noise that the term adds.
-fn widen(calibrated: &mut CalibratedViews, sightings: &[Sightings], family: Family, options: CalibrationOptions) -> Result<(), Error> {
+fn widen(
+    calibrated: &mut CalibratedViews,
+    sightings: &[Sightings],
+    family: Family,
+    options: CalibrationOptions,
+) -> Result<(), Error> {
     let size = calibrated.camera.calibration.size_px();
     let values = |camera: &CalibrationResult| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
     let base_values = values(&calibrated.camera);

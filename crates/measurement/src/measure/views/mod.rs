@@ -9,7 +9,7 @@ use clap::Args;
 use etendue_arguments::{choice, not_negative, place, positive};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrationResult, CameraModel, CalibrationOptions};
+use etendue_metrology::calibrate::{CalibrationOptions, CalibrationResult, CameraModel};
 use glam::DVec2;
 
 use super::point_list::{ChartInput, DetectedChart};

@@ -4,10 +4,12 @@ use super::cameras::{calibration, fisheye, perspective};
 use super::paint::View;
 use etendue_core::random::unit_f64;
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrateError, Family, CalibrationOptions, RadialTerms, Sighting, Sightings, calibrate};
+use etendue_metrology::calibrate::{
+    CalibrateError, CalibrationOptions, Family, RadialTerms, Sighting, Sightings, calibrate,
+};
 use etendue_projection::model::{DoubleSphere, ExtendedUnified, FieldOfView, Ideal, Unified};
 use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, Model, RadialDistortion, DistortionDirection};
+use etendue_projection::{Calibration, DistortionDirection, Model, RadialDistortion};
 use etendue_stats::normal;
 use glam::{DVec2, DVec3};
 
@@ -56,8 +58,16 @@ fn exact_points_give_every_model_back() {
     let radial = |sense| Model::Radial(RadialDistortion::new(sense, -0.1, 0.02, 1.0).expect("finite"));
     let cases = [
         (perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], SIZE), BROWN, 0.5),
-        (calibration(radial(DistortionDirection::IdealToObserved), 500.0, SIZE), Family::Polynomial(DistortionDirection::IdealToObserved), 0.5),
-        (calibration(radial(DistortionDirection::ObservedToIdeal), 500.0, SIZE), Family::Polynomial(DistortionDirection::ObservedToIdeal), 0.5),
+        (
+            calibration(radial(DistortionDirection::IdealToObserved), 500.0, SIZE),
+            Family::Polynomial(DistortionDirection::IdealToObserved),
+            0.5,
+        ),
+        (
+            calibration(radial(DistortionDirection::ObservedToIdeal), 500.0, SIZE),
+            Family::Polynomial(DistortionDirection::ObservedToIdeal),
+            0.5,
+        ),
         (fisheye(250.0, SIZE), Family::KannalaBrandt(3), 0.15),
         (calibration(Model::FieldOfView(FieldOfView::new(0.9).expect("legal")), 300.0, SIZE), Family::FieldOfView, 0.2),
         (calibration(Model::Unified(Unified::new(0.9, terms).expect("legal")), 450.0, SIZE), Family::Unified, 0.15),
@@ -88,7 +98,8 @@ fn one_view_from_the_front_has_no_focal_length() {
     let camera = perspective(500.0, &[-0.2, 0.05, 0.0, 0.0], SIZE);
     let mut word = 3;
     let front = vec![observe(&views(&camera, 0.5)[0], 0.05, &mut word)];
-    let result = calibrate(&front, SIZE, BROWN, CalibrationOptions { square_pixels: true, ..CalibrationOptions::default() });
+    let result =
+        calibrate(&front, SIZE, BROWN, CalibrationOptions { square_pixels: true, ..CalibrationOptions::default() });
     let Err(CalibrateError::Undetermined { names }) = result else { panic!("{result:?}") };
     assert!(names.contains(&"fx_px".to_owned()), "{names:?}");
     // With its distance stated, it has one, with the same uncertainty.
@@ -145,11 +156,15 @@ fn a_stated_distance_counts_as_much_as_it_is_known() {
         principal_px: Some(DVec2::new(camera.matrix().cx, camera.matrix().cy)),
         ..CalibrationOptions::default()
     };
-    let alone =
-        calibrate(&sightings[..1], SIZE, Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false }, front)
-            .expect("determined")
-            .estimate("fx_px")
-            .expect("fitted");
+    let alone = calibrate(
+        &sightings[..1],
+        SIZE,
+        Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false },
+        front,
+    )
+    .expect("determined")
+    .estimate("fx_px")
+    .expect("fitted");
     assert!((alone.standard_uncertainty / alone.value - 0.01).abs() < 2e-3, "{alone:?}");
 }
 

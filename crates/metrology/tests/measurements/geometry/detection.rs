@@ -4,7 +4,7 @@ use super::cameras::{fisheye, perspective};
 use super::paint::{View, checkerboard, dots, noisy};
 use etendue_metrology::Image;
 use etendue_metrology::patch_statistics::centroid_shift;
-use etendue_metrology::target::{Grid, TargetQuery, Target, TargetError, find};
+use etendue_metrology::target::{Grid, Target, TargetError, TargetQuery, find};
 use glam::{DVec2, DVec3};
 
 const BOARD: TargetQuery = TargetQuery { target: Some(Target::Checkerboard), size: None };

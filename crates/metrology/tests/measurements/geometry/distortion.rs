@@ -4,8 +4,8 @@ use super::cameras::perspective;
 use super::paint::{View, checkerboard, dots, noisy};
 use etendue_metrology::chromatic::{displacements, rings};
 use etendue_metrology::distortion::{Distortion, DistortionError, distortion};
-use etendue_metrology::target::{Grid, Node, TargetQuery, Target, find};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, DistortionDirection};
+use etendue_metrology::target::{Grid, Node, Target, TargetQuery, find};
+use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model, RadialDistortion};
 use glam::{DVec2, DVec3};
 
 const SIZE: [usize; 2] = [800, 600];
@@ -39,7 +39,9 @@ fn check(camera: &Calibration, measured: &Distortion, tolerance: f64) {
 
 #[test]
 fn the_curve_is_the_camera_s() {
-    for (sense, k1, k2) in [(DistortionDirection::ObservedToIdeal, 0.15, 0.03), (DistortionDirection::IdealToObserved, 0.06, -0.01)] {
+    for (sense, k1, k2) in
+        [(DistortionDirection::ObservedToIdeal, 0.15, 0.03), (DistortionDirection::IdealToObserved, 0.06, -0.01)]
+    {
         let camera = camera(sense, k1, k2, 700.0);
         let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(20.0, 15.0), DVec3::new(0.1, -0.2, 22.0));
         let image = view.render(6, &dots(41, 31, 0.25));
@@ -50,7 +52,8 @@ fn the_curve_is_the_camera_s() {
         let fit = if sense == DistortionDirection::IdealToObserved { measured.forward } else { measured.backward };
         assert!(fit.rms_px < 0.02, "{fit:?}");
         assert!((fit.k1.value - k1).abs() < 1e-3 && (fit.k2.value - k2).abs() < 1e-3, "{fit:?}");
-        let off = fit.centre_px.iter().zip([400.0, 300.0]).map(|(c, expected)| (c.value - expected, c.standard_uncertainty));
+        let off =
+            fit.centre_px.iter().zip([400.0, 300.0]).map(|(c, expected)| (c.value - expected, c.standard_uncertainty));
         // A thirtieth of 0.01 px of noise remains, over a distortion of a tenth; at most a few standard uncertainties.
         assert!(off.into_iter().all(|(off, u)| off.abs() < 0.3 && u < 0.3), "{fit:?}");
         let worst = measured.local.iter().filter(|l| l.field > 0.2);
@@ -128,7 +131,10 @@ fn a_channel_of_another_scale_is_displaced_in_proportion_to_the_field() {
     }
     let outer = *rings(&list).last().expect("rings");
     let expected = 0.002 * outer.field * HALF_DIAGONAL_PX;
-    assert!((outer.radial.value - expected).abs() < 3.0 * outer.radial.standard_uncertainty + 0.01, "{outer:?} {expected}");
+    assert!(
+        (outer.radial.value - expected).abs() < 3.0 * outer.radial.standard_uncertainty + 0.01,
+        "{outer:?} {expected}"
+    );
     // Shifted by half a pixel: constant over the image.
     let shifted = displacements(&green, &grid(1.0, 0.5 / 700.0 * 20.0), SIZE);
     let mean = shifted.iter().map(|d| d.by).sum::<DVec2>() / shifted.len() as f64;

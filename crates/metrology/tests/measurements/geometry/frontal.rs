@@ -3,8 +3,8 @@
 use super::paint::noisy;
 use crate::coverage::{Run, covers};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
-use etendue_metrology::calibrate::{Family, CalibrationOptions, RadialTerms, Sightings, calibrate};
-use etendue_metrology::target::{Grid, TargetQuery, Target, find};
+use etendue_metrology::calibrate::{CalibrationOptions, Family, RadialTerms, Sightings, calibrate};
+use etendue_metrology::target::{Grid, Target, TargetQuery, find};
 use etendue_metrology::{Estimate, Image};
 use etendue_projection::DistortionDirection;
 use glam::DVec2;

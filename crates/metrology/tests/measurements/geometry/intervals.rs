@@ -5,11 +5,13 @@ use super::paint::View;
 use crate::coverage::{Run, covers};
 use crate::draws::normals;
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrationResult, Family, CalibrationOptions, RadialTerms, Sighting, Sightings, calibrate};
+use etendue_metrology::calibrate::{
+    CalibrationOptions, CalibrationResult, Family, RadialTerms, Sighting, Sightings, calibrate,
+};
 use etendue_metrology::chromatic::{displacements, rings, shift};
 use etendue_metrology::distortion::distortion;
 use etendue_metrology::target::{Grid, Node};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, DistortionDirection};
+use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model, RadialDistortion};
 use glam::{DVec2, DVec3};
 
 /// Noise of a point, px.
@@ -20,7 +22,8 @@ const HALF_DIAGONAL_PX: f64 = 500.0;
 /// r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the image centre.
 fn barrel(k1: f64, k2: f64) -> Calibration {
     let f = 700.0;
-    let radial = RadialDistortion::new(DistortionDirection::IdealToObserved, k1, k2, HALF_DIAGONAL_PX / f).expect("finite");
+    let radial =
+        RadialDistortion::new(DistortionDirection::IdealToObserved, k1, k2, HALF_DIAGONAL_PX / f).expect("finite");
     let matrix = CameraMatrix { fx: f, fy: f, skew: 0.0, cx: 400.0, cy: 300.0 };
     Calibration::new(Model::Radial(radial), matrix, SIZE).expect("a camera")
 }
@@ -160,10 +163,14 @@ fn calibration_from_views() {
         let camera = perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], [640, 480]);
         let rotations = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.1, -0.5, 1.6]];
         let mut normal = normals(seed, 0);
-        let views: Vec<Sightings> = rotations.iter().map(|rotation| sighted(&pose(&camera, *rotation, 0.5), &mut normal)).collect();
+        let views: Vec<Sightings> =
+            rotations.iter().map(|rotation| sighted(&pose(&camera, *rotation, 0.5), &mut normal)).collect();
         let calibrated = calibrate(&views, [640, 480], family, CalibrationOptions::default()).expect("settles");
         let k = [("k1", -0.2), ("k2", 0.05), ("p1", 0.001), ("p2", -0.002)];
-        named(&calibrated, &[&[("fx_px", 500.0), ("fy_px", 501.5), ("cx_px", 326.3), ("cy_px", 235.3)][..], &k].concat())
+        named(
+            &calibrated,
+            &[&[("fx_px", 500.0), ("fy_px", 501.5), ("cx_px", 326.3), ("cy_px", 235.3)][..], &k].concat(),
+        )
     });
 }
 

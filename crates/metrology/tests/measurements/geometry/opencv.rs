@@ -1,7 +1,7 @@
 //! Comparison with OpenCV, on its own photographs: tests/oracles/checkerboard.py, corners.py.
 
-use etendue_metrology::calibrate::{Family, CalibrationOptions, RadialTerms, Sighting, Sightings, calibrate};
-use etendue_metrology::target::{Node, TargetQuery, Target, TargetError, find};
+use etendue_metrology::calibrate::{CalibrationOptions, Family, RadialTerms, Sighting, Sightings, calibrate};
+use etendue_metrology::target::{Node, Target, TargetError, TargetQuery, find};
 use etendue_metrology::{Estimate, Image};
 use glam::DVec2;
 use serde_json::Value;
@@ -93,7 +93,9 @@ fn cameras_from_both_s_corners_agree_within_their_joint_uncertainty() {
             let opencv_corners = corners(list);
             let index = |at: DVec2| opencv_corners.iter().position(|t| *t == at).expect("of the list");
             let chart = |i: usize| DVec2::new((i % 9) as f64, (i / 9) as f64);
-            let points = compared_corners(name, &opencv_corners).into_iter().map(|(n, t)| Sighting { chart: chart(index(t)), at: n.at });
+            let points = compared_corners(name, &opencv_corners)
+                .into_iter()
+                .map(|(n, t)| Sighting { chart: chart(index(t)), at: n.at });
             Sightings { points: points.collect(), disc_radius: None }
         })
         .collect();
@@ -101,7 +103,11 @@ fn cameras_from_both_s_corners_agree_within_their_joint_uncertainty() {
     for (key, opencv_estimate) in camera(&figures) {
         let own_estimate = calibrated.estimate(&key).expect("fitted");
         let e_n = (own_estimate.value - opencv_estimate.value)
-            / (2.0 * etendue_core::maths::f64::hypot(own_estimate.standard_uncertainty, opencv_estimate.standard_uncertainty));
+            / (2.0
+                * etendue_core::maths::f64::hypot(
+                    own_estimate.standard_uncertainty,
+                    opencv_estimate.standard_uncertainty,
+                ));
         assert!(e_n.abs() < 1.0, "{key}: {own_estimate:?} {opencv_estimate:?}");
     }
     // Their corners leave 0.195 px.
@@ -147,13 +153,27 @@ fn the_camera_from_opencv_s_corners_is_opencv_s() {
     let calibrated = calibrate(&views, [640, 480], FAMILY, CalibrationOptions::default()).expect("settles");
     for (name, opencv_estimate) in camera(&figures) {
         let place = calibrated.parameters.iter().position(|p| p.name == name).expect("fitted");
-        let (own_estimate, independent) = (calibrated.parameters[place].estimate, calibrated.independent_uncertainties[place]);
+        let (own_estimate, independent) =
+            (calibrated.parameters[place].estimate, calibrated.independent_uncertainties[place]);
         // The same points and the same sum of squares: the parameters agree to a hundredth of their uncertainty, and the
         // uncertainties for independent points, which OpenCV states, to the linearisation. This program's uncertainties include
         // errors shared by a row or column: on these photographs they are up to twice as large.
-        assert!((own_estimate.value - opencv_estimate.value).abs() < 0.01 * opencv_estimate.standard_uncertainty, "{name}: {own_estimate:?} {opencv_estimate:?}");
-        assert!((independent / opencv_estimate.standard_uncertainty - 1.0).abs() < 0.02, "{name}: {independent} {opencv_estimate:?}");
-        assert!((1.0..2.0).contains(&(own_estimate.standard_uncertainty / independent)), "{name}: {own_estimate:?} {independent}");
+        assert!(
+            (own_estimate.value - opencv_estimate.value).abs() < 0.01 * opencv_estimate.standard_uncertainty,
+            "{name}: {own_estimate:?} {opencv_estimate:?}"
+        );
+        assert!(
+            (independent / opencv_estimate.standard_uncertainty - 1.0).abs() < 0.02,
+            "{name}: {independent} {opencv_estimate:?}"
+        );
+        assert!(
+            (1.0..2.0).contains(&(own_estimate.standard_uncertainty / independent)),
+            "{name}: {own_estimate:?} {independent}"
+        );
     }
-    assert!((calibrated.rms_px() / figures["rms_px"].as_f64().expect("a number") - 1.0).abs() < 1e-4, "{}", calibrated.rms_px());
+    assert!(
+        (calibrated.rms_px() / figures["rms_px"].as_f64().expect("a number") - 1.0).abs() < 1e-4,
+        "{}",
+        calibrated.rms_px()
+    );
 }

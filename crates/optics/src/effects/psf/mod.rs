@@ -22,10 +22,10 @@ use rayon::prelude::*;
 
 use super::convolve::{self, OperationCounts, UsageCounts};
 use super::film_part::{FilmPart, MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use super::patches::{Patches, PatchLayout};
+use super::patches::{PatchLayout, Patches};
 use super::{Canvas, error::EffectsError, sample_spread::SampleSpread};
 use crate::lens::Lens;
-use pattern::{CELLS, ApertureOutline, Pupil};
+use pattern::{ApertureOutline, CELLS, Pupil};
 use patterns::{Extent, Patch, Patterns};
 
 pub use pattern::Zernike;
@@ -120,7 +120,8 @@ impl Psf {
         let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
         let mut psf = Self { parameters, f_number, exit_mm, patches: [1, 1] };
         let corner_mm = image.max_radius_mm();
-        let varies = psf.stretch(corner_mm)[0] > UNIFORM_RATIO || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
+        let varies =
+            psf.stretch(corner_mm)[0] > UNIFORM_RATIO || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
         psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
         psf.check_width(image.pitch_mm().min_element())?;
         psf.check_slope(image.pitch_mm().min_element())?;

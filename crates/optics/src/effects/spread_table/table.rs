@@ -11,7 +11,7 @@ use super::function::{FieldSpread, RadialFunction, SpreadShape, keeps_shapes, pa
 use crate::effects::convolve::{self, OperationCounts, UsageCounts};
 use crate::effects::core_table::{CoreBuilder, CoreTable};
 use crate::effects::film_part::{SpreadWidth, mid_wavelengths};
-use crate::effects::patches::{Patches, PatchLayout};
+use crate::effects::patches::{PatchLayout, Patches};
 use crate::{
     effects::Canvas, effects::error::EffectsError, effects::psf::VISIBLE, effects::sample_spread::SampleSpread,
 };

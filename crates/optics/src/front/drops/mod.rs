@@ -68,7 +68,11 @@ impl Drops {
         Self::with_droplets(parameters, droplets, face)
     }
 
-    fn with_droplets(parameters: DropsParameters, droplets: Vec<Droplet>, face: GlassFace<'_>) -> Result<Self, FrontError> {
+    fn with_droplets(
+        parameters: DropsParameters,
+        droplets: Vec<Droplet>,
+        face: GlassFace<'_>,
+    ) -> Result<Self, FrontError> {
         let angle = parameters.contact_angle_rad;
         let reach = |d: &Droplet| (d.centre_mm, d.radius_mm * reach_factor(angle));
         let grid = DiscGrid::new(&droplets.iter().map(reach).collect::<Vec<_>>());
@@ -80,7 +84,13 @@ impl Drops {
     }
 
     /// The drops at a time, s, if they change; `down` is the direction of gravity in the glass's frame. Drops that slid off the glass are removed.
-    pub(super) fn at(&self, course: &Course, time_s: f64, down: DVec3, face: GlassFace<'_>) -> Result<Self, FrontError> {
+    pub(super) fn at(
+        &self,
+        course: &Course,
+        time_s: f64,
+        down: DVec3,
+        face: GlassFace<'_>,
+    ) -> Result<Self, FrontError> {
         let mut droplets = evolution::at(&self.parameters, course, time_s, down.truncate());
         droplets.retain(|drop| face(drop.centre_mm).is_some());
         Self::with_droplets(self.parameters.clone(), droplets, face)

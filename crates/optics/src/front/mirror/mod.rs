@@ -12,7 +12,7 @@ mod mesh;
 mod quadric;
 mod reflectance;
 
-use super::{RayOutcome, FrontError, MemberRay, Placement};
+use super::{FrontError, MemberRay, Placement, RayOutcome};
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};

@@ -20,7 +20,11 @@ impl Reflectance {
         let (low, high) = curve.range();
         let value = if low >= 0.0 { high } else { low };
         let right = low >= 0.0 && high <= 1.0 && high > 0.0;
-        if right { Ok(()) } else { Err(FrontError::Fraction { name: "reflectance", value, range: "0 and 1, not all 0" }) }
+        if right {
+            Ok(())
+        } else {
+            Err(FrontError::Fraction { name: "reflectance", value, range: "0 and 1, not all 0" })
+        }
     }
 
     /// True if it depends on the wavelength.

@@ -20,7 +20,7 @@ mod wet_tests;
 use glam::DVec3;
 
 use super::drops::{Drops, DropsParameters};
-use super::{RayOutcome, MemberRay};
+use super::{MemberRay, RayOutcome};
 use crate::prescription::coating::{Coating, Crossing};
 use crate::{error::FrontError, overlap::PRINCIPAL_NM};
 use face::{Face, check};
@@ -118,7 +118,10 @@ impl Windscreen {
     #[must_use]
     pub fn axial_transmittances(&self) -> Option<[f64; 2]> {
         let axis = MemberRay { point_mm: DVec3::ZERO, direction: DVec3::Z };
-        match (self.through(axis, PRINCIPAL_NM, LightPath::Direct), self.through(axis, PRINCIPAL_NM, LightPath::DoubleReflection)) {
+        match (
+            self.through(axis, PRINCIPAL_NM, LightPath::Direct),
+            self.through(axis, PRINCIPAL_NM, LightPath::DoubleReflection),
+        ) {
             (RayOutcome::Transmitted(_, straight), RayOutcome::Transmitted(_, doubled)) => Some([straight, doubled]),
             (RayOutcome::Transmitted(_, straight), _) => Some([straight, 0.0]),
             _ => None,
@@ -150,7 +153,11 @@ impl Windscreen {
     /// Selects the light path of a sample by its first number; returns the path, the rescaled number, and the inverse probability.
     pub(super) fn choose(&self, u: f64) -> (LightPath, f64, f64) {
         let q = self.double_image_fraction;
-        if u < q { (LightPath::DoubleReflection, u / q, 1.0 / q) } else { (LightPath::Direct, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
+        if u < q {
+            (LightPath::DoubleReflection, u / q, 1.0 / q)
+        } else {
+            (LightPath::Direct, (u - q) / (1.0 - q), 1.0 / (1.0 - q))
+        }
     }
 
     /// True if a point of the camera frame is on the camera's side.

@@ -2,7 +2,7 @@
 
 use super::{Layer, LightPath, Windscreen, WindscreenParameters};
 use crate::front::drops::{Cap, DropsParameters};
-use crate::front::{Curve, RayOutcome, MemberRay, Placement};
+use crate::front::{Curve, MemberRay, Placement, RayOutcome};
 use crate::prescription::coating::{Coating, Crossing};
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{asin, cos, sin, sin_cos, tan};
@@ -103,7 +103,8 @@ fn a_drop_inverts_and_scales_what_is_behind_it() {
         for slope in [-2e-6, 1e-6, 3e-6] {
             let direction = DVec3::new(slope, 2.0 * slope, 1.0).normalize();
             let (out, _) =
-                through_wet_glass(&glass, MemberRay { point_mm: DVec3::new(0.0, 0.0, -distance_mm), direction }).expect("light");
+                through_wet_glass(&glass, MemberRay { point_mm: DVec3::new(0.0, 0.0, -distance_mm), direction })
+                    .expect("light");
             let visible = out.direction / out.direction.z;
             assert!((visible.x / (scale * slope) - 1.0).abs() < 1e-4, "{distance_mm}: {} {}", visible.x, scale * slope);
             assert!((visible.y / (2.0 * scale * slope) - 1.0).abs() < 1e-4);
@@ -125,7 +126,8 @@ fn in_uniform_light_a_drop_is_seen_by_its_fresnel_losses_alone() {
             transmittance([GLASS, WATER], 0.0) * transmittance([WATER, 1.0], within) / transmittance([GLASS, 1.0], 0.0);
         assert!((fraction / through_dry_glass(&glass, line).1 - expected).abs() < 1e-12, "{r}");
     }
-    let middle = through_wet_glass(&glass, ray(0.0, 0.0)).expect("light").1 / through_dry_glass(&glass, ray(0.0, 0.0)).1;
+    let middle =
+        through_wet_glass(&glass, ray(0.0, 0.0)).expect("light").1 / through_dry_glass(&glass, ray(0.0, 0.0)).1;
     assert!((middle - 1.0188).abs() < 1e-4, "{middle}");
     // Beyond R/n light is reflected at the sphere: it leaves through the other side or not at all.
     let aperture = through_wet_glass(&glass, ray(0.95, 0.0));
@@ -230,8 +232,8 @@ fn the_double_image_is_fainter_under_a_drop() {
     let glass = one(60.0);
     let doubled = |outcome| on(outcome).expect("a double image").1;
     let line = ray(0.0, 0.0);
-    let ratio =
-        doubled(glass.through_wet(line, 550.0, LightPath::DoubleReflection)) / doubled(glass.through(line, 550.0, LightPath::DoubleReflection));
+    let ratio = doubled(glass.through_wet(line, 550.0, LightPath::DoubleReflection))
+        / doubled(glass.through(line, 550.0, LightPath::DoubleReflection));
     let (water, air) = (transmittance([GLASS, WATER], 0.0), transmittance([GLASS, 1.0], 0.0));
     let expected = (1.0 - water) * water * transmittance([WATER, 1.0], 0.0) / ((1.0 - air) * air);
     assert!((ratio - expected).abs() < 1e-12, "{ratio} {expected}");

@@ -10,7 +10,7 @@ use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
 use super::bundles::Cell;
-use crate::prescription::trace::{LensRay, ApertureTest, TravelDirection};
+use crate::prescription::trace::{ApertureTest, LensRay, TravelDirection};
 use crate::{prescription::Prescription, prescription::indices::Media};
 
 /// Points of the first surface that determine the box of its clear aperture: along the radius, and over half a turn.
@@ -72,7 +72,14 @@ impl<'a> Beam<'a> {
         let outward = DVec3::new(ahead.z, 0.0, -ahead.x);
         let nearest = DVec3::new(0.0, 0.0, lens.paraxial().entrance_pupil_position_mm);
         let origin = principal.point + ahead * (nearest - principal.point).dot(ahead);
-        Self { lens, media: lens.media(nm), source: BeamRaySource::from_principal_ray(lens, principal), origin, ahead, outward }
+        Self {
+            lens,
+            media: lens.media(nm),
+            source: BeamRaySource::from_principal_ray(lens, principal),
+            origin,
+            ahead,
+            outward,
+        }
     }
 
     pub(super) fn ray(&self, q: DVec2) -> LensRay {

@@ -10,7 +10,7 @@ use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3};
 
 use super::opening::Meridian;
-use crate::prescription::trace::{LensRay, ApertureTest};
+use crate::prescription::trace::{ApertureTest, LensRay};
 use crate::{lens::FieldAngles, overlap::PRINCIPAL_NM, prescription::Prescription, prescription::indices::Media};
 
 const KNOTS: usize = 128;

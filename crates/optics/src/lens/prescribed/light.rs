@@ -80,7 +80,12 @@ impl PrescriptionLens {
 
 /// An integral over an opening that is star-shaped about its region's centre: for a number of directions the edge is found by bisection, then Gauss's
 /// rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
-fn over_a_star(opening: &PupilOpening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
+fn over_a_star(
+    opening: &PupilOpening<'_>,
+    ellipse: &Ellipse,
+    directions: usize,
+    f: &impl Fn(DVec2) -> f64,
+) -> Option<f64> {
     let centre = DVec2::new(ellipse.centre, 0.0);
     let edge = |direction: DVec2| {
         let edge = opening.reach(centre, direction, 3.0, 48, 40);

@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 use super::bundles::{Cell, bundles};
 use super::quadrature::Area;
-use crate::prescription::trace::{LensRay, ApertureTest, TravelDirection};
+use crate::prescription::trace::{ApertureTest, LensRay, TravelDirection};
 use crate::{lens::search::last_open, prescription::Prescription, prescription::indices::Media};
 
 /// A sensor point in its meridional frame.

@@ -158,7 +158,9 @@ impl Interval {
         let mut interval = Self { ends, radius: [0.0; DIRECTIONS + 1] };
         for sample in 0..INTERVAL_SAMPLES {
             let fraction = sample as f64 / (INTERVAL_SAMPLES - 1) as f64;
-            WAVELENGTHS_NM.into_iter().for_each(|nm| interval.include(lens, start_mm + width_mm * fraction, fraction, nm));
+            WAVELENGTHS_NM
+                .into_iter()
+                .for_each(|nm| interval.include(lens, start_mm + width_mm * fraction, fraction, nm));
         }
         interval.radius.iter_mut().for_each(|r| *r *= MARGIN);
         interval

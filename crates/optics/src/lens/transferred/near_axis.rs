@@ -47,7 +47,8 @@ impl NearAxis {
         }
         let sight = PupilQuery { transfer, sensor_mm, of: Some(transfer.nearest(PRINCIPAL_NM)) };
         let known_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.max_height_mm();
-        let chiefs = Chiefs::near_axis(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
+        let chiefs =
+            Chiefs::near_axis(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
         let oval = Oval::about(&sight, 0.0).ok_or_else(dark)?;
         let radius_mm = oval.axes_mm.x;
         let heights = |zone: f64| {
@@ -59,7 +60,8 @@ impl NearAxis {
         let bundle: Vec<_> = zones.filter_map(heights).collect();
         let squares: f64 = bundle.iter().map(|(y, _)| y * y).sum();
         let turns: f64 = bundle.iter().map(|(y, slope)| y * slope).sum();
-        let edge = (0..EDGE_DIRECTIONS).filter_map(|i| edge_height(&sight, &oval, towards(i, EDGE_DIRECTIONS), chiefs.entrance_mm));
+        let edge = (0..EDGE_DIRECTIONS)
+            .filter_map(|i| edge_height(&sight, &oval, towards(i, EDGE_DIRECTIONS), chiefs.entrance_mm));
         let edge: Vec<f64> = edge.collect();
         let focal_length_mm = focal_length_mm(transfer, radius_mm).ok_or(RayTransferError::Powerless)?;
         if !(squares > 0.0 && !edge.is_empty() && chiefs.principal_distance_mm > 0.0) {
@@ -83,7 +85,8 @@ impl NearAxis {
         let focal_mm = focal_length_mm(transfer, radius_mm).ok_or(RayTransferError::Powerless)?;
         let low_mm = transfer.input_offset_mm().max(0.0) + 1e-6 * focal_mm;
         let mut places = [low_mm, low_mm + MAX_SENSOR_DISTANCE * focal_mm];
-        let off = |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - power_per_mm);
+        let off =
+            |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - power_per_mm);
         // A sensor too far away or too near may be dark: the bracket lies where both ends are defined.
         let known: Vec<(f64, f64)> = (0..=48)
             .map(|i| places[0] + (places[1] - places[0]) * f64::from(i * i) / f64::from(48 * 48))

@@ -55,7 +55,8 @@ impl Pupils {
         let ovals: Vec<Oval> = (0..=INTERVALS).scan(None, next).collect();
         let mut pupils = Self { limit_mm, ovals, stretches: Vec::new() };
         let stretch = |i: usize| {
-            let samples = (0..INTERVAL_SAMPLES).map(|sample| (i as f64 + sample as f64 / (INTERVAL_SAMPLES - 1) as f64) * step);
+            let samples =
+                (0..INTERVAL_SAMPLES).map(|sample| (i as f64 + sample as f64 / (INTERVAL_SAMPLES - 1) as f64) * step);
             samples.map(|radius_mm| pupils.missing(sight, radius_mm)).fold(1.0, f64::max) * MARGIN
         };
         pupils.stretches = (pupils.ovals.len() == INTERVALS + 1).then(|| (0..INTERVALS).map(stretch).collect())?;

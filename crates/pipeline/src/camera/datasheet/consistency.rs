@@ -3,7 +3,7 @@
 use super::digits::PrintedRange;
 use etendue_core::maths::f64::pow;
 use etendue_scene::record::DataSheet;
-use etendue_scene::{ErrorCode, DescriptionError, Placed};
+use etendue_scene::{DescriptionError, ErrorCode, Placed};
 use etendue_sensor::figures::{QUANTISATION_DN2, bit, db, threshold_e};
 
 /// Errors and warnings of a data sheet.

@@ -62,6 +62,9 @@ mod tests {
         near(PrintedRange::printed(10_000.0), 9999.5, 10_000.5);
         near(PrintedRange::printed(0.25).falling(|x| 1.0 / x), 1.0 / 0.255, 1.0 / 0.245);
         near(PrintedRange::printed(8.0).over(PrintedRange::printed(2.0)), 7.5 / 2.5, 8.5 / 1.5);
-        assert!(PrintedRange::printed(1.0).meets(PrintedRange::printed(2.0)) && !PrintedRange::printed(1.0).meets(PrintedRange::printed(2.1)));
+        assert!(
+            PrintedRange::printed(1.0).meets(PrintedRange::printed(2.0))
+                && !PrintedRange::printed(1.0).meets(PrintedRange::printed(2.1))
+        );
     }
 }

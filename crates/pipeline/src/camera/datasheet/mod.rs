@@ -14,7 +14,7 @@ pub use consistency::MAX_RELATIVE_DIFFERENCE;
 use consistency::{SheetFigures, largest_dn};
 
 use etendue_scene::record::DataSheet;
-use etendue_scene::{ErrorCode, DescriptionError};
+use etendue_scene::{DescriptionError, ErrorCode};
 use etendue_sensor::figures::{MIN_DARK_DN2, dark_noise_e};
 
 /// A camera file made from a data sheet.

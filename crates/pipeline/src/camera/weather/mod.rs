@@ -93,8 +93,10 @@ impl Weather {
             depth: image.depth(),
         };
         let planes = weathered.radiance.planes_mut().iter_mut().zip(weathered.transmittance.planes_mut());
-        for (band, ((radiance, scene_transmittance), added)) in planes.zip(weathered.airlight.planes_mut()).enumerate() {
-            let pixels = radiance.samples_mut().par_iter_mut().zip(scene_transmittance.samples_mut()).zip(added.samples_mut());
+        for (band, ((radiance, scene_transmittance), added)) in planes.zip(weathered.airlight.planes_mut()).enumerate()
+        {
+            let pixels =
+                radiance.samples_mut().par_iter_mut().zip(scene_transmittance.samples_mut()).zip(added.samples_mut());
             pixels.enumerate().for_each(|(i, ((radiance, scene_transmittance), added))| {
                 let through = before.transmittance(&columns_m[i], band);
                 let air = airlight[band] * (1.0 - through);

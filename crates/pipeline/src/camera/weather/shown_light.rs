@@ -81,7 +81,8 @@ impl SurroundingMeans {
             let chosen = || sightings.iter().filter(|(i, _, is_above)| of(*i, *is_above));
             let total_weight: f64 = chosen().map(|(_, weight, _)| weight).sum();
             let planes = image.stored.radiance.planes().iter();
-            let weighted = planes.map(|plane| chosen().map(|(i, weight, _)| f64::from(plane.samples()[*i]) * weight).sum());
+            let weighted =
+                planes.map(|plane| chosen().map(|(i, weight, _)| f64::from(plane.samples()[*i]) * weight).sum());
             let weighted: Vec<f64> = weighted.collect();
             (total_weight > 0.0).then(|| weighted.into_iter().map(|sum| sum / total_weight).collect::<Vec<f64>>())
         };
@@ -112,7 +113,8 @@ impl SurroundingMeans {
             ContinuedRay::Below => self.below[band],
         };
         let planes = image.stored.radiance.planes().iter().enumerate();
-        let weighted = planes.map(|(band, plane)| continued_rays.iter().map(|continued| radiance(plane, band, continued)).sum::<f64>());
+        let weighted = planes
+            .map(|(band, plane)| continued_rays.iter().map(|continued| radiance(plane, band, continued)).sum::<f64>());
         weighted.map(|sum| sum / f64::from(DIRECTIONS)).collect()
     }
 }

@@ -1,12 +1,12 @@
 //! Streaks over images of uniform walls, compared with closed forms and laws.
 
 use super::*;
-use crate::plan::{PrecipitationExposure, Precipitation};
+use crate::plan::{Precipitation, PrecipitationExposure};
 use etendue_core::Motion;
 use etendue_core::maths::f64::ln;
 use etendue_optics::PupilProjection;
 use etendue_spectra::Spectrum;
-use etendue_tracer::media::{Medium, Phase, MediumRegion};
+use etendue_tracer::media::{Medium, MediumRegion, Phase};
 use etendue_tracer::precipitation::{ChangeOver, PrecipitationField, SizeLaw};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::ThreadPoolBuilder;
@@ -62,8 +62,13 @@ fn precipitation(law: SizeLaw, seed: u32, smallest_px: f64) -> Precipitation {
 fn weather(precipitation: Precipitation, exposure_s: f64, airlight: f64) -> Weather {
     // With a uniform phase function, so that the table of drops need not be computed.
     let (extinction, albedo) = (Spectrum::constant(precipitation.field.extinction_per_m()), Spectrum::constant(1.0));
-    let medium =
-        Medium::new(extinction, albedo, Phase::Isotropic, MediumRegion::Everywhere, Motion::constant(DAffine3::IDENTITY));
+    let medium = Medium::new(
+        extinction,
+        albedo,
+        Phase::Isotropic,
+        MediumRegion::Everywhere,
+        Motion::constant(DAffine3::IDENTITY),
+    );
     Weather {
         airlight: Airlight::Uniform(Spectrum::constant(airlight)),
         media: vec![medium.expect("legal")],

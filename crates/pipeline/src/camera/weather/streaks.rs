@@ -66,7 +66,12 @@ impl PrecipitationExposure {
         let mut streaks: Vec<Streak> = particles.iter().map(streak).collect();
         let middle_s = (0.5 * exposure_s) as f32;
         streaks.sort_by(|a, b| a.centre(middle_s).length().total_cmp(&b.centre(middle_s).length()));
-        ParticleStreaks { streaks, exposure_s: *exposure_s, hollow: field.hollow(&change_over), medium: precipitation.medium }
+        ParticleStreaks {
+            streaks,
+            exposure_s: *exposure_s,
+            hollow: field.hollow(&change_over),
+            medium: precipitation.medium,
+        }
     }
 }
 
@@ -94,7 +99,9 @@ impl ParticleStreaks {
             let radiance = weathered.radiance.planes_mut()[band].samples_mut().iter_mut();
             let scene_transmittance = weathered.transmittance.planes_mut()[band].samples_mut().iter_mut();
             let air = weathered.airlight.planes_mut()[band].samples_mut().iter_mut();
-            for ((((radiance, scene_transmittance), air), transmittance), added) in radiance.zip(scene_transmittance).zip(air).zip(&transmittance).zip(added) {
+            for ((((radiance, scene_transmittance), air), transmittance), added) in
+                radiance.zip(scene_transmittance).zip(air).zip(&transmittance).zip(added)
+            {
                 *scene_transmittance *= transmittance;
                 *air = *air * transmittance + added;
                 *radiance = *radiance * transmittance + added;

@@ -4,7 +4,7 @@ use super::*;
 use etendue_core::{Bands, Motion};
 use etendue_optics::PupilProjection;
 use etendue_spectra::Spectrum;
-use etendue_tracer::media::{Medium, Noise, Phase, MediumRegion, DensityVariation};
+use etendue_tracer::media::{DensityVariation, Medium, MediumRegion, Noise, Phase};
 use glam::{DAffine3, DMat3};
 use glam::{DVec2, DVec3};
 
@@ -50,13 +50,19 @@ fn the_law_of_koschmieder() {
     let uniform = Airlight::Uniform(Spectrum::constant(4.0));
     let everywhere = through_fog(fog(0.02, MediumRegion::Everywhere), uniform.clone()).expect("fog");
     let transmittance = exp(-0.02 * 20.0);
-    agrees(pixel_values(&everywhere, 1), [2.0 * transmittance + 4.0 * (1.0 - transmittance), transmittance, 4.0 * (1.0 - transmittance)]);
+    agrees(
+        pixel_values(&everywhere, 1),
+        [2.0 * transmittance + 4.0 * (1.0 - transmittance), transmittance, 4.0 * (1.0 - transmittance)],
+    );
     agrees(pixel_values(&everywhere, 0), [4.0, 0.0, 4.0]);
     agrees(pixel_values(&everywhere, 3), [0.0, 1.0, 0.0]);
     // Half inside a box: 7 m of it before the camera, along x; a pixel's ray is inclined by tan 0.2 twice.
     let within = through_fog(fog(0.1, MediumRegion::Box { half_m: DVec3::splat(10.0) }), uniform).expect("fog");
     let transmittance = exp(-0.1 * 7.0 * 1.08_f64.sqrt());
-    agrees(pixel_values(&within, 1), [2.0 * transmittance + 4.0 * (1.0 - transmittance), transmittance, 4.0 * (1.0 - transmittance)]);
+    agrees(
+        pixel_values(&within, 1),
+        [2.0 * transmittance + 4.0 * (1.0 - transmittance), transmittance, 4.0 * (1.0 - transmittance)],
+    );
     assert!((within.depth.samples()[1] - 20.0 / 1.08_f32.sqrt()).abs() < 1e-4);
 }
 
@@ -79,13 +85,18 @@ fn noise_is_summed_along_the_ray() {
     let noise = Noise { scale_m: 3.0, octaves: 3, gain: 0.5, seed: 5 };
     let uneven = DensityVariation { noise, amplitude: 0.9, wind_mps: DVec3::ZERO };
     let medium = fog(0.02, MediumRegion::Everywhere).with_unevenness(uneven);
-    let transmittance = pixel_values(&through_fog(medium, Airlight::Uniform(Spectrum::constant(4.0))).expect("fog"), 2)[1];
+    let transmittance =
+        pixel_values(&through_fog(medium, Airlight::Uniform(Spectrum::constant(4.0))).expect("fog"), 2)[1];
     let direction = DVec3::new(1.0, 0.2, -0.2).normalize();
     let n = 200_000;
     let step_m = 50.0 / f64::from(n);
     let at = |i: i32| DVec3::new(3.0, 0.0, 1.0) + direction * (f64::from(i) + 0.5) * step_m;
     let column_m: f64 = (0..n).map(|i| (1.0 + 0.9 * noise.at(at(i))) * step_m).sum();
     // The midpoint rule's error at 100 steps of a smallest eddy's sixth.
-    assert!((f64::from(transmittance) - exp(-0.02 * column_m)).abs() < 1e-3, "{transmittance} {}", exp(-0.02 * column_m));
+    assert!(
+        (f64::from(transmittance) - exp(-0.02 * column_m)).abs() < 1e-3,
+        "{transmittance} {}",
+        exp(-0.02 * column_m)
+    );
     assert!((column_m / 50.0 - 1.0).abs() > 1e-4, "uneven");
 }

@@ -9,7 +9,9 @@ use etendue_projection::{Calibration, Raster};
 use etendue_scene::Place;
 use etendue_scene::asset::{LensNumbers, LensQuantity};
 use etendue_scene::record::Sensor;
-use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, PixelDirections};
+use etendue_scene::record::lens::calibrated::{
+    Calibrated, IlluminationSource, PixelDirections, Pupil, RelativeIllumination,
+};
 use etendue_scene::record::lens::projection::CalibrationFile;
 
 /// Lens, and the raster around the calibration's principal point.

@@ -91,7 +91,7 @@ fn provisional_lens(asset: &PrescriptionAsset) -> Result<ProvisionalLens, LensFi
     let focus = Focus::Sensor { distance_m: file_aperture.distance_m };
     let defocus_mm = file_aperture.defocus_mm.unwrap_or(asset.defocus_mm);
     let prescription = paraxial_lens(&surfaces, focus, defocus_mm, reference_nm(asset))?;
-    Ok(ProvisionalLens { file_aperture: stated: file_aperture, prescription })
+    Ok(ProvisionalLens { file_aperture, prescription })
 }
 
 /// Ray bundles of the axis and of the file's fields.
@@ -101,7 +101,9 @@ fn bundles(asset: &PrescriptionAsset, fields: &LensFields, distance_m: f64) -> R
     let object = |height_mm: f64| FieldPoint::Object { height_mm, distance_mm };
     let points: Vec<FieldPoint> = match fields {
         // The point of the near object in that direction from the entrance pupil: light that travels upwards comes from below.
-        LensFields::AnglesDeg(list) if near => list.iter().map(|deg| object(-tangent(*deg) * distance_m * MM_PER_M)).collect(),
+        LensFields::AnglesDeg(list) if near => {
+            list.iter().map(|deg| object(-tangent(*deg) * distance_m * MM_PER_M)).collect()
+        }
         LensFields::AnglesDeg(list) => list.iter().map(|deg| FieldPoint::Angle(deg.to_radians())).collect(),
         LensFields::ObjectMm(list) if near => list.iter().map(|height_mm| object(*height_mm)).collect(),
         LensFields::ObjectMm(_) => return Err("its fields are heights of an object at infinity".to_owned()),

@@ -107,7 +107,8 @@ pub(super) fn note_differences(
     if let Some(stop_mm) = file_aperture.stop_mm.filter(|_| record.f_number.is_none())
         && (stop_mm / own_stop_mm - 1.0).abs() > 1e-3
     {
-        let clipping = asset.surfaces.iter().find(|surface| surface.stop && surface.clips_light && stop_mm > own_stop_mm);
+        let clipping =
+            asset.surfaces.iter().find(|surface| surface.stop && surface.clips_light && stop_mm > own_stop_mm);
         record_note(clipping.map_or_else(
             || format!("its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"),
             |stop| {

@@ -16,7 +16,7 @@ use super::context::Context;
 use super::effects::widest_film;
 use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilParameters, ThickParameters, ThinParameters};
 use etendue_optics::{LateralColour, Lens, OpticsError, TelecentricParameters};
-use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, DistortionDirection};
+use etendue_projection::{DistortionDirection, RadialDistortion, RadiusScales, RadiusUnit, Raster};
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
 use glam::DVec2;
@@ -130,7 +130,9 @@ fn thin(r: &description::Thin) -> Result<Lens, OpticsError> {
 fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
     let number = |v: &Option<Placed<f64>>| v.as_ref().map(|v| v.value);
     let aperture = |aperture: &Option<description::ClearAperture>| {
-        aperture.as_ref().map(|r| lens::ClippingAperture { position_mm: r.position_mm.value, radius_mm: r.radius_mm.value })
+        aperture
+            .as_ref()
+            .map(|r| lens::ClippingAperture { position_mm: r.position_mm.value, radius_mm: r.radius_mm.value })
     };
     Lens::thick(ThickParameters {
         focal_length_mm: r.focal_length_mm.value,

@@ -10,8 +10,8 @@ use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
-use etendue_optics::prescription::{Focus, AxialClipping, Surface};
-use etendue_optics::{Lens, PRINCIPAL_NM, PrescriptionLens, Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_optics::prescription::{AxialClipping, Focus, Surface};
+use etendue_optics::{Lens, PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionLens, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_scene::asset::PrescriptionAsset;
 use etendue_scene::record::lens::prescription::{self as record, Glass, GlassConstants, IrCutCurve, SurfaceListSource};
@@ -35,14 +35,16 @@ pub(super) fn lens(
 ) -> Option<Lens> {
     let source_surfaces = lens_surfaces(record, context);
     let filter = record.ir_cut.as_ref().map(|filter| ir_cut(filter, context));
-    let source_surfaces = source_surfaces.map(|LensSurfaces { surfaces, file }| LensSurfaces { surfaces: coated(surfaces, record), file })?;
+    let source_surfaces = source_surfaces
+        .map(|LensSurfaces { surfaces, file }| LensSurfaces { surfaces: coated(surfaces, record), file })?;
     let prescription = build(record, source_surfaces, context).map_err(|error| refuse(record, &error, context)).ok()?;
     let filter = filter.map_or(Some(None), |filter| filter.map(Some))?;
     let lens = PrescriptionLens::new(prescription, filter, film.max_radius_mm());
     let lens = context.accept(&record.place, lens)?;
     if lens.lit_radius_mm() < raster.max_radius_mm() * (1.0 - 1e-9) {
         let (lit_mm, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
-        let problem = format!("the lens illuminates {lit_mm:.3} mm around the axis, but the image extends to {needed:.3} mm");
+        let problem =
+            format!("the lens illuminates {lit_mm:.3} mm around the axis, but the image extends to {needed:.3} mm");
         context.warn_on(&record.place, problem);
     }
     Some(Lens::prescription(lens))
@@ -230,8 +232,12 @@ struct Defaults {
 }
 
 impl Defaults {
-    const WITHOUT_FILE: Self =
-        Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_apertures: AxialClipping::Refused };
+    const WITHOUT_FILE: Self = Self {
+        distance_m: f64::INFINITY,
+        defocus_mm: 0.0,
+        reference_nm: PRINCIPAL_NM,
+        other_apertures: AxialClipping::Refused,
+    };
 }
 
 /// Lens with the description's aperture and focus, otherwise with the defaults.
@@ -251,7 +257,14 @@ fn focused(
     };
     let defocus_mm = record.defocus_mm.as_ref().map_or(defaults.defocus_mm, |d| d.value);
     let f_number = record.f_number.as_ref().map(|n| n.value);
-    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, reference_nm, axial_clipping: other_apertures })
+    Prescription::new(PrescriptionParameters {
+        surfaces,
+        f_number,
+        focus,
+        defocus_mm,
+        reference_nm,
+        axial_clipping: other_apertures,
+    })
 }
 
 /// Records, at the place of the cause, why the surfaces do not form a lens.

@@ -70,7 +70,12 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
 const MAX_RADIUS: f64 = 1e4;
 
 /// fx of an image with a horizontal field angle.
-fn focal_length_from_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<f64> {
+fn focal_length_from_field(
+    angle: &Placed<f64>,
+    model: &Model,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<f64> {
     // A full turn ends behind the camera, where no direction has an image: 1e-12 of it is excluded.
     let half = 0.5 * angle.value.to_radians() * (1.0 - 1e-12);
     let (sin, cos) = etendue_core::maths::f64::sin_cos(half);

@@ -6,7 +6,7 @@ use etendue_projection::model::{
     Panorama, Perspective, Tabulated, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
-use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, DistortionDirection};
+use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model, RadialDistortion};
 use etendue_scene::Placed;
 use etendue_scene::record::lens::Direction;
 use etendue_scene::record::lens::projection::{self as record, Centre, Matrix, Projection};

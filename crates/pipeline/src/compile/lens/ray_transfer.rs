@@ -5,7 +5,7 @@ use crate::compile::stated::{focus_m, transmittance};
 use etendue_optics::ray_transfer::{
     PassCircle, PassEllipse, PassRegion, Polynomial, RayPass, RayTransfer, RayTransferError, Term, Transfer,
 };
-use etendue_optics::{Lens, OpticsError, SensorPlace, RayTransferLens};
+use etendue_optics::{Lens, OpticsError, RayTransferLens, SensorPlace};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_scene::asset::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};

@@ -163,8 +163,8 @@ fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
     let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 0.02 });
     let fields = |list: &[f64]| Some(LensFields::AnglesDeg(list.to_vec()));
     // Narrow enough that the heights are those of the chief rays, and small enough for first order.
-    let [[near, _, _], [distant, _, _]] =
-        [1.0, 2.0].map(|deg| <[f64; 3]>::try_from(found_apertures(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
+    let [[near, _, _], [distant, _, _]] = [1.0, 2.0]
+        .map(|deg| <[f64; 3]>::try_from(found_apertures(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
     assert!(near > 0.05 && (distant / near - 2.0).abs() < 0.1, "{near} {distant}");
     let (axis, entrance_mm) = found_apertures(open_asset(pupil, fields(&[0.0])));
     assert!((entrance_mm - 0.01).abs() < 1e-9 && (axis[0] - 0.01).abs() < 1e-6, "{axis:?}");

@@ -68,9 +68,15 @@ impl MaterialCompiler<'_, '_> {
     /// Refuses colours as plain numbers, and encoded plain numbers.
     fn check_encoding(&mut self, record: &Texture, name: &Placed<String>, usage: ImageUse) -> Option<()> {
         let (problem, remedy) = match (usage, record.encoding.value) {
-            (ImageUse::Colour, Encoding::Data) => ("plain numbers, but colours are required here", "\"srgb\" or \"linear\""),
-            (ImageUse::Number, Encoding::Srgb) => ("sRGB-encoded colours, but plain numbers are required here", "\"data\""),
-            (ImageUse::Normal, Encoding::Srgb | Encoding::Linear) => ("colours, but normals are required here", "\"data\""),
+            (ImageUse::Colour, Encoding::Data) => {
+                ("plain numbers, but colours are required here", "\"srgb\" or \"linear\"")
+            }
+            (ImageUse::Number, Encoding::Srgb) => {
+                ("sRGB-encoded colours, but plain numbers are required here", "\"data\"")
+            }
+            (ImageUse::Normal, Encoding::Srgb | Encoding::Linear) => {
+                ("colours, but normals are required here", "\"data\"")
+            }
             _ => return Some(()),
         };
         let problem = format!("the texture \"{}\" contains {problem} (it is defined at {})", name.value, record.place);

@@ -6,7 +6,8 @@ use super::builder::MaterialTableBuilder;
 use super::texels::TexelInterpretation;
 use etendue_scene::Place;
 use etendue_scene::asset::{
-    SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotTopLayer, SlotPicture, SlotTransmission, SlotWrap,
+    SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotPicture, SlotTopLayer, SlotTransmission,
+    SlotWrap,
 };
 use etendue_spectra::colour::BT709;
 use etendue_spectra::{metal, upsample};
@@ -47,7 +48,7 @@ impl MaterialTableBuilder {
         context: &mut Context<'_>,
     ) -> Option<Material> {
         let uses_image = layers.has_picture();
-        Layering { builder: self, context, slot, place, uses_image: has_picture: uses_image }.material(layers)
+        Layering { builder: self, context, slot, place, uses_image }.material(layers)
     }
 }
 
@@ -70,7 +71,8 @@ impl Layering<'_, '_, '_> {
         let mut material = Material::new(surface);
         if let (Some((image, strength)), false) = (&layers.normals, is_mix) {
             let texture = self.texture(image)?;
-            material.normal_map = Some(self.context.accept(self.place, NormalMap::new(texture, GreenDirection::Up, *strength))?);
+            material.normal_map =
+                Some(self.context.accept(self.place, NormalMap::new(texture, GreenDirection::Up, *strength))?);
         }
         Some(material)
     }
@@ -105,7 +107,12 @@ impl Layering<'_, '_, '_> {
             SlotNumber::Number(fraction) if fraction >= 1.0 => Some(transmission),
             _ => {
                 let opaque = self.opaque(layers)?;
-                self.mix(NamedSurface::new(opaque, "opaque"), NamedSurface::new(transmission, "clear"), &clear.fraction, layers)
+                self.mix(
+                    NamedSurface::new(opaque, "opaque"),
+                    NamedSurface::new(transmission, "clear"),
+                    &clear.fraction,
+                    layers,
+                )
             }
         }
     }
@@ -202,7 +209,8 @@ impl Layering<'_, '_, '_> {
             SlotWrap::Mirror => Wrap::Mirror,
         });
         let sampling = Sampling { wrap, ..Sampling::default() };
-        let reading = TexelInterpretation { encoded: image.is_encoded, alpha: false, colour: image.is_encoded, scale: 1.0 };
+        let reading =
+            TexelInterpretation { encoded: image.is_encoded, alpha: false, colour: image.is_encoded, scale: 1.0 };
         self.builder.pictures.picture(&image.file, self.place, reading, sampling, self.context)
     }
 }

@@ -1,7 +1,7 @@
 //! Images as textures, each made once per layout.
 
 use super::super::context::{Context, ErrorCode};
-use super::large_picture::{TilingError, TexelUse, texture_in_memory, tiled_texture};
+use super::large_picture::{TexelUse, TilingError, texture_in_memory, tiled_texture};
 use super::texels::TexelInterpretation;
 use etendue_scene::asset::{Assets, LargeImage, TexelStore};
 use etendue_scene::{Place, Problem};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(super) struct Pictures {
     textures: Vec<ImageTexture>,
-    textures: BTreeMap<(PathBuf, String), TextureId>,
+    ids: BTreeMap<(PathBuf, String), TextureId>,
     /// Memory of the tiles of all large images, once there are any.
     tile_memory: Option<Arc<TileMemory>>,
 }
@@ -41,13 +41,13 @@ impl Pictures {
         context: &mut Context<'_>,
     ) -> Option<TextureId> {
         let key = (file.to_owned(), format!("{reading:?} {sampling:?}"));
-        if let Some(id) = self.textures.get(&key) {
+        if let Some(id) = self.ids.get(&key) {
             return Some(*id);
         }
         let texture = self.texture(file, place, TexelUse { reading, sampling }, context)?;
         self.textures.push(texture);
         let id = TextureId((self.textures.len() - 1) as u32);
-        self.textures.insert(key, id);
+        self.ids.insert(key, id);
         Some(id)
     }
 

@@ -9,7 +9,9 @@ use etendue_scene::record::material::{
 };
 use etendue_scene::{ErrorCode, Placed};
 use etendue_spectra::Spectrum;
-use etendue_tracer::materials::{DaytimeBrightness, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class};
+use etendue_tracer::materials::{
+    DaytimeBrightness, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class,
+};
 use std::path::PathBuf;
 
 impl MaterialCompiler<'_, '_> {

@@ -3,8 +3,8 @@
 use super::super::context::{Context, ErrorCode};
 use super::super::modulation;
 use super::super::spectrum::{emitted, from_file};
-use super::compiler::MaterialCompiler;
 use super::compiler::ImageUse;
+use super::compiler::MaterialCompiler;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
 use etendue_spectra::{Extrapolation, Spectrum, colour, reflectance, upsample};

@@ -35,7 +35,11 @@ impl TexelInterpretation {
 }
 
 /// The colours; a factor other than 1 requires linear numbers.
-fn colours(pixels: &ImagePixels, TexelInterpretation { encoded, scale, .. }: TexelInterpretation, to_rec_709: Option<ColourMatrix>) -> Texels {
+fn colours(
+    pixels: &ImagePixels,
+    TexelInterpretation { encoded, scale, .. }: TexelInterpretation,
+    to_rec_709: Option<ColourMatrix>,
+) -> Texels {
     let bytes = |pixels: Vec<[u8; 3]>| match (encoded, scale == 1.0) {
         (true, true) => Texels::Srgb8(pixels),
         (false, true) => Texels::Linear8(pixels),

@@ -47,7 +47,11 @@ fn has_shielded_pixels(sensor: &Sensor) -> bool {
     dark.rows + dark.columns > 0
 }
 
-pub(super) fn defects(record: &record::Processing, image: &DeliveredImage, context: &mut Context<'_>) -> Option<Defects> {
+pub(super) fn defects(
+    record: &record::Processing,
+    image: &DeliveredImage,
+    context: &mut Context<'_>,
+) -> Option<Defects> {
     let map = match &record.defect_map {
         None => Vec::new(),
         Some(file) => defect_map(file, image, context)?,

@@ -75,7 +75,8 @@ fn objects_of_an_emissive_material_may_have_their_own_phases() {
 fn a_delay_of_light_that_does_not_change_is_refused() {
     let message = panel("sides = \"both\"", "instances = [{ position_m = [0, 0, 5], modulation_delay_s = 1 }]").err();
     assert!(
-        message.is_some_and(|text| text.contains("modulation_delay_s: \"modulation_delay_s\" has no effect on an object"))
+        message
+            .is_some_and(|text| text.contains("modulation_delay_s: \"modulation_delay_s\" has no effect on an object"))
     );
 }
 

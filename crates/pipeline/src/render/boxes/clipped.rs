@@ -23,9 +23,13 @@ struct LinePoint {
 
 /// Box around the images, within `picture`, of a line divided into `parts`; `image` returns the image of the point at a fraction of its length. `None` if no
 /// part of it lies in the image. A line with images only between two neighbouring points of the division has none.
-pub(super) fn clipped_box(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, image_bounds: &PixelBox) -> Option<PixelBox> {
+pub(super) fn clipped_box(
+    image: &impl Fn(f64) -> Option<DVec2>,
+    parts: usize,
+    image_bounds: &PixelBox,
+) -> Option<PixelBox> {
     let fraction = |i: usize| i as f64 / parts as f64;
-    let point = |fraction: f64| image(fraction).map(|at_px| LinePoint { fraction: share: fraction, at_px });
+    let point = |fraction: f64| image(fraction).map(|at_px| LinePoint { fraction, at_px });
     let mut from = point(0.0);
     let mut bounds = None;
     for i in 1..=parts {
@@ -49,7 +53,7 @@ fn last_point(image: &impl Fn(f64) -> Option<DVec2>, from: LinePoint, mut withou
     for _ in 0..END_HALVINGS {
         let fraction = 0.5 * (with.fraction + without);
         match image(fraction) {
-            Some(at_px) => with = LinePoint { fraction: share: fraction, at_px },
+            Some(at_px) => with = LinePoint { fraction, at_px },
             None => without = fraction,
         }
     }
@@ -67,7 +71,7 @@ fn segment_within(
     let middle = (halvings > 0).then(|| image(fraction)).flatten();
     match middle {
         Some(at_px) if !is_between(at_px, from.at_px, to.at_px) => {
-            let middle = LinePoint { fraction: share: fraction, at_px };
+            let middle = LinePoint { fraction, at_px };
             PixelBox::union(
                 segment_within(image, from, middle, image_bounds, halvings - 1),
                 segment_within(image, middle, to, image_bounds, halvings - 1),

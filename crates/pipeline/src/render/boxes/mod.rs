@@ -26,7 +26,7 @@ mod tests;
 mod world;
 
 pub use pixel_box::PixelBox;
-pub use solid::{SolidBox, BoxPose};
+pub use solid::{BoxPose, SolidBox};
 pub use world::{WorldObject, world_objects};
 
 use crate::plan::Plan;
@@ -93,7 +93,8 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
             return None; // Behind the camera, as far as its edges show, and not visible: no pixel is tested.
         }
         let alone = box_if_alone(&views, index as u32, &amodal, ids);
-        let (visible_pixels, visible) = visible_boxes.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
+        let (visible_pixels, visible) =
+            visible_boxes.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
         let (alone_pixels, visible_box) = alone.map_or((0, None), |(n, b)| (n, Some(b)));
         (visible_pixels + alone_pixels > 0).then(|| ObjectBoxes {
             id: instance.instance_id,
@@ -156,7 +157,12 @@ pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, si
 }
 
 /// Number and box of the pixels that would show an instance if it were alone; `None` if there are none.
-fn box_if_alone(views: &GroundTruthView<'_>, index: u32, amodal: &Amodal, ids: &Plane<Identity>) -> Option<(usize, PixelBox)> {
+fn box_if_alone(
+    views: &GroundTruthView<'_>,
+    index: u32,
+    amodal: &Amodal,
+    ids: &Plane<Identity>,
+) -> Option<(usize, PixelBox)> {
     let counted = alone_pixels(views, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::from_pixel(x, y)));
     // Minimum and maximum of integers: independent of the order.
     counted.reduce_with(|a, b| (a.0 + b.0, a.1.union_with(&b.1)))

@@ -123,7 +123,10 @@ fn what_covers_the_picture_has_its_borders() {
     // A ball around the camera has no outline.
     let surrounding = object("h", "type = \"sphere\", radius_m = 3", "");
     let object_boxes = boxes(&plan(PINHOLE, &surrounding));
-    assert_eq!((object_boxes[0].amodal_in_picture.expect("seen").edges_px(), object_boxes[0].is_cut), ([0.0, 0.0, 32.0, 24.0], true));
+    assert_eq!(
+        (object_boxes[0].amodal_in_picture.expect("seen").edges_px(), object_boxes[0].is_cut),
+        ([0.0, 0.0, 32.0, 24.0], true)
+    );
 }
 
 #[test]
@@ -133,7 +136,10 @@ fn edges_that_a_fisheye_bends_are_inside_the_box() {
     let board = object("e", "type = \"quad\", size_m = [4, 4]", "position_m = [1, 0, 0]\nrotation_deg = [0, 90, 0]");
     let object_boxes = boxes(&plan(lens, &board));
     let reach = 8.0 * etendue_core::maths::f64::atan(2.0);
-    assert!(close(object_boxes[0].amodal.expect("seen").edges_px(), [16.0 - reach, 12.0 - reach, 16.0 + reach, 12.0 + reach]));
+    assert!(close(
+        object_boxes[0].amodal.expect("seen").edges_px(),
+        [16.0 - reach, 12.0 - reach, 16.0 + reach, 12.0 + reach]
+    ));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! All objects of the world at a time, visible to a camera or not.
 
-use super::{SolidBox, BoxPose};
+use super::{BoxPose, SolidBox};
 use crate::plan::Plan;
 use etendue_tracer::geometry::Instance;
 use glam::DVec3;
@@ -42,7 +42,7 @@ fn object(plan: &Plan, instance: &Instance, time_s: f64) -> Option<WorldObject> 
         name: identity.name.clone(),
         class: identity.class.clone(),
         size_m,
-        pose: stance: pose,
+        pose,
         velocity_m_s: instance.to_world.velocity_at(time_s, centre),
         moves: instance.to_world.as_constant().is_none(),
     })

@@ -37,7 +37,11 @@ const MAX_STEPS: usize = 64;
 const CONVERGED_PX: f64 = 1e-9;
 
 /// Image, in a frame, of the point that is seen from `sight` in another; `None` if it has no image there.
-pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, pixel_view: PixelView) -> Option<Correspondence> {
+pub(crate) fn correspondence(
+    frame: &FrameView<'_>,
+    surface: &SurfacePath<'_>,
+    pixel_view: PixelView,
+) -> Option<Correspondence> {
     let row = pixel_view.at_px.y.max(0.0) as usize;
     let mut at_px = pixel_view.at_px;
     for _ in 0..MAX_STEPS {

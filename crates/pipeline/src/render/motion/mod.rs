@@ -59,7 +59,8 @@ struct PixelMotion {
 /// Returns the maximum memory per pixel, bytes, while its motion relative to `neighbours` frames is computed: its hit and the planes.
 pub(crate) fn bytes_of_pixel(neighbours: usize) -> f64 {
     // An allocation has an overhead of two words.
-    let pixel_bytes = size_of::<PixelMotion>() + neighbours * size_of::<neighbour::NeighbourResult>() + 2 * size_of::<usize>();
+    let pixel_bytes =
+        size_of::<PixelMotion>() + neighbours * size_of::<neighbour::NeighbourResult>() + 2 * size_of::<usize>();
     let planes = size_of::<[f32; 2]>() + size_of::<[f32; 3]>() + size_of::<f32>();
     (pixel_bytes + planes + (neighbours + 1) * size_of::<neighbour::NeighbourResult>()) as f64
 }
@@ -98,7 +99,12 @@ pub fn disparity(
     (other.flow.map(|[u, _]| -u), other.visibility)
 }
 
-fn pixel_motion(plan: &Plan, looks_at: &GroundTruthView<'_>, neighbours: &[Neighbour<'_>], at_px: DVec2) -> PixelMotion {
+fn pixel_motion(
+    plan: &Plan,
+    looks_at: &GroundTruthView<'_>,
+    neighbours: &[Neighbour<'_>],
+    at_px: DVec2,
+) -> PixelMotion {
     let nothing = || PixelMotion {
         motion_vector: [f32::NAN; 2],
         velocity: [f32::NAN; 3],

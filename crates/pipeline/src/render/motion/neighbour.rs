@@ -100,7 +100,8 @@ impl<'a> Neighbour<'a> {
         let Some((front, _)) = frame.body().truth_ray(there.at_px) else { return Visibility::NoImage };
         let origin_m = front.ray.origin_m;
         let Some(ahead) = there.target.direction_from(origin_m) else { return Visibility::NoImage };
-        let hit = self.0.first_hit(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
+        let hit =
+            self.0.first_hit(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
         let hidden = match (hit, there.target) {
             (None, _) => false,
             (Some(_), ImageTarget::Direction(_)) => true,

@@ -255,7 +255,9 @@ fn nothing_moves_where_nothing_moves_whatever_the_lens() {
     for (camera, pitch_um) in cameras() {
         let plan = plan_of(&camera, pitch_um, &format!("{WALL}{BOARD}{BEHIND}"));
         let motion = truth(&plan, &CameraPath::constant(pose_of(&plan)), &Shutter::Global);
-        for (flow, visibility) in motion.neighbours[0].flow.samples().iter().zip(motion.neighbours[0].visibility.samples()) {
+        for (flow, visibility) in
+            motion.neighbours[0].flow.samples().iter().zip(motion.neighbours[0].visibility.samples())
+        {
             let is_still = flow.iter().all(|v| v.abs() < TOLERANCE_PX) && *visibility == Visibility::Seen as u32;
             assert!(
                 is_still || (flow[0].is_nan() && *visibility == Visibility::NotKnown as u32),
@@ -290,7 +292,8 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
                 continue;
             }
             // 1e-6 px of rounded flow, at the distance of the pixel's point.
-            let pixel_m = meets(at_px + DVec2::X, 0.005).map_or(f64::INFINITY, |neighbour_m| (neighbour_m - here).length());
+            let pixel_m =
+                meets(at_px + DVec2::X, 0.005).map_or(f64::INFINITY, |neighbour_m| (neighbour_m - here).length());
             assert!((here - there).length() < 1e-6 + 1e-5 * pixel_m, "{camera} {at_px}: {here} {there}");
             checked += 1;
         }

@@ -18,7 +18,7 @@ use crate::render::light::{RaySource, RenderJob, Sampling};
 use crate::render::near_precipitation::near;
 use crate::render::observer::Unobserved;
 use crate::render::truth::is_there;
-use crate::render::{LightRequest, FrameCapture};
+use crate::render::{FrameCapture, LightRequest};
 use crate::sizes::film::FilmLayout;
 use etendue_core::quantity::{Cover, Quantity, Radiance, Transmittance};
 use etendue_core::{Bands, FieldRay, Plane, RadianceField, Spectral, SpectralCube, Wavelengths};
@@ -44,7 +44,11 @@ pub struct WeatherLayers {
 /// Layers of a camera's image; takes slightly longer than its light. Runs on the caller's pool.
 #[must_use]
 pub fn weather_layers(plan: &Plan, camera: &CameraPlan, frame_capture: FrameCapture, simd: Simd) -> WeatherLayers {
-    with_source(camera, frame_capture, LayersJob { plan, camera, request: LightRequest { frame_capture: shot: frame_capture, simd, ..LightRequest::default() } })
+    with_source(
+        camera,
+        frame_capture,
+        LayersJob { plan, camera, request: LightRequest { frame_capture, simd, ..LightRequest::default() } },
+    )
 }
 
 struct LayersJob<'a> {
@@ -64,8 +68,13 @@ impl SourceJob for LayersJob<'_> {
         let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
             near(precipitation, &media, &rows, request.simd, &region, &change_over)
         });
-        let field_of =
-            |of| FractionField { view: &view, material_table: &plan.material_table, media: &media, near: near.as_ref(), fraction: of };
+        let field_of = |of| FractionField {
+            view: &view,
+            material_table: &plan.material_table,
+            media: &media,
+            near: near.as_ref(),
+            fraction: of,
+        };
         let uniform = FilmLayout { bands: Some(single_band(camera)), accumulates_electrons: false, watched: false };
         let job = |layout| {
             let job = render_job(camera, rows.clone(), request, source, None);
@@ -81,7 +90,8 @@ impl SourceJob for LayersJob<'_> {
             radiance(&film).planes()[0].samples().to_vec()
         };
         let lights = lights(plan, camera, &view);
-        let settings = PathSettings { only_airlight: true, ..path_settings(camera, NumberedPass::only(camera.settings.spp)) };
+        let settings =
+            PathSettings { only_airlight: true, ..path_settings(camera, NumberedPass::only(camera.settings.spp)) };
         let tracer =
             PathTracer::new(&view, &plan.material_table, &lights, settings).with_media(&media).with_near(near.as_ref());
         let bands = camera.settings.bands.unwrap_or_else(|| single_band(camera));

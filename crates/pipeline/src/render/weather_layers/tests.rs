@@ -83,7 +83,8 @@ fn transmittance_of_uneven_fog_is_right_in_the_mean() {
     };
     let count = SIZE[0] * SIZE[1];
     let mean = (0..count).map(expected).sum::<f64>() / count as f64;
-    let actual = layers(&plan).transmittance.samples().iter().map(|fraction| f64::from(*fraction)).sum::<f64>() / count as f64;
+    let actual =
+        layers(&plan).transmittance.samples().iter().map(|fraction| f64::from(*fraction)).sum::<f64>() / count as f64;
     assert!((actual - mean).abs() < 4e-3, "{actual} {mean}");
     assert!((mean - exp(-0.5)).abs() > 1e-3, "uneven: {mean}");
 }
@@ -112,7 +113,8 @@ fn both_forms_of_rain_cover_the_same_pixels() {
         falling: Some(PrecipitationExposure { precipitation, exposure_s: 0.001 }),
     };
     let start = TimeInterval::at(camera.timing.frame_start_s(0)).expect("finite");
-    let rendered_drops = weather.apply(&stored, &camera.path.at(0.0), start).expect("distances").cover.expect("rain falls");
+    let rendered_drops =
+        weather.apply(&stored, &camera.path.at(0.0), start).expect("distances").cover.expect("rain falls");
     let of = |plane: &Plane<Cover>, [x, y]: [usize; 2]| f64::from(plane.at(x, y));
     let mean =
         |plane: &Plane<Cover>| plane.samples().iter().map(|c| f64::from(*c)).sum::<f64>() / (width * height) as f64;

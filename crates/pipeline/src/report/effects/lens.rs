@@ -42,7 +42,9 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
     };
     let effect = PlannedEffect::new(GROUP, "distortion", status).described_by("lens.distortion");
     match distortion_px(&camera.body) {
-        Some(shift_px) => effect.dropped_by([without(camera, "lens.distortion")]).with_error("shift up to", shift_px, "px"),
+        Some(shift_px) => {
+            effect.dropped_by([without(camera, "lens.distortion")]).with_error("shift up to", shift_px, "px")
+        }
         None => effect,
     }
 }
@@ -79,7 +81,8 @@ fn clear_apertures(camera: &CameraPlan) -> PlannedEffect {
         "clear apertures in front of and behind the pupil stop rays",
         "no clear aperture is described",
     );
-    let keys = ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(apertures).filter(|(_, is_there)| *is_there);
+    let keys =
+        ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(apertures).filter(|(_, is_there)| *is_there);
     let effect = PlannedEffect::new(GROUP, name, status).described_by(key);
     effect.dropped_by(keys.map(|(key, _)| without(camera, key)))
 }

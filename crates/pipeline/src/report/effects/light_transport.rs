@@ -47,7 +47,11 @@ fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     );
     let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
     let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").with_cpu_time(cpu_s);
-    effect.dropped_by([camera_change(camera, "render.integrator", "flat")]).with_saving(saved_by(camera, paths, FLAT_PATH_CPU_S))
+    effect.dropped_by([camera_change(camera, "render.integrator", "flat")]).with_saving(saved_by(
+        camera,
+        paths,
+        FLAT_PATH_CPU_S,
+    ))
 }
 
 fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
@@ -133,7 +137,9 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
         "directions at diffuse surfaces are sampled by the cosine only",
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
-    effect.dropped_by([camera_change(camera, "render.guiding", "false")]).with_cpu_time(paths as f64 * path_cpu_s(camera))
+    effect
+        .dropped_by([camera_change(camera, "render.guiding", "false")])
+        .with_cpu_time(paths as f64 * path_cpu_s(camera))
 }
 
 /// Paths of a camera that may branch: all except those that train the guiding.

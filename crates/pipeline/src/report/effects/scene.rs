@@ -61,7 +61,8 @@ fn normal_maps(plan: &Plan) -> PlannedEffect {
 fn transparency(plan: &Plan) -> PlannedEffect {
     let text = "shadow rays evaluate materials with an opacity and thin sheets, which transmit light undeviated; other \
                 materials block them";
-    let status = required_if_present(plan.material_table.has_passages(), text, "no material transmits light undeviated");
+    let status =
+        required_if_present(plan.material_table.has_passages(), text, "no material transmits light undeviated");
     PlannedEffect::new(GROUP, "transparency", status).described_by("scene.materials.opacity")
 }
 

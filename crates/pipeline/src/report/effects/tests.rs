@@ -73,7 +73,11 @@ fn savings_are_differences_of_whole_frames() {
             let [set] = set.as_slice() else { continue };
             let without = plan_of(thin, camera, render, set);
             let cpu_saved = whole_s - FrameCost::new(&without, &without.cameras[0]).cpu_s();
-            assert!((cpu_saved - saved_s).abs() < 1e-6 * whole_s, "{}: {saved_s} foretold, and it is {cpu_saved}", effect.name);
+            assert!(
+                (cpu_saved - saved_s).abs() < 1e-6 * whole_s,
+                "{}: {saved_s} foretold, and it is {cpu_saved}",
+                effect.name
+            );
             compared += 1;
         }
         assert!(compared >= 2, "{compared}");

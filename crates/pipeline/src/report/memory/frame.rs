@@ -35,14 +35,19 @@ impl FrameMemory {
         let raw = array * SAMPLE * (1.0 + layers);
         let developed = camera.body.development.as_ref().map(|development| {
             let channels = development.mosaic.channels() as f64;
-            DevelopmentMemory { picture: image_pixels, channels, processing: &development.processing, format: development.format }
+            DevelopmentMemory {
+                picture: image_pixels,
+                channels,
+                processing: &development.processing,
+                format: development.format,
+            }
         });
         let undistorted = products.undistorted.is_some();
         let stored = raw + developed.as_ref().map_or(0.0, |_| 2.0 * COLOUR * image_pixels);
         let developing = raw + developed.as_ref().map_or(0.0, DevelopmentMemory::development_bytes);
         let files = files(sensor, array, layers) + developed.as_ref().map_or(0.0, |d| d.files(undistorted));
         let remembered = state_bytes_of_pixel(sensor) * array;
-        Self { stored: held: stored, peak: (readout_bytes(sensor, raw, array)).max(developing).max(stored + files) + remembered }
+        Self { stored, peak: (readout_bytes(sensor, raw, array)).max(developing).max(stored + files) + remembered }
     }
 }
 
@@ -57,7 +62,8 @@ fn readout_bytes(sensor: &Sensor, raw: f64, array: f64) -> f64 {
 /// Returns the state of a pixel from frame to frame, bytes, before a frame and after it.
 fn state_bytes_of_pixel(sensor: &Sensor) -> f64 {
     let p = sensor.parameters();
-    let rts_effects = usize::from(p.charge.dark.dark_current_rts.is_some()) + usize::from(p.voltage.rts_noise.is_some());
+    let rts_effects =
+        usize::from(p.charge.dark.dark_current_rts.is_some()) + usize::from(p.voltage.rts_noise.is_some());
     2.0 * (p.charge.lag.traps.len() as f64 * SAMPLE + (rts_effects * size_of::<bool>()) as f64)
 }
 

@@ -87,7 +87,9 @@ impl RunMemory {
     #[must_use]
     pub fn beyond_program(&self) -> f64 {
         // The film of the largest camera is one of the stored ones.
-        let camera = self.largest_camera().map_or(0.0, |(_, camera)| camera.peak_stage().bytes - camera.film.min(self.stored_films));
+        let camera = self
+            .largest_camera()
+            .map_or(0.0, |(_, camera)| camera.peak_stage().bytes - camera.film.min(self.stored_films));
         self.scene + self.stored_films + camera + (RETAINED_FRACTION * camera).min(RETAINED_BYTES)
     }
 

@@ -4,7 +4,7 @@ use super::{figure, front, line, list};
 use crate::plan::{CameraPlan, Route};
 use etendue_optics::DepthOfField;
 use etendue_optics::effects::Effect;
-use etendue_optics::{Effects, Lens, PupilProjection, PupilOrientation};
+use etendue_optics::{Effects, Lens, PupilOrientation, PupilProjection};
 use etendue_projection::DistortionDirection;
 use std::fmt::{self, Formatter};
 

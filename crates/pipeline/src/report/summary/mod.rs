@@ -24,7 +24,7 @@ use etendue_core::{Accelerator, Bands, EffectStatus, Integrator};
 use etendue_optics::effects::Effect;
 use etendue_sensor::SensorEffect;
 use etendue_sensor::figures::db;
-use etendue_sensor::figures::{DynamicRange, CaptureTransition};
+use etendue_sensor::figures::{CaptureTransition, DynamicRange};
 use etendue_tracer::geometry::Shape;
 use std::fmt::{self, Display, Formatter};
 use words::{count, figure, line, list, seconds};

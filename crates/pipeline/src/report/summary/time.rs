@@ -20,8 +20,11 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
         Shape::Sphere { .. } => false,
     };
     let deforming = plan.world.instances().iter().filter(deforms).count();
-    let moving =
-        [phrase(instances, "instance", "instances"), phrase(lamps, "lamp", "lamps"), phrase(cameras, "camera", "cameras")];
+    let moving = [
+        phrase(instances, "instance", "instances"),
+        phrase(lamps, "lamp", "lamps"),
+        phrase(cameras, "camera", "cameras"),
+    ];
     let deforming = match deforming {
         0 => None,
         1 => Some("the vertices of one instance move".to_owned()),

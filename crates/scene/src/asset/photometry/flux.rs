@@ -27,8 +27,10 @@ impl PhotometryAsset {
 
     /// Flux of a grid whose vertical angles are latitudes after `latitude` is applied.
     fn by_column(&self, columns: &[usize], latitude: impl Fn(f64) -> f64 + Copy) -> f64 {
-        let bands: Vec<f64> =
-            columns.iter().map(|h| integrate_over_latitudes(&self.vertical_deg, |v| self.column(*h)[v], latitude)).collect();
+        let bands: Vec<f64> = columns
+            .iter()
+            .map(|h| integrate_over_latitudes(&self.vertical_deg, |v| self.column(*h)[v], latitude))
+            .collect();
         integrate_trapezoids(&self.horizontal_deg, &bands)
     }
 }

@@ -2,7 +2,7 @@
 
 use etendue_core::ExactTime;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, time, vector, whole};
 use crate::record::render::MAX_SEED;

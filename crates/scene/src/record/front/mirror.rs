@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{keyed, known, number, path, record, variants, vector};
 use crate::record::material::Metal;

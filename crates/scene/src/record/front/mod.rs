@@ -5,7 +5,7 @@ pub mod drops;
 pub mod mirror;
 pub mod windscreen;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::reader::record;
 pub use dirt::Dirt;
 pub use drops::Drops;

@@ -1,7 +1,7 @@
 //! A windscreen in front of the camera.
 
 use super::drops::Drops;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record};
 use crate::record::curve::{Curve, curve};

@@ -6,7 +6,7 @@ use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
 use super::numbers::{f_number, fraction};
 use super::projection::{CalibrationFile, Projection, TableSource};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, words};
 

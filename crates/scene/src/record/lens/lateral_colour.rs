@@ -1,6 +1,6 @@
 //! Image size by wavelength.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{list, number, record};
 

@@ -17,13 +17,13 @@ use crate::reader::variants;
 
 pub use calibrated::Calibrated;
 pub use distortion::{Direction, Distortion, RadiusUnit};
-pub use focus::{InfinityWord, FocusDistance};
+pub use focus::{FocusDistance, InfinityWord};
 pub use lateral_colour::LateralColour;
 pub use pinhole::Pinhole;
 pub use prescription::Prescription;
 pub use ray_transfer::RayTransfer;
 pub use telecentric::Telecentric;
-pub use thick::{Pupil, ClearAperture, Thick};
+pub use thick::{ClearAperture, Pupil, Thick};
 pub use thin::Thin;
 
 variants! {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
 use crate::asset::ASPHERE_TERMS;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector, words};
 use crate::record::curve::spectrum_file;

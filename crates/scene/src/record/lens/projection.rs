@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants, words};
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, SpectrumValues};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{KnownNameRule, keyed, known, number, record, vector};
 use crate::record::curve::{Curve, curve, spectrum_file};

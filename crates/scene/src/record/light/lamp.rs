@@ -7,7 +7,7 @@ use super::modulation::{self, Modulation};
 use super::opening::{self, LampOpening};
 use super::placement::LampPlacement;
 use super::strength::{LampStrength, MeasuredStrength};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 

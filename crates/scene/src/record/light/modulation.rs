@@ -3,14 +3,16 @@
 use std::path::PathBuf;
 
 use etendue_core::ExactTime;
-use etendue_core::waveform::{TableInterpolation, MAX_LEVEL, Pulses, Waveform, WaveformError};
+use etendue_core::waveform::{MAX_LEVEL, Pulses, TableInterpolation, Waveform, WaveformError};
 
 use super::placement::LampPlacement;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
-use crate::reader::{NumberRule, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
+use crate::reader::{
+    NumberRule, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words,
+};
 
 variants! {
     /// Modulation: variation of a light's strength over time. With "pwm" and "mains" the stated strength is the mean over time, as a photometer reads

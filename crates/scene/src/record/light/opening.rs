@@ -1,7 +1,7 @@
 //! The luminous opening of a lamp: the surface that emits its light.
 
 use super::placement::LampPlacement;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{NumberRule, number, record, variants};
 
@@ -92,7 +92,12 @@ impl LampOpening {
 }
 
 /// Reports contradictions of an opening.
-pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is_measured: bool, errors: &mut DescriptionErrors) {
+pub(super) fn check(
+    opening: Option<&LampOpening>,
+    placement: &LampPlacement,
+    is_measured: bool,
+    errors: &mut DescriptionErrors,
+) {
     let Some(opening) = opening else { return };
     if let (LampOpening::File(file), false) = (opening, is_measured) {
         errors.add(

@@ -4,7 +4,7 @@ use etendue_core::ExactTime;
 
 use glam::{DMat3, DVec3};
 
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, text, time, vector};
 use crate::record::motion::{MotionKeys, check_motion, check_placements, trajectory_placement};
@@ -163,7 +163,10 @@ mod tests {
             let forward = towards(direction, MainAxis::Forward).expect("axes");
             let downward = towards(direction, MainAxis::Downward).expect("axes");
             // Products of unit vectors, with a few roundings each.
-            assert!((forward * DVec3::X - direction).length() < 1e-15 && (downward * DVec3::NEG_Z - direction).length() < 1e-15);
+            assert!(
+                (forward * DVec3::X - direction).length() < 1e-15
+                    && (downward * DVec3::NEG_Z - direction).length() < 1e-15
+            );
             for axes in [forward, downward] {
                 assert!((axes.determinant() - 1.0).abs() < 1e-15 && (axes * DVec3::Y).z.abs() < 1e-15);
             }

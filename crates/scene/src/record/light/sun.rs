@@ -1,7 +1,7 @@
 //! The sun.
 
 use super::emission::{LightColour, check_colour};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, text};
 

@@ -3,7 +3,7 @@
 use super::factor::{Factor, any_factor};
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::SpectrumValues;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{NumberRule, keyed, number, record};
 use crate::record::curve::{Curve, curve};

@@ -1,7 +1,7 @@
 //! Emission of a surface.
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::{ErrorCode, DescriptionErrors, NameKind};
+use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record, words};
 use crate::record::light::{Emission, Modulation};

@@ -19,7 +19,7 @@ pub use surface::*;
 pub use wet::{Puddles, WetGround};
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::preset;
 use crate::reader::{Form, Reader, Record, record, text};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, keyed, number, path, record, words};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};

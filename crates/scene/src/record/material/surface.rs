@@ -10,7 +10,7 @@ use super::wet::WetGround;
 use crate::asset::COAT_INDICES;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, SpectrumValues};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector, words};
 use crate::record::curve::{Curve, curve};

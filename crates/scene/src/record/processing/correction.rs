@@ -1,6 +1,6 @@
 //! Corrections before colours are computed.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! Noise reduction and sharpening.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{keyed, number, record, whole};
 

@@ -1,7 +1,7 @@
 //! `[[isp.image_filters]]`: the filters of Gruyer, Grapinet, De Souza (2012), "the paper".
 
 use super::tone::{ToneCurve, tone_curve};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{
     RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole, words,

@@ -1,6 +1,6 @@
 //! Tone curves.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, number, path, record, variant, words};
 use std::path::PathBuf;

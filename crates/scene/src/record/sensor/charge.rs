@@ -1,6 +1,6 @@
 //! Charge in the pixels, and non-uniformity.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, number, record, variants, whole, words};
 

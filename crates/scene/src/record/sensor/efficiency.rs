@@ -1,6 +1,6 @@
 //! `quantum_efficiency`: electrons per photon.
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record, variant};
 use crate::record::curve::{Curve, curve, spectrum_file};
@@ -103,7 +103,12 @@ fn check_source(source: &QuantumEfficiencySource, errors: &mut DescriptionErrors
 }
 
 /// Checks that the quantum efficiencies are those of the filter array's channels. Errors of an empty list are reported at `table`.
-pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], table: &Place, errors: &mut DescriptionErrors) {
+pub(super) fn check_channels(
+    efficiency: &QuantumEfficiency,
+    channels: &[&str],
+    table: &Place,
+    errors: &mut DescriptionErrors,
+) {
     match efficiency {
         QuantumEfficiency::Same(_) => {}
         QuantumEfficiency::PerChannel(list) => check_colours(&list.place, channels, errors),

@@ -6,7 +6,7 @@ use super::efficiency::{QuantumEfficiency, check_channels, quantum_efficiency};
 use super::exposure::{AngleResponse, AutoExposure, Exchange};
 use super::hdr::{Companding, Hdr};
 use super::read_out::{Binning, OpticalBlack, Response, RtsNoise, Skipping};
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record, vector, whole};
 

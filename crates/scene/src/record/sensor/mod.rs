@@ -10,7 +10,7 @@ pub mod read_out;
 mod scale;
 pub mod shutter;
 
-use crate::fault::{ErrorCode, DescriptionErrors};
+use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{number, record, vector, whole};
 

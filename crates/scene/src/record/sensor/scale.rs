@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::document::{Node, Value};
 use crate::fault::DescriptionErrors;
 use crate::place::Placed;
-use crate::reader::{ValueKind, Rule};
+use crate::reader::{Rule, ValueKind};
 use crate::written::{Item, Value as WrittenValue};
 
 /// Largest divisor: no image is wider.

@@ -42,7 +42,8 @@ fn lists(list: &Json, key: &str) -> bool {
 /// True if exactly one of some keys, this one among them, is required.
 fn is_one_of(form: &Json, key: &str) -> bool {
     let choices = form["allOf"].as_array().into_iter().flatten();
-    let is_required = choices.filter_map(|c| c["oneOf"].as_array()).filter(|o| o.iter().all(|o| o.get("not").is_none()));
+    let is_required =
+        choices.filter_map(|c| c["oneOf"].as_array()).filter(|o| o.iter().all(|o| o.get("not").is_none()));
     is_required.flatten().any(|option| lists(&option["required"], key))
 }
 

@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use super::keys::{groups, keys_of, mark, must};
-use super::section::{File, TableLocation, Section, plain, sections};
+use super::section::{File, Section, TableLocation, plain, sections};
 use super::value::value;
 
 /// Names of records that may occur in several places, by the first of them.
@@ -83,7 +83,10 @@ impl Pages {
         for (form, (key, word, description)) in marked.into_iter().zip(&words) {
             let anchor = format!("{}-{word}", anchor(section));
             let marks = "#".repeat(level(section) + 1);
-            text += &format!("{marks} <a id=\"{anchor}\"></a>{}, `{key} = \"{word}\"`\n\n{description}\n\n", label(section));
+            text += &format!(
+                "{marks} <a id=\"{anchor}\"></a>{}, `{key} = \"{word}\"`\n\n{description}\n\n",
+                label(section)
+            );
             text += &self.keys(form, section, &anchor);
         }
         text

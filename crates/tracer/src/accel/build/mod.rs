@@ -14,7 +14,7 @@ use etendue_core::Accelerator;
 use glam::Vec3;
 
 use super::boxes::{BinaryKind, BinaryNode, Box3};
-use partition::{SplitRanges, ReferenceRange, cut, halve};
+use partition::{ReferenceRange, SplitRanges, cut, halve};
 use reference::Reference;
 use reinsertion::Effort;
 
@@ -94,7 +94,13 @@ struct SubtreePosition {
 
 impl SubtreePosition {
     /// Builds the node of a range and all that is `below` it.
-    fn grow(self, references: &mut [Reference], range: &ReferenceRange, node: &mut BinaryNode, below: &mut [BinaryNode]) {
+    fn grow(
+        self,
+        references: &mut [Reference],
+        range: &ReferenceRange,
+        node: &mut BinaryNode,
+        below: &mut [BinaryNode],
+    ) {
         let bounds = range.extent.bounds();
         if let [only] = references {
             *node = BinaryNode::new(bounds, BinaryKind::Leaf(only.primitive()));

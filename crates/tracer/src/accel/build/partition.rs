@@ -82,7 +82,13 @@ pub(super) fn halve(references: &mut [Reference], range: &ReferenceRange) -> Spl
 /// The first half and the second.
 fn cut_anywhere(references: &[Reference]) -> SplitRanges {
     let at = references.len() / 2;
-    SplitRanges { at, ranges: [ReferenceRange::from_references(&references[..at]), ReferenceRange::from_references(&references[at..])] }
+    SplitRanges {
+        at,
+        ranges: [
+            ReferenceRange::from_references(&references[..at]),
+            ReferenceRange::from_references(&references[at..]),
+        ],
+    }
 }
 
 /// Applies `of` to pieces of a long range and combines the results from the first to the last; applies it to a short range as a whole.
@@ -260,5 +266,8 @@ fn partition(references: &mut [Reference], grid: &BinGrid, plane: &SplitPlane) -
         references.swap(begin, end - 1);
     }
     let [first, second] = plane.extents;
-    SplitRanges { at: begin, ranges: [ReferenceRange { extent: first, centres: before }, ReferenceRange { extent: second, centres: after }] }
+    SplitRanges {
+        at: begin,
+        ranges: [ReferenceRange { extent: first, centres: before }, ReferenceRange { extent: second, centres: after }],
+    }
 }

@@ -124,7 +124,9 @@ fn resolved(source: NodeSource, top: &Bvh2) -> NodeSource {
 
 /// True if more than [`CROWD`] centres coincide, at a resolution of 2⁻²¹ of the whole.
 fn is_crowded(binary: &[BinaryNode]) -> bool {
-    let Some(bounds) = binary.first().map(|root| root.bounds).filter(|_| binary.len() > MAX_COINCIDENT) else { return false };
+    let Some(bounds) = binary.first().map(|root| root.bounds).filter(|_| binary.len() > MAX_COINCIDENT) else {
+        return false;
+    };
     let leaves = binary.iter().filter(|node| matches!(node.kind(), BinaryKind::Leaf(_)));
     let mut cells: Vec<_> = leaves.map(|leaf| cell(leaf.bounds.centre(), &bounds)).collect();
     cells.sort_unstable();

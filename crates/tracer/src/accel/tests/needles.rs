@@ -24,8 +24,9 @@ fn needles(count: u32, seed: u32) -> Mesh {
         let across = along.cross(random.direction()).normalize_or(along.any_orthonormal_vector());
         // Slivers have their third corner anywhere along the long side.
         let fraction = random.unit();
-        positions
-            .extend([tip, tip + along * length, tip + along * (fraction * length) + across * width].map(DVec3::as_vec3));
+        positions.extend(
+            [tip, tip + along * length, tip + along * (fraction * length) + across * width].map(DVec3::as_vec3),
+        );
     }
     let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     // Some are too thin for f32.

@@ -52,7 +52,8 @@ fn surroundings_beside_a_sun_are_found_however_they_are_sampled() {
         let mut texels = vec![[1.0; 3]; 32 * 16];
         texels[3 * 32 + 5] = [texel; 3];
         let image = ImageEnvironment::new(32, 16, texels, 1.0, 0.0).expect("a picture");
-        let sun = Sun::from_radiance(DVec3::new(1.0, 0.0, 1.0), 2.0, Spectrum::constant(radiance * 1e-3)).expect("a sun");
+        let sun =
+            Sun::from_radiance(DVec3::new(1.0, 0.0, 1.0), 2.0, Spectrum::constant(radiance * 1e-3)).expect("a sun");
         let sources = Sources { suns: vec![sun], lamps: vec![], environment: Some(Environment::Image(image)) };
         let mut scene = Scene { sources, ..Scene::default() };
         let (floor, ball) = (scene.material(diffuse_surface(0.8), None), scene.material(paint(0.5, 0.3), None));

@@ -6,7 +6,7 @@ use super::sharing::{TARGETS, corner, estimates};
 use super::*;
 use crate::lights::LightSampleContext;
 use crate::materials::Leaf;
-use crate::media::{Media, Phase, MediumRegion as Region};
+use crate::media::{Media, MediumRegion as Region, Phase};
 use glam::Vec2;
 
 fn settings(branches: u32, strategies: Strategies) -> PathSettings {
@@ -14,7 +14,12 @@ fn settings(branches: u32, strategies: Strategies) -> PathSettings {
 }
 
 /// Means of 32 replicates towards each target.
-fn measure_all(ready: &BuiltScene, targets: &[[f32; 3]], samples: u32, settings: PathSettings) -> Vec<ReplicateEstimate> {
+fn measure_all(
+    ready: &BuiltScene,
+    targets: &[[f32; 3]],
+    samples: u32,
+    settings: PathSettings,
+) -> Vec<ReplicateEstimate> {
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     estimates(&PathTracer::new(&view, &ready.material_table, &lights, settings), targets, samples, false)
@@ -26,7 +31,8 @@ fn measure_all(ready: &BuiltScene, targets: &[[f32; 3]], samples: u32, settings:
 fn branches_leave_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
     let leaf = || Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
-    let floors = [(diffuse_surface(0.7), true), (diffuse_surface(0.7), false), (paint(0.6, 0.2), true), (paint(0.6, 0.0), true)];
+    let floors =
+        [(diffuse_surface(0.7), true), (diffuse_surface(0.7), false), (paint(0.6, 0.2), true), (paint(0.6, 0.0), true)];
     for (floor, glows) in floors.into_iter().chain([(leaf(), true), (aluminium(0.0), true)]) {
         let ready = corner(floor, glows);
         for strategies in [Strategies::Both, Strategies::Lights] {

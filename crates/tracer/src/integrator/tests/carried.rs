@@ -144,8 +144,10 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             let Some(hit) = view.closest(&ray) else { continue };
             sampled += 1;
             let point = view.surface(&ray, &hit);
-            let light_hit = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
-            let actual = lights.opening_radiance(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
+            let light_hit =
+                LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
+            let actual =
+                lights.opening_radiance(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
             assert!((actual[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{actual:?} {sample:?}");
             // A ray to the far side of a stretched ball hits the near one.
             let relative = lights.light_pdf(&light_hit) / sample.pdf;

@@ -25,13 +25,15 @@ fn a_white_sphere_vanishes_in_a_uniform_environment() {
 fn an_emitting_cavity_has_its_geometric_sum() {
     for albedo in [0.5, 0.9, 0.98] {
         let mut sphere = Scene::default();
-        let glowing = sphere.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing =
+            sphere.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         sphere.sphere(DVec3::new(0.3, 0.0, 0.1), 2.0, glowing);
         let estimate = sphere.ready().measure(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
         agrees(&estimate, 1.0 / (1.0 - albedo));
 
         let mut cube = Scene::default();
-        let glowing = cube.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing =
+            cube.material(diffuse_surface(albedo), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         let corner = |i: u32| Vec3::new((i & 1) as f32 - 0.4, (i >> 1 & 1) as f32 - 0.5, (i >> 2) as f32 - 0.6);
         let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let triangles = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
@@ -49,7 +51,8 @@ fn branched(max_bounces: u32) -> [PathSettings; 2] {
 #[test]
 fn a_bounce_more_adds_its_term() {
     let mut scene = Scene::default();
-    let glowing = scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
+    let glowing =
+        scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
     scene.sphere(DVec3::ZERO, 1.0, glowing);
     let ready = scene.ready();
     for (max_bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (3, 1.875)] {

@@ -5,7 +5,7 @@ use super::sharing::{TARGETS, corner, estimates};
 use super::*;
 use crate::guiding::{Guide, Training};
 use crate::materials::Leaf;
-use crate::media::{Media, Phase, MediumRegion as Region};
+use crate::media::{Media, MediumRegion as Region, Phase};
 
 /// Number of training paths.
 const PATHS: u32 = 1 << 14;
@@ -57,7 +57,9 @@ fn measure_all(
 fn a_guide_leaves_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
     let leaf = Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
-    for (floor, glows) in [(diffuse_surface(0.7), true), (diffuse_surface(0.7), false), (paint(0.6, 0.2), true), (leaf, true)] {
+    for (floor, glows) in
+        [(diffuse_surface(0.7), true), (diffuse_surface(0.7), false), (paint(0.6, 0.2), true), (leaf, true)]
+    {
         let ready = corner(floor, glows);
         for strategies in [Strategies::Both, Strategies::Lights] {
             let [guided, alone] = [true, false].map(|guided| measure_all(&ready, &TARGETS, 256, strategies, guided));

@@ -116,7 +116,8 @@ fn a_lamp_in_the_same_water_is_dimmed_on_its_way() {
         let mut scene = Scene::default();
         let water = scene.material(glass(absorption), None);
         cube(&mut scene, 2.0, water, 6);
-        let emission = scene.material(Surface::Absorber, Some(TestEmission { radiance: 1.0, sides: EmissionSides::Front }));
+        let emission =
+            scene.material(Surface::Absorber, Some(TestEmission { radiance: 1.0, sides: EmissionSides::Front }));
         scene.sphere(DVec3::new(0.9, -1.5, 0.0), 0.2, emission);
         let towards = [0.9, -1.5, 0.0];
         scene.ready().measure(&ray([0.0; 3], towards), 64, bounces(4)).mean

@@ -68,7 +68,8 @@ fn many() -> BuiltScene {
     for i in 0..30 {
         let (x, y) = ((i % 6) as f32 - 2.5, (i / 6) as f32 - 2.0);
         let emission = if i % 2 == 0 { EmissionSides::Both } else { EmissionSides::Front };
-        let lamp = scene.material(Surface::Absorber, Some(TestEmission { radiance: 0.5 + f64::from(i % 4), sides: emission }));
+        let lamp =
+            scene.material(Surface::Absorber, Some(TestEmission { radiance: 0.5 + f64::from(i % 4), sides: emission }));
         scene.square(Vec3::new(3.0 * x, 3.0 * y, 0.6 + 0.1 * i as f32), 0.15, lamp);
         scene.sphere(DVec3::new(f64::from(3.0 * x + 1.0), f64::from(3.0 * y), 0.5), 0.1, lamp);
     }

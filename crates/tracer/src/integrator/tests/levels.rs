@@ -38,7 +38,8 @@ fn flat_is_unshadowed_and_direct_is_shadowed() {
 fn only_paths_gather_light_of_other_surfaces() {
     let measure = |integrator| {
         let mut scene = Scene::default();
-        let glowing = scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
+        let glowing =
+            scene.material(diffuse_surface(0.5), Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
         scene.sphere(DVec3::ZERO, 1.0, glowing);
         let settings = PathSettings { integrator, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
         scene.ready().measure(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
@@ -56,7 +57,8 @@ fn mirrors_show_the_surroundings_at_every_level_and_what_emits_from_direct_on() 
         let mirror = scene.material(aluminium(0.0), None);
         scene.square(Vec3::ZERO, 1.0, mirror);
         if glows {
-            let lamp = scene.material(Surface::Absorber, Some(TestEmission { radiance: 5.0, sides: EmissionSides::Both }));
+            let lamp =
+                scene.material(Surface::Absorber, Some(TestEmission { radiance: 5.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 3.0), 1.0, lamp);
         }
         let settings = PathSettings { integrator, ..PathSettings::default() };

@@ -3,7 +3,8 @@
 use super::*;
 use crate::lights::{Lamp, Profile};
 use crate::media::{
-    ForwardPeak, Media, MediaRay, Medium, Noise, Phase, RandomCounter, MediumRegion as Region, Solid, DensityVariation, cuboid,
+    DensityVariation, ForwardPeak, Media, MediaRay, Medium, MediumRegion as Region, Noise, Phase, RandomCounter, Solid,
+    cuboid,
 };
 use etendue_core::random::PixelAddress;
 use glam::DMat3;
@@ -151,7 +152,8 @@ fn the_law_of_beer_and_lambert_through_fog() {
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let layer = Region::Box { half_m: DVec3::new(100.0, 100.0, 20.0) };
-    let actual = measure(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer.clone())], &up(), 2048, PathSettings::default());
+    let actual =
+        measure(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer.clone())], &up(), 2048, PathSettings::default());
     // 20 m of it.
     agrees(&actual, 2.0 * maths::f64::exp(-1.0));
     let twice =

@@ -141,7 +141,13 @@ fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -
 }
 
 /// The same with lights averaged over an interval.
-fn replicate_over(tracer: &PathTracer<'_>, ray: &Ray, light_interval: TimeInterval, samples: u32, replicate: u32) -> f64 {
+fn replicate_over(
+    tracer: &PathTracer<'_>,
+    ray: &Ray,
+    light_interval: TimeInterval,
+    samples: u32,
+    replicate: u32,
+) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
     let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);

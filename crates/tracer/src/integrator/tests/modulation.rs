@@ -30,7 +30,13 @@ fn rows() -> [TimeInterval; 4] {
 }
 
 /// Radiance along a ray with lights averaged over `lit`.
-fn measure(ready: &BuiltScene, ray: &Ray, light_interval: TimeInterval, settings: PathSettings, samples: u32) -> ReplicateEstimate {
+fn measure(
+    ready: &BuiltScene,
+    ray: &Ray,
+    light_interval: TimeInterval,
+    settings: PathSettings,
+    samples: u32,
+) -> ReplicateEstimate {
     let view = ready.world.render_space_for_few(DVec3::ZERO, frame());
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings);
@@ -54,7 +60,8 @@ enum LightKind {
     Moving,
 }
 
-const KINDS: [LightKind; 5] = [LightKind::Point, LightKind::Opening, LightKind::Ball, LightKind::Square, LightKind::Moving];
+const KINDS: [LightKind; 5] =
+    [LightKind::Point, LightKind::Opening, LightKind::Ball, LightKind::Square, LightKind::Moving];
 
 impl Scene {
     /// An emitting material.
@@ -156,7 +163,10 @@ fn every_light_is_as_strong_as_its_mean_over_the_time_asked_for() {
                 let variance = actual.variance_of_mean + level * level * expected.variance_of_mean;
                 let allowed = 3.5 * variance.sqrt() + 1e-5 * expected.mean * level;
                 let difference = (actual.mean - level * expected.mean).abs();
-                assert!(difference <= allowed, "{kind:?} {strategies:?} {light_interval:?}: {actual:?} {level} {expected:?}");
+                assert!(
+                    difference <= allowed,
+                    "{kind:?} {strategies:?} {light_interval:?}: {actual:?} {level} {expected:?}"
+                );
             }
         }
         assert!(expected.standard_error() < 0.05 * expected.mean, "{kind:?} {expected:?}");
@@ -171,12 +181,17 @@ fn a_light_that_is_seen_has_the_level_of_its_row() {
     for kind in [LightKind::Opening, LightKind::Ball, LightKind::Square] {
         // From below: the lamp points down.
         let towards = ray([-0.3, -0.4, 0.1], [0.3, 0.2, 1.0]);
-        let see = |waveform, light_interval| measure(&lit_floor(diffuse_surface(0.5), kind, waveform), &towards, light_interval, bounces(0), 1).mean;
+        let see = |waveform, light_interval| {
+            measure(&lit_floor(diffuse_surface(0.5), kind, waveform), &towards, light_interval, bounces(0), 1).mean
+        };
         let steady = see(None, rows()[0]);
         for light_interval in rows() {
             let expected = steady * pulses().mean(light_interval);
             // A product in f32.
-            assert!((see(Some(pulses()), light_interval) - expected).abs() <= 2e-7 * expected, "{kind:?} {light_interval:?}");
+            assert!(
+                (see(Some(pulses()), light_interval) - expected).abs() <= 2e-7 * expected,
+                "{kind:?} {light_interval:?}"
+            );
         }
         assert!(steady > 0.0);
     }
@@ -203,7 +218,8 @@ fn a_panel_goes_through_its_rows_from_the_top() {
             assert!((actual - expected).abs() < 1e-5, "row {lit_row}, seen {row}: {actual}");
         }
     }
-    let mean_at = |z: f32| measure(&ready, &ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), over(0.003, 0.01), bounces(0), 1).mean;
+    let mean_at =
+        |z: f32| measure(&ready, &ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), over(0.003, 0.01), bounces(0), 1).mean;
     assert!([0.4, 0.0, -0.3].map(mean_at).iter().all(|mean| (mean - 2.0).abs() < 1e-5));
 }
 

@@ -277,7 +277,9 @@ fn points_are_sampled_by_the_densities_stated() {
             for (place, area) in patches(&shape, to_world, cuts) {
                 let offset = place.as_vec3() - from;
                 let cos = area.normalize().dot(offset.as_dvec3().normalize());
-                let Some((pdf, cell, ..)) = density_at(offset.normalize()).filter(|_| flat || cos < 0.0) else { continue };
+                let Some((pdf, cell, ..)) = density_at(offset.normalize()).filter(|_| flat || cos < 0.0) else {
+                    continue;
+                };
                 let sr = area.length() * cos.abs() / f64::from(offset.length_squared());
                 expected[cell] += f64::from(pdf) * sr * f64::from(SAMPLES);
             }

@@ -33,7 +33,8 @@ fn light_through_screen(screen: Option<Material>, source: &TestLight, strategies
             scene.sources.suns.push(sun);
         }
         TestLight::Square => {
-            let emission = scene.material(Surface::Absorber, Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
+            let emission =
+                scene.material(Surface::Absorber, Some(TestEmission { radiance: 1.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 2.0), 0.6, emission);
         }
     }
@@ -71,7 +72,10 @@ fn a_pane_lets_light_straight_through_and_loses_what_it_reflects() {
     let lamp = |screen| light_through_screen(screen, &TestLight::Lamp, Strategies::Both).mean;
     assert!((lamp(pane(1.5)) / lamp(None) / left - 1.0).abs() < 1e-5);
     for strategies in [Strategies::Both, Strategies::Scattering] {
-        agree(&light_through_screen(pane(1.5), &TestLight::Sun, strategies), &light_through_screen(pane(1.5), &TestLight::Sun, Strategies::Lights));
+        agree(
+            &light_through_screen(pane(1.5), &TestLight::Sun, strategies),
+            &light_through_screen(pane(1.5), &TestLight::Sun, Strategies::Lights),
+        );
     }
 }
 

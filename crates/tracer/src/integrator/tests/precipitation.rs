@@ -4,7 +4,7 @@ use super::*;
 use crate::accel::Simd;
 use crate::media::Media;
 use crate::precipitation::{
-    ChangeOver, Crystals, PrecipitationField, NearParticles, CameraResolution, VisibleRegion, SizeLaw, ViewPlacement,
+    CameraResolution, ChangeOver, Crystals, NearParticles, PrecipitationField, SizeLaw, ViewPlacement, VisibleRegion,
 };
 
 /// Mean radiance over rays that start near the origin within a cone along x, from 32 replicates, with precipitation or without.
@@ -12,7 +12,8 @@ fn measure(ready: &BuiltScene, law: SizeLaw, settings: PathSettings) -> (Replica
     let field = PrecipitationField::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
     let interval = TimeInterval::new(0.0, 0.02).expect("legal");
     let region = VisibleRegion::around(&[DVec3::X], 0.1, 0.0);
-    let resolution = CameraResolution { pixel_rad: 1e-3, min_size_px: 0.25, max_particles: 20_000.0, clear_m: 0.0, exposure_s: 0.0 };
+    let resolution =
+        CameraResolution { pixel_rad: 1e-3, min_size_px: 0.25, max_particles: 20_000.0, clear_m: 0.0, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let medium = [field.medium().expect("legal")];
     let media = Media::new(&medium, DVec3::ZERO, interval);

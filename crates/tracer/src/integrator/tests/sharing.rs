@@ -24,7 +24,8 @@ pub(super) fn corner(floor: Surface, glows: bool) -> BuiltScene {
     let floor = scene.material(floor, None);
     let plaster = scene.material(diffuse_surface(0.8), None);
     let wall = if glows { spotted(&mut scene, plaster) } else { plaster };
-    let bright = scene.material(diffuse_surface(0.6), glows.then_some(TestEmission { radiance: 0.2, sides: EmissionSides::Both }));
+    let bright = scene
+        .material(diffuse_surface(0.6), glows.then_some(TestEmission { radiance: 0.2, sides: EmissionSides::Both }));
     let mirror = scene.material(if glows { aluminium(0.0) } else { diffuse_surface(0.5) }, None);
     let clear = ThinSheet::new(1.5, Reflectance::Spectrum(Spectrum::constant(0.9))).expect("a pane");
     let pane = scene.material(if glows { Surface::ThinSheet(Box::new(clear)) } else { diffuse_surface(0.5) }, None);
@@ -71,7 +72,8 @@ pub(super) fn estimates(
     samples: u32,
     shared: bool,
 ) -> Vec<ReplicateEstimate> {
-    let means: Vec<Vec<f64>> = (0..32).map(|replicate| trace_group(tracer, targets, samples, replicate, shared)).collect();
+    let means: Vec<Vec<f64>> =
+        (0..32).map(|replicate| trace_group(tracer, targets, samples, replicate, shared)).collect();
     let of_ray = |ray: usize| means.iter().map(|group| group[ray]).collect::<Vec<_>>();
     (0..targets.len()).map(|ray| ReplicateEstimate::from_replicates(&of_ray(ray)).expect("replicates")).collect()
 }

@@ -168,7 +168,8 @@ impl OpeningFacet {
                 let to_light = self.middle + polygon.place(u) - from;
                 let distance = to_light.length();
                 let pdf = solid_angle_pdf(1.0 / self.area_m2, to_light, distance, self.normal);
-                let surface = SurfaceSample { to_light: way: to_light, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
+                let surface =
+                    SurfaceSample { to_light, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
                 Some(FacetSample { surface, error_m: polygon.error_m, early_m: 0.0 })
             }
         }

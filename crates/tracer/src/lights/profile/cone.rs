@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths;
 use glam::Vec3;
 
-use super::spread::{self, ProfileNode, DirectionalExtent};
+use super::spread::{self, DirectionalExtent, ProfileNode};
 
 /// A spot's field.
 #[derive(Clone, Debug, PartialEq)]

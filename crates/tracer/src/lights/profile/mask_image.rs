@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 use etendue_core::maths;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::spread::{GAUSS, ProfileNode, DirectionalExtent};
+use super::spread::{DirectionalExtent, GAUSS, ProfileNode};
 
 /// Error of a mask.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -18,7 +18,7 @@ use etendue_core::maths::f32::{acos, asin, atan2};
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec3, Vec3};
 
-use super::spread::{GAUSS, ProfileNode, DirectionalExtent};
+use super::spread::{DirectionalExtent, GAUSS, ProfileNode};
 
 /// Meaning of the two angles of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

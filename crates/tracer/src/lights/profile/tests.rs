@@ -18,7 +18,12 @@ fn steps(from: f32, to: f32, count: usize) -> Vec<f32> {
     (0..count).map(|i| from + (to - from) * i as f32 / (count - 1) as f32).collect()
 }
 
-fn photometric_grid(axes: PhotometricAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32) -> f32) -> PhotometricGrid {
+fn photometric_grid(
+    axes: PhotometricAxes,
+    v: Vec<f32>,
+    h: Vec<f32>,
+    value: impl Fn(f32, f32) -> f32,
+) -> PhotometricGrid {
     let values = h.iter().flat_map(|h| v.iter().map(|v| value(*v, *h)).collect::<Vec<_>>()).collect();
     PhotometricGrid::new(axes, v, h, values).expect("a grid")
 }
@@ -144,7 +149,12 @@ fn a_mask_cuts_what_it_covers() {
 #[test]
 fn the_reach_holds_all_light() {
     let profiles = [
-        Profile::PhotometricGrid(photometric_grid(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
+        Profile::PhotometricGrid(photometric_grid(
+            PhotometricAxes::A,
+            steps(-30.0, 30.0, 3),
+            steps(-60.0, 60.0, 3),
+            |_, _| 5.0,
+        )),
         Profile::PhotometricGrid(photometric_grid(PhotometricAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
         Profile::MaskImage(MaskImage::new(4, 4, vec![1.0; 16], 1.0, 2.0).expect("a mask")),
         Profile::Cone(Cone::new(0.1, 0.4).expect("a spot")),

@@ -8,7 +8,7 @@ use core::ops::Range;
 
 use super::bounds::LightBounds;
 use super::light_tree::{LightTree, ParentSlot};
-use super::node::{LightChild, LANES, LightNode};
+use super::node::{LANES, LightChild, LightNode};
 
 /// Bins along an axis.
 const BINS: usize = 12;

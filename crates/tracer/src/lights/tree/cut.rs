@@ -40,8 +40,9 @@ impl LightTree {
     /// The cut of a glossy receiver.
     #[inline(always)]
     fn glossy_cut<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, gloss: &ReceiverGloss) -> LightCut {
-        let maximum =
-            |node: &LightNode, lane: usize, weights: &GlossyWeights| node.max_weights(lane, weights, query.receiver, gloss);
+        let maximum = |node: &LightNode, lane: usize, weights: &GlossyWeights| {
+            node.max_weights(lane, weights, query.receiver, gloss)
+        };
         let mut cut = self.cut(GLOSSY_THRESHOLD, |node| self.glossy_weights(node, query, gloss), maximum);
         cut.total = mix(&mut cut.weights[..cut.len], &cut.diffuse[..cut.len]);
         cut

@@ -89,7 +89,8 @@ fn frequencies_of_samples_are_the_probabilities_stated() {
             }
             counts[chosen.map_or(lamps.len(), |(light, _)| light)] += 1;
         }
-        let mut probabilities: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
+        let mut probabilities: Vec<_> =
+            (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
         let none = 1.0 - probabilities.iter().sum::<f64>();
         // A few branches may hold only lamps below the horizon; rounding of f32 in some hundred sums.
         assert!((-1e-4..0.05).contains(&none), "{name}: {none}");
@@ -110,8 +111,12 @@ fn no_lamp_that_a_glossy_surface_sees_is_lost() {
         let query = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
         let start = tree.start(&query);
         for (i, light) in lamps.iter().enumerate() {
-            let (probability, arrives) = (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
-            assert!(probability.is_finite() && (probability > 0.0) == arrives, "{name}, lamp {i}: {probability}, {arrives}");
+            let (probability, arrives) =
+                (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
+            assert!(
+                probability.is_finite() && (probability > 0.0) == arrives,
+                "{name}, lamp {i}: {probability}, {arrives}"
+            );
         }
     });
 }

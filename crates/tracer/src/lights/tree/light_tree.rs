@@ -1,6 +1,6 @@
 //! The tree itself: nodes, the slots of lights and nodes, and the weights of a node's children for a receiver.
 
-use super::node::{GlossyWeights, LANES, NodeLanes, LightNode};
+use super::node::{GlossyWeights, LANES, LightNode, NodeLanes};
 use crate::lights::light_sample::LampIrradiance;
 use crate::lights::{LightSampleContext, ReceiverGloss};
 
@@ -93,11 +93,16 @@ impl LightTree {
     }
 
     /// The selection weights of a node's children.
-    pub(super) fn selection_weights<F: Fn(u32) -> LampIrradiance>(&self, node: u32, query: &TreeQuery<'_, F>) -> NodeLanes {
+    pub(super) fn selection_weights<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        node: u32,
+        query: &TreeQuery<'_, F>,
+    ) -> NodeLanes {
         match &query.receiver.gloss {
             None => self.weights(node, query),
             Some(gloss) => {
-                let GlossyWeights { with_gloss: mut raised, diffuse: plain, .. } = self.glossy_weights(node, query, gloss);
+                let GlossyWeights { with_gloss: mut raised, diffuse: plain, .. } =
+                    self.glossy_weights(node, query, gloss);
                 mix(&mut raised, &plain);
                 raised
             }

@@ -28,13 +28,13 @@ mod node;
 mod tests;
 
 use crate::lights::light_sample::LampIrradiance;
-use cut::{sample_index, fraction_of_total};
+use cut::{fraction_of_total, sample_index};
 use light_tree::ParentSlot;
 use node::LANES;
 
 pub(super) use bounds::LightBounds;
 pub(super) use cut::TreeStart;
-pub(super) use light_tree::{LightTree, DIFFUSE_FRACTION, TreeQuery};
+pub(super) use light_tree::{DIFFUSE_FRACTION, LightTree, TreeQuery};
 
 impl LightTree {
     /// The light selected by `u` in [0, 1), and its probability; `None` if nothing reaches the receiver, unless there is only one light.
@@ -67,7 +67,12 @@ impl LightTree {
     }
 
     /// Probability of reaching a slot.
-    fn reach<F: Fn(u32) -> LampIrradiance>(&self, query: &TreeQuery<'_, F>, start: &TreeStart, slot: ParentSlot) -> f32 {
+    fn reach<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        query: &TreeQuery<'_, F>,
+        start: &TreeStart,
+        slot: ParentSlot,
+    ) -> f32 {
         if let Some(probability) = start.probability(slot) {
             return probability;
         }
@@ -76,7 +81,11 @@ impl LightTree {
             0 => 0.0,
             node => self.reach(query, start, self.parents[node as usize]),
         };
-        if above > 0.0 { above * fraction_of_total(&self.selection_weights(slot.node, query), usize::from(slot.lane)) } else { 0.0 }
+        if above > 0.0 {
+            above * fraction_of_total(&self.selection_weights(slot.node, query), usize::from(slot.lane))
+        } else {
+            0.0
+        }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer if the largest cluster is near.

@@ -94,11 +94,15 @@ fn samples_follow_the_reported_probabilities() {
                     None => none += 1.0,
                 }
             }
-            let probabilities: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
+            let probabilities: Vec<_> =
+                (0..lamps.len()).map(|i| f64::from(tree.probability(&query, &start, i))).collect();
             for (count, probability) in counts.iter().zip(&probabilities) {
                 // Each light has one interval of u: its points of the grid differ from its length by less than one, and
                 // a few more where rounding in f32 moves both ends.
-                assert!((count - probability * f64::from(n)).abs() < 1.0 + 2e-6 * f64::from(n), "{count} {probability}");
+                assert!(
+                    (count - probability * f64::from(n)).abs() < 1.0 + 2e-6 * f64::from(n),
+                    "{count} {probability}"
+                );
             }
             let sum: f64 = probabilities.iter().sum();
             assert!((sum + none / f64::from(n) - 1.0).abs() < 2e-3, "{sum} and {none} of {n} in vain");
@@ -119,8 +123,12 @@ fn no_light_that_arrives_is_lost() {
             let query = TreeQuery { receiver, lamp };
             let start = tree.start(&query);
             for (i, light) in lamps.iter().enumerate() {
-                let (probability, arrives) = (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
-                assert!(probability.is_finite() && (probability > 0.0) == arrives, "lamp {i}: {probability}, {arrives}");
+                let (probability, arrives) =
+                    (tree.probability(&query, &start, i), light.irradiance(receiver).with_gloss > 0.0);
+                assert!(
+                    probability.is_finite() && (probability > 0.0) == arrives,
+                    "lamp {i}: {probability}, {arrives}"
+                );
             }
             assert!(tree.irradiance(&query, &start).is_finite());
         });

@@ -101,7 +101,12 @@ impl RoadMarking {
     ///
     /// # Errors
     /// As [`RoadMarking::new`].
-    pub fn with_spread(r_l: f64, day: DaytimeBrightness, colour: &Spectrum, spread_deg: f64) -> Result<Self, MarkingError> {
+    pub fn with_spread(
+        r_l: f64,
+        day: DaytimeBrightness,
+        colour: &Spectrum,
+        spread_deg: f64,
+    ) -> Result<Self, MarkingError> {
         let reflectance = day.reflectance();
         if !(0.0..=1.0).contains(&reflectance) {
             return Err(MarkingError::Day { reflectance });
@@ -266,7 +271,8 @@ impl<const N: usize> MarkingBsdf<'_, N> {
         let lobe = self.marking.lobe;
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * lobe.value_cos(wo, wi),
-            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * lobe.pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z)
+                + discrete_sampler.probability(1) * lobe.pdf(wo, wi),
         }
     }
 }

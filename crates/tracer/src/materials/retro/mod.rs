@@ -35,7 +35,7 @@ use super::error::{EnergyGain, MaterialError};
 use super::gloss::{Gloss, GlossLobe};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
-use lobe::{GRAZING_DEG, RetroLobe, MAX_CUT_OFF_DEG};
+use lobe::{GRAZING_DEG, MAX_CUT_OFF_DEG, RetroLobe};
 
 pub use marking::{DaytimeBrightness, MarkingBsdf, MarkingError, RoadMarking, marking_class};
 pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
@@ -203,7 +203,8 @@ impl<const N: usize> SheetingBsdf<'_, N> {
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * self.lobe.value_cos(wo, wi),
-            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.probability(1) * self.lobe.pdf(wo, wi),
+            pdf: discrete_sampler.probability(0) * cosine_hemisphere_pdf(wi.z)
+                + discrete_sampler.probability(1) * self.lobe.pdf(wo, wi),
         }
     }
 }
@@ -221,7 +222,11 @@ impl<const N: usize> BsdfModel<N> for SheetingBsdf<'_, N> {
     fn gloss(&self, wo: Vec3) -> Gloss {
         let colour = self.colour.mean();
         let (peak, albedo) = (self.lobe.value_cos(wo, wo), self.lobe.albedo.at(wo.z));
-        Gloss::from_diffuse(self.base.mean() * FRAC_1_PI).with(GlossLobe::from_albedo(wo, colour * peak, colour * albedo))
+        Gloss::from_diffuse(self.base.mean() * FRAC_1_PI).with(GlossLobe::from_albedo(
+            wo,
+            colour * peak,
+            colour * albedo,
+        ))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -145,13 +145,15 @@ fn every_material_is_reciprocal() {
         let bsdf = bsdf(&material_table);
         let mut stream = noise(200 + k as u32);
         for i in 0..4000 {
-            let mut sample_direction = || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
+            let mut sample_direction =
+                || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
             let (a, mut b) = (sample_direction(), sample_direction());
             let mut n2 = 1.0;
             if i % 2 == 1 {
                 (b.z, n2) = (-b.z, eta(&material_table) * eta(&material_table));
             }
-            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, evaluate_swapped(&material_table, a, b));
+            let (there, back) =
+                (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, evaluate_swapped(&material_table, a, b));
             // Near the critical angle Fresnel's equations subtract nearly equal numbers.
             let (digits, minimum) = if b.z > 0.0 { (1e-4, 1e-10) } else { (1e-4, 2e-5) };
             for i in 0..4 {

@@ -101,7 +101,12 @@ fn directions_are_sampled_by_the_density_stated() {
         let material_table = material_table(surface);
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let p = p_of_samples(&bsdf(&material_table), wo, &DirectionGrid::about_mirror(wo, scale), 1000 + (k * 4 + i) as u32);
+            let p = p_of_samples(
+                &bsdf(&material_table),
+                wo,
+                &DirectionGrid::about_mirror(wo, scale),
+                1000 + (k * 4 + i) as u32,
+            );
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }

@@ -80,8 +80,7 @@ fn what_emits_has_no_gaps_laid_on_from_three_sides() {
         let sampling = Sampling { projection, ..Sampling::default() };
         let image = ImageTexture::new(1, 1, Texels::Float(vec![[0.5; 3]]), sampling).expect("a texel");
         let opacity = Some(Factor::Texture(TextureId(0), Channel::Red));
-        MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![image])
-            .err()
+        MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![image]).err()
     };
     let emitted =
         Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both, modulation: None };

@@ -76,8 +76,11 @@ fn a_sign_is_never_darker_than_its_base() {
 
 #[test]
 fn a_marking_returns_its_coefficient_at_the_30_m_geometry() {
-    for (r_l, day) in [(100.0, DaytimeBrightness::Qd(100.0)), (300.0, DaytimeBrightness::Qd(160.0)), (150.0, DaytimeBrightness::LuminanceFactor(0.6))]
-    {
+    for (r_l, day) in [
+        (100.0, DaytimeBrightness::Qd(100.0)),
+        (300.0, DaytimeBrightness::Qd(160.0)),
+        (150.0, DaytimeBrightness::LuminanceFactor(0.6)),
+    ] {
         let material_table = marking(r_l, day);
         let actual = luminance(&material_table, lamp_and_viewer(88.76, 1.05, 0.0));
         assert!((actual / (r_l * 1e-3) - 1.0).abs() < 1e-3, "{r_l}: {actual}");

@@ -81,7 +81,8 @@ fn finer_pixels_resolve_more_drops_up_to_a_bound() {
     let field = field(0);
     let region = VisibleRegion::around(&[DVec3::X], 0.4, 0.0);
     let of = |pixel_rad, maximum| {
-        let resolution = CameraResolution { pixel_rad, min_size_px: 0.5, max_particles: most: maximum, clear_m: 0.0, exposure_s: 0.0 };
+        let resolution =
+            CameraResolution { pixel_rad, min_size_px: 0.5, max_particles: maximum, clear_m: 0.0, exposure_s: 0.0 };
         ChangeOver::new(field.classes(), &resolution, &region)
     };
     let (coarse, fine, bounded) = (of(2e-3, 1e9), of(5e-4, 1e9), of(5e-4, 20_000.0));

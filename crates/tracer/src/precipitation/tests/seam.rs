@@ -29,7 +29,8 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
         let interval = TimeInterval::new(f64::from(round), f64::from(round) + 0.01).expect("legal");
         let axis = DVec3::new(1.0, 0.3, 0.1).normalize();
         let region = VisibleRegion::around(&[axis], 0.1, 0.0);
-        let resolution = CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 1e9, clear_m: 0.0, exposure_s: 0.0 };
+        let resolution =
+            CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 1e9, clear_m: 0.0, exposure_s: 0.0 };
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
         let media = Media::new(&medium, origin_m, interval);
         let near = NearParticles::new(
@@ -68,7 +69,8 @@ fn optical_depth(field: &PrecipitationField, change_over: &ChangeOver, distance_
 fn nothing_falls_within_the_clear_distance() {
     let field = dense();
     let region = VisibleRegion::EVERYWHERE;
-    let resolution = CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 2000.0, clear_m: 0.5, exposure_s: 0.0 };
+    let resolution =
+        CameraResolution { pixel_rad: 8e-3, min_size_px: 0.25, max_particles: 2000.0, clear_m: 0.5, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     assert_eq!(optical_depth(&field, &change_over, 0.5), 0.0);
     let origin_m = DVec3::ZERO;

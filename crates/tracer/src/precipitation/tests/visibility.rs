@@ -13,7 +13,8 @@ fn cover(field: &PrecipitationField, exposure_s: f64) -> Vec<f64> {
     const STEP_S: f64 = 1e-4;
     let interval = TimeInterval::new(0.0, exposure_s).expect("legal");
     let region = VisibleRegion::around(&[DVec3::X], 0.19, 0.0);
-    let resolution = CameraResolution { pixel_rad: PIXEL_RAD, min_size_px: 0.25, max_particles: 1e9, clear_m: 1.0, exposure_s: 0.0 };
+    let resolution =
+        CameraResolution { pixel_rad: PIXEL_RAD, min_size_px: 0.25, max_particles: 1e9, clear_m: 1.0, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let mut cover = vec![0.0; SIZE[0] * SIZE[1]];
     for particle in field.particles_near(DVec3::ZERO, interval, &region, &change_over) {

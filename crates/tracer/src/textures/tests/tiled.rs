@@ -71,7 +71,10 @@ fn tiles(width: u32, height: u32, texels: &Texels, encoding: TexelEncoding, rows
     }
     writer.finish(&mut memory_blocks).expect("all rows");
     let lengths_found: Vec<usize> = memory_blocks.blocks.iter().map(Vec::len).collect();
-    assert!(lengths_found.iter().zip(&lengths).all(|(actual, expected)| *actual == *expected as usize), "{lengths_found:?} {lengths:?}");
+    assert!(
+        lengths_found.iter().zip(&lengths).all(|(actual, expected)| *actual == *expected as usize),
+        "{lengths_found:?} {lengths:?}"
+    );
     memory_blocks
 }
 

@@ -14,7 +14,7 @@ use glam::Vec3;
 use super::mipmap::{TexelLevel, neighbours};
 use super::projection::Wrap;
 use super::texels::{Texel as _, TexelEncoding};
-use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, ImageStatistics, TILE, layout};
+use layout::{FLOAT_TEXEL, ImageStatistics, LevelLayout, STATISTICS_BYTES, TILE, layout};
 use memory::Tiles;
 
 pub use memory::TileMemory;

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 
 use super::super::mipmap::{TexelArea, overlaps};
 use super::super::texels::{Texel as _, TexelEncoding, Texels, TextureError, TiledError};
-use super::layout::{FLOAT_TEXEL, LevelLayout, ImageStatistics, TILE, layout, lengths};
+use super::layout::{FLOAT_TEXEL, ImageStatistics, LevelLayout, TILE, layout, lengths};
 
 /// Writes tiles from rows.
 #[derive(Debug)]
