@@ -59,7 +59,7 @@ pub struct DepthRequest {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.1, allow_negative_numbers = true)]
     pub edge_ratio: f64,
     /// Distance, px, within which pixels near an edge are reported separately
-    #[arg(long, value_name = "PX", default_value_t = 2, value_parser = in_range(EDGE_PX))]
+    #[arg(long, value_name = "PX", default_value_t = 2, value_parser = in_range(EDGE_RANGE_PX))]
     pub edge_px: u32,
 }
 

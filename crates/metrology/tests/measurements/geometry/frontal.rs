@@ -1,7 +1,7 @@
 //! Charts seen frontally by a pinhole, each pixel exactly the mean over its square; measurements from a single image.
 
 use super::paint::noisy;
-use crate::coverage::{Run, covers};
+use crate::coverage::{CoverageRun, assert_coverage};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use etendue_metrology::calibrate::{CalibrationOptions, Family, RadialTerms, Sightings, calibrate};
 use etendue_metrology::target::{Grid, Target, TargetQuery, find};
@@ -120,7 +120,7 @@ fn focal(grid: &Grid, family: Family, distance: Estimate) -> Estimate {
 }
 
 /// The focal length from one view of either chart, with a model without distortion and one with it.
-fn chart_run(seed: u64, noise: f64) -> Run {
+fn chart_run(seed: u64, noise: f64) -> CoverageRun {
     let placed = ChartPlacement::from_seed(seed);
     let pinhole = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
     let radial = Family::Polynomial(DistortionDirection::IdealToObserved);
@@ -142,5 +142,5 @@ fn chart_run(seed: u64, noise: f64) -> Run {
 
 #[test]
 fn the_focal_length_of_a_view_from_the_front() {
-    covers("focal, from the front", |seed| chart_run(seed, 0.01));
+    assert_coverage("focal, from the front", |seed| chart_run(seed, 0.01));
 }

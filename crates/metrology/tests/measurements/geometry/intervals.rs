@@ -2,7 +2,7 @@
 
 use super::cameras::perspective;
 use super::paint::View;
-use crate::coverage::{Run, covers};
+use crate::coverage::{CoverageRun, assert_coverage};
 use crate::draws::normals;
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{
@@ -40,7 +40,7 @@ fn observe(view: &View, [columns, rows]: [usize; 2], mut normal: impl FnMut() ->
     Grid { nodes, size: [columns, rows], disc_radius_steps: None }
 }
 
-fn distorted(seed: u64) -> Run {
+fn distorted(seed: u64) -> CoverageRun {
     let (k1, k2) = (-0.06, 0.01);
     let camera = barrel(k1, k2);
     let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(8.0, 6.0), DVec3::new(0.05, -0.1, 13.5));
@@ -66,11 +66,11 @@ fn distorted(seed: u64) -> Run {
 
 #[test]
 fn distortion_of_a_chart() {
-    covers("distortion", distorted);
+    assert_coverage("distortion", distorted);
 }
 
 /// A chart over one side of the image: the tilt at its edge does not average over directions.
-fn to_one_side(seed: u64) -> Run {
+fn to_one_side(seed: u64) -> CoverageRun {
     let camera = perspective(700.0, &[], SIZE);
     let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(4.0, 6.0), DVec3::new(0.0, 0.0, 18.0));
     let measured = distortion(&observe(&view, [15, 13], normals(seed, 0)), SIZE, None).expect("enough points");
@@ -85,7 +85,7 @@ fn to_one_side(seed: u64) -> Run {
 
 #[test]
 fn distortion_of_a_chart_to_one_side() {
-    covers("distortion to one side", to_one_side);
+    assert_coverage("distortion to one side", to_one_side);
 }
 
 /// A chart with this many points that fills the image, except its borders, through a camera, slightly tilted.
@@ -96,7 +96,7 @@ fn filling(camera: &Calibration, [columns, rows]: [usize; 2], tilt: f64) -> View
 }
 
 /// The largest local distortion, that of a corner of the chart, and the curve's last point, of a chart with this many points.
-fn grid_run(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> Run {
+fn grid_run(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> CoverageRun {
     let view = filling(camera, size, tilt);
     let grid = observe(&view, size, normals(seed, 0));
     let measured = distortion(&grid, SIZE, None).expect("enough points");
@@ -134,7 +134,7 @@ fn distortion_of_charts_of_few_points_and_many() {
             let observed = field * radial.unit_mm();
             observed / radial.ideal_radius_mm(observed).expect("no fold")
         };
-        covers(&format!("distortion, {chart}, {kind}"), |seed| grid_run(&camera, size, 0.02, truth, seed));
+        assert_coverage(&format!("distortion, {chart}, {kind}"), |seed| grid_run(&camera, size, 0.02, truth, seed));
     }
 }
 
@@ -152,14 +152,14 @@ fn pose(camera: &Calibration, rotation: [f64; 3], distance: f64) -> View {
     View::new(camera, rotation, DVec2::new(0.125, 0.1), DVec3::new(0.0, 0.01, distance))
 }
 
-fn named(calibrated: &CalibrationResult, truth: &[(&'static str, f64)]) -> Run {
+fn named(calibrated: &CalibrationResult, truth: &[(&'static str, f64)]) -> CoverageRun {
     truth.iter().map(|(name, truth)| (*name, calibrated.estimate(name).expect("fitted"), *truth)).collect()
 }
 
 #[test]
 fn calibration_from_views() {
     let family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: true };
-    covers("calibrate", |seed| {
+    assert_coverage("calibrate", |seed| {
         let camera = perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], [640, 480]);
         let rotations = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.1, -0.5, 1.6]];
         let mut normal = normals(seed, 0);
@@ -178,7 +178,7 @@ fn calibration_from_views() {
 #[test]
 fn focal_length_from_a_distance() {
     let family = Family::Perspective { radial: RadialTerms::Polynomial(2), tangential: false };
-    covers("focal", |seed| {
+    assert_coverage("focal", |seed| {
         let mut normal = normals(seed, 0);
         let camera = {
             let Model::Perspective(model) = perspective(500.0, &[-0.2, 0.05, 0.0, 0.0], [640, 480]).model().clone()
@@ -206,7 +206,7 @@ fn focal_length_from_a_distance() {
 fn focal_length_from_a_typed_distance() {
     const DIGIT: f64 = 5e-4;
     let family = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
-    covers("focal, distance typed", |seed| {
+    assert_coverage("focal, distance typed", |seed| {
         let mut normal = normals(seed, 0);
         let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
         let model = perspective(500.0, &[], [640, 480]).model().clone();
@@ -229,7 +229,7 @@ fn focal_length_from_a_typed_distance() {
 #[test]
 fn focal_length_by_points_that_share_errors() {
     let family = Family::Perspective { radial: RadialTerms::Polynomial(0), tangential: false };
-    covers("focal, errors shared by rows and columns", |seed| {
+    assert_coverage("focal, errors shared by rows and columns", |seed| {
         let mut normal = normals(seed, 0);
         let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
         let model = perspective(500.0, &[], [640, 480]).model().clone();
@@ -257,7 +257,7 @@ fn focal_length_by_points_that_share_errors() {
 /// Red is 0.1 % larger than green, and shifted by 0.05 px.
 #[test]
 fn lateral_colour() {
-    covers("chromatic", |seed| {
+    assert_coverage("chromatic", |seed| {
         let camera = |f: f64| {
             let matrix = CameraMatrix { fx: f, fy: f, skew: 0.0, cx: 400.0, cy: 300.0 };
             let model = perspective(f, &[], SIZE).model().clone();

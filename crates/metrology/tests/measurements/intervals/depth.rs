@@ -1,11 +1,11 @@
 //! Depth.
 
 use super::{normals, test_image};
-use crate::coverage::covers;
+use crate::coverage::assert_coverage;
 use etendue_metrology::depth::{DepthSettings, measure_depth};
 
 /// A plane at 10 m, measured 0.05 m too far with noise of 0.2 m shared by neighbours over squares of this many pixels.
-fn measured(seed: u64, shared_px: usize) -> crate::coverage::Run {
+fn measured(seed: u64, shared_px: usize) -> crate::coverage::CoverageRun {
     const SIZE: usize = 160;
     let truth = test_image(SIZE, SIZE, |_| 10.0);
     let mut normal = normals(seed, 0);
@@ -22,10 +22,10 @@ fn measured(seed: u64, shared_px: usize) -> crate::coverage::Run {
 
 #[test]
 fn depth_errors() {
-    covers("depth", |seed| measured(seed, 1));
+    assert_coverage("depth", |seed| measured(seed, 1));
 }
 
 #[test]
 fn depth_errors_that_neighbours_share() {
-    covers("depth, noise in squares of 4 px", |seed| measured(seed, 4));
+    assert_coverage("depth, noise in squares of 4 px", |seed| measured(seed, 4));
 }

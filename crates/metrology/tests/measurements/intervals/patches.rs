@@ -1,7 +1,7 @@
 //! Uniform patches: noise, flare, contrast, colour.
 
 use super::{normals, test_image};
-use crate::coverage::covers;
+use crate::coverage::assert_coverage;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_metrology::contrast::{ContrastSettings, detection_probability, measure_contrast};
@@ -16,7 +16,7 @@ use etendue_spectra::{colour::D65_WHITE, illuminant, observer, reflectance::colo
 #[test]
 fn noise() {
     const SIDE: usize = 24;
-    covers("noise", |seed| {
+    assert_coverage("noise", |seed| {
         let mut normal = normals(seed, 0);
         let pattern: Vec<f64> = (0..SIDE * SIDE).map(|_| 3.0 * normal()).collect();
         let mut stack = Stack::new(SIDE, SIDE);
@@ -41,7 +41,7 @@ fn noise() {
 
 #[test]
 fn flare() {
-    covers("flare", |seed| {
+    assert_coverage("flare", |seed| {
         let mut normal = normals(seed, 0);
         let mut patch = |mean: f64, sigma: f64| test_image(12, 12, |_| mean + sigma * normal());
         let (white, trap) = (patch(900.0, 30.0), patch(25.0, 3.0));
@@ -65,7 +65,7 @@ pub(super) fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) 
 
 #[test]
 fn patches_of_developed_pictures() {
-    covers("developed pictures", |seed| {
+    assert_coverage("developed pictures", |seed| {
         let mut normal = normals(seed, 0);
         let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| developed(m, s, &mut normal));
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
@@ -90,7 +90,7 @@ fn with_rows(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
 
 #[test]
 fn patches_whose_rows_share_noise() {
-    covers("noise of rows", |seed| {
+    assert_coverage("noise of rows", |seed| {
         let mut normal = normals(seed, 0);
         let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| with_rows(m, s, &mut normal));
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
@@ -109,7 +109,7 @@ fn patches_whose_rows_share_noise() {
 fn contrast() {
     let settings = ContrastSettings { black: 0.0, full_scale: None, tolerance: 0.5, shared_px: 1 };
     let (dark, bright) = ([1000.0, 300.0], [1500.0, 360.0]);
-    covers("cdp", |seed| {
+    assert_coverage("cdp", |seed| {
         let mut normal = normals(seed, 0);
         let mut patch = |[mean, sigma]: [f64; 2]| test_image(20, 20, |_| mean + sigma * normal());
         let (a, b) = (patch(dark), patch(bright));
@@ -147,7 +147,7 @@ fn colours(powers: [f64; 3], side: usize, seed: u64) -> [ColourError; 2] {
 
 #[test]
 fn colour_errors() {
-    covers("colour", |seed| {
+    assert_coverage("colour", |seed| {
         let [measured, truth] = colours([0.9, 0.95, 0.85], 24, seed);
         let patch = |name, i: usize| (name, measured.differences[i], truth.differences[i].value);
         vec![

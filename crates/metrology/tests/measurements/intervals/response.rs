@@ -2,7 +2,7 @@
 
 use super::patches::developed;
 use super::{normals, test_image};
-use crate::coverage::covers;
+use crate::coverage::assert_coverage;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::oecf::ExposurePoint;
 use etendue_metrology::oecf::noisy_mean;
@@ -12,7 +12,7 @@ use etendue_metrology::{Estimate, Image};
 /// A response that is a polynomial of the reading: light = 0.3 M + 0.7 M².
 #[test]
 fn response() {
-    covers("response", |seed| {
+    assert_coverage("response", |seed| {
         let reading = |light: f64| (-0.3 + (0.09 + 2.8 * light).sqrt()) / 1.4;
         let mut normal = normals(seed, 0);
         let mut frame = |exposure: f64| {
@@ -38,7 +38,7 @@ fn tone_curve_of_developed_pictures() {
         let light = light.clamp(0.0, 1.0);
         255.0 * if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * pow(light, 1.0 / 2.4) - 0.055 }
     };
-    covers("tone curve of developed pictures", |seed| {
+    assert_coverage("tone curve of developed pictures", |seed| {
         let mut normal = normals(seed, 0);
         // The phase of a mean within an ADC step differs between runs.
         let shift = 1.0 + 0.1 * super::unit(seed);

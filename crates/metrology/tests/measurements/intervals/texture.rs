@@ -1,7 +1,7 @@
 //! Star and dead leaves.
 
 use super::{normals, test_image};
-use crate::coverage::covers;
+use crate::coverage::assert_coverage;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{atan2, exp, hypot, sin_cos};
 use etendue_metrology::texture::leaves::measure_texture;
@@ -12,7 +12,7 @@ use etendue_metrology::texture::{Star, measure_star};
 fn star() {
     const CYCLES: u32 = 48;
     let blur = |f: f64| exp(-2.0 * PI * PI * 0.25 * f * f);
-    covers("star", |seed| {
+    assert_coverage("star", |seed| {
         let mut normal = normals(seed, 0);
         let image = test_image(120, 120, |i| {
             let (dx, dy) = ((i % 120) as f64 + 0.5 - 60.3, (i / 120) as f64 + 0.5 - 59.8);
@@ -40,7 +40,7 @@ fn star() {
 fn leaves() {
     const SIDE: usize = 128;
     let kernel = |d: i64| if d == 0 { 0.6 } else { 0.2 };
-    covers("texture", |seed| {
+    assert_coverage("texture", |seed| {
         let mut normal = normals(seed, 0);
         let reference = test_image(SIDE, SIDE, |_| 500.0 + 100.0 * normal());
         let soft = |i: usize| {

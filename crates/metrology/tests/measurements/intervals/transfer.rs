@@ -1,7 +1,7 @@
 //! Photon transfer from levels with random means and variances of known distribution, and dark currents over temperature.
 
 use super::{normals, unit};
-use crate::coverage::{Run, covers};
+use crate::coverage::{CoverageRun, assert_coverage};
 use etendue_core::maths::f64::{exp, ln};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::temperature::{GrowthLaw, fit};
@@ -30,7 +30,7 @@ fn peak_photons() -> f64 {
     steps.max_by(|a, b| clipped(*a).1.total_cmp(&clipped(*b).1)).expect("steps") / QUANTUM_EFFICIENCY
 }
 
-fn transfer(seed: u64) -> Run {
+fn transfer(seed: u64) -> CoverageRun {
     let mut normal = normals(seed, 0);
     let mut level = |exposure_s: f64, photons: f64| {
         let (mean_e, variance_e2) = if photons > 0.0 { clipped(QUANTUM_EFFICIENCY * photons) } else { (0.0, 0.0) };
@@ -68,13 +68,13 @@ fn transfer(seed: u64) -> Run {
 
 #[test]
 fn capacity_threshold_and_range() {
-    covers("photon transfer, limits", transfer);
+    assert_coverage("photon transfer, limits", transfer);
 }
 
 /// 12 e⁻/s at 30 °C, doubling every 8 K, each current with an uncertainty of 5 % and 6 e⁻/s: the coldest is often negative.
 #[test]
 fn dark_current_over_temperature() {
-    covers("dark current over temperature", |seed| {
+    assert_coverage("dark current over temperature", |seed| {
         let mut normal = normals(seed, 0);
         let mut current = |i: i32| {
             let celsius = 20.0 + 10.0 * f64::from(i);
