@@ -15,7 +15,6 @@ use etendue_io::jpeg::encode_jpeg;
 use etendue_io::mesh::read_mesh;
 use etendue_io::photograph::Encoding;
 use etendue_io::photometry::read_photometry;
-use etendue_io::picture::read_image;
 use etendue_io::png::encode_display;
 use etendue_io::trajectory::read_trajectory;
 use std::fs::File;
@@ -105,7 +104,7 @@ fn mesh(file: &Path) {
 }
 
 fn read_image(file: &Path) {
-    std::hint::black_box(read_image(file).expect("readable"));
+    std::hint::black_box(etendue_io::picture::read_image(file).expect("readable"));
 }
 
 fn trajectory(file: &Path) {

@@ -53,7 +53,7 @@ mod tests {
         assert_eq!(seed("9223372036854775807"), Ok(MAX_SEED));
         assert!(seed("9223372036854775808").is_err() && seed("-1").is_err());
         assert_eq!(frames("0..100000"), Ok(0..100_000));
-        assert_eq!(frames("0..100001"), Err("100001 frames; one run takes at most 100000".to_owned()));
+        assert_eq!(frames("0..100001"), Err("100001 frames; one run can have at most 100000".to_owned()));
     }
 
     #[test]

@@ -179,7 +179,7 @@ mod tests {
     fn a_message_says_how_far_to_raise() {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
         let message = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
-        assert!(message.words.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{message}");
+        assert!(message.words.ends_with("has 17 MiB, but files of its kind may have at most 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{message}");
         assert_eq!([16, 40, 64].map(|max| BASES.suggested(max)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }

@@ -289,7 +289,7 @@ mod tests {
         let unknown = by_name("BK7X").expect_err("no such glass").to_string();
         assert!(unknown.starts_with("no glass is called `BK7X`; give a name"), "{unknown}");
         let old = by_name("LAK8").expect_err("an old name").to_string();
-        assert!(old.contains("(near it: N-LAK8"), "{old}");
+        assert!(old.contains("(similar: N-LAK8"), "{old}");
         assert!(Dispersion::from_abbe(0.9, 50.0).is_err() && Dispersion::from_abbe(1.5, f64::NAN).is_err());
         let in_nm = Dispersion::Cauchy { a: 1.5, b_um2: 4000.0, c_um4: 0.0 }.checked().expect_err("unit").to_string();
         assert!(in_nm.contains("check the coefficients' unit"), "{in_nm}");

@@ -106,7 +106,7 @@ fn a_panic_between_passes_leaves_the_light_of_the_last() {
     job(true).save(&options(), &undisturbed, ExistingFiles::Refuse, &Unobserved).expect("rendered");
     // The second pass of the first frame.
     let message = panicked(&job(true), &out, 6);
-    assert!(message.contains("kept the light of the last whole pass; with `resume`"), "{message}");
+    assert!(message.contains("saved the light of the last complete pass; to continue, use `resume`"), "{message}");
     job(true).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
     assert!(files(&out) == files(&undisturbed));
 }
@@ -118,7 +118,7 @@ fn jobs_of_one_process_take_turns_in_a_folder() {
     panicked(&job(false), place.path(), 2);
     let folder = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("free");
     let error = job(false).save(&options(), place.path(), ExistingFiles::Replace, &Unobserved).expect_err("held");
-    assert!(error.to_string().contains("another run of this process writes into this folder"), "{error}");
+    assert!(error.to_string().contains("another run of this process is writing into this folder"), "{error}");
     drop(folder);
     job(false).save(&options(), place.path(), ExistingFiles::Refuse, &Unobserved).expect("free");
 }

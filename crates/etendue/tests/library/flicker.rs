@@ -60,7 +60,7 @@ fn an_option_overrides_the_side_car_and_says_so() {
     let (frequency_hz, _, notes) = measured_flicker(&request);
     assert!((frequency_hz - 200.0).abs() < 1.0, "rows in half the time: {frequency_hz} Hz");
     let is_noted = |words: &str| notes.iter().any(|note| note.contains(words));
-    assert!(is_noted("`row_time_us` 125 is taken") && is_noted("says 250 µs"), "{notes:?}");
+    assert!(is_noted("`row_time_us` 125 is used") && is_noted("states 250 µs"), "{notes:?}");
     // Every second frame.
-    assert!(is_noted("`frame_rate_hz` 25 is taken") && is_noted("says 12.5 Hz"), "{notes:?}");
+    assert!(is_noted("`frame_rate_hz` 25 is used") && is_noted("states 12.5 Hz"), "{notes:?}");
 }

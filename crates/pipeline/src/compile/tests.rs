@@ -276,7 +276,7 @@ fn a_point_spread_function_from_a_picture() {
         "{message}"
     );
     let message = of("20", &pixels(ImagePixels::Rgb32F(vec![[0.5, -2.0, 0.5]; 3]))).expect_err("negative");
-    assert!(message.contains("effects.psf.image: column 0 of row 0 is -0.33"), "{message}");
+    assert!(message.contains("effects.psf.image: column 0 of row 0 of the point-spread image is -0.33"), "{message}");
     let message = of("60", &dot).expect_err("coarse");
     assert!(message.contains("effects.psf.image_pitch_um: ") && message.contains("separate dots"), "{message}");
     let message = behind(PINHOLE, "psf = { wavefront = [{ noll = 4, rms_um = 900 }] }", "").expect_err("steep");

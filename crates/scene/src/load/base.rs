@@ -96,7 +96,7 @@ fn remove_entries(base: &mut Node, list: &Node, errors: &mut DescriptionErrors) 
     for name in list.as_list() {
         let removed = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
         if !removed {
-            let problem = format!("the base has no entry {}", name.describe());
+            let problem = format!("found {}, but the base has no such entry", name.describe());
             errors.add(
                 ErrorCode::UnknownName,
                 &name.place,

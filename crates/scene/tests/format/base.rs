@@ -67,7 +67,7 @@ fn faults_name_the_file_that_says_it() {
     );
     assert_eq!(
         base_errors("remove = [\"lights.son\"]\n", ""),
-        "scene.toml:3:11: remove[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
+        "scene.toml:3:11: remove[0]: found the text \"lights.son\", but the base has no such entry; give dotted keys of the base: \
          \"environment\", \"lights.sun\""
     );
     assert!(base_errors("remove = 3\n", "").contains("remove: found 3; give a list of dotted keys"));
@@ -79,7 +79,7 @@ fn faults_name_the_file_that_says_it() {
     files.edit("scene.toml", "base/scene.toml", "scene.toml");
     assert_eq!(
         load(&files, &[]).expect_err("a fault").to_string(),
-        "scene.toml:2:8: base: \"scene.toml\" is built on itself; name another base, or none"
+        "scene.toml:2:8: base: \"scene.toml\" is its own base; give another base, or none"
     );
     let mut files = DescriptionFiles::from_example();
     files.edit("scene.toml", "format = 1", "format = 1\nremove = []");

@@ -50,9 +50,9 @@ fn lamps_have_one_position_and_direction() {
     assert!(aims.contains("\"rotation_deg\", \"target_m\" contradict each other"), "{aims}");
     assert!(spot("position_m = [0, 0, 5]\ntarget_m = [0, 0, 5]").contains("points at its own position"));
     let wide = spot("position_m = [0, 0, 5]\ninner_angle_deg = 41");
-    assert!(wide.contains("lights.l.inner_angle_deg: found 41, and the field ends at 40"), "{wide}");
+    assert!(wide.contains("lights.l.inner_angle_deg: found 41, but the field ends at 40"), "{wide}");
     let point = "type = \"point\"\nposition_m = [0, 0, 5]\nluminous_flux_lm = 800\nilluminant = \"A\"\nrotation_deg = [0, 90, 0]";
-    assert!(light(point).contains("rotation_deg: a lamp that shines alike in all directions points nowhere"));
+    assert!(light(point).contains("rotation_deg: an isotropic light has no direction"));
     let masked = format!("{point}\nmask = {{ file = \"mask.png\", field_deg = [40, 30] }}");
     assert_eq!(light(&masked), "");
 }
@@ -101,15 +101,15 @@ fn skies_have_one_position_of_the_sun() {
     assert_eq!(sky(moment), "");
     assert_eq!(sky(angles), "");
     let sun = "[[scene.lights]]\ntype = \"sun\"\nname = \"s\"\nelevation_deg = 30\nazimuth_deg = 0\nturbidity = 3";
-    assert!(sky(&format!("{angles}{sun}")).contains("scene.lights.s: the sky brings a sun of its own (job.toml:"));
+    assert!(sky(&format!("{angles}{sun}")).contains("scene.lights.s: the sky has its own sun (job.toml:"));
     assert_eq!(sky(&format!("{angles}sun = false\n{sun}")), "");
     assert!(sky("").contains("the position of the sun is missing"));
     let both = sky(&format!("{moment}{angles}"));
     assert!(both.contains("scene.environment.date: \"date\" and \"sun_elevation_deg\" (job.toml:"), "{both}");
     assert!(sky("sun_elevation_deg = 30").contains("the key \"sun_azimuth_deg\" is missing"));
     let day = sky(&moment.replace("2026-06-21", "\"2026-06-31\""));
-    assert!(day.contains("found the text \"2026-06-31\"; give a day from 1950 to 2099"), "{day}");
-    assert!(sky(&moment.replace("09:30:00", "9:30")).contains("give a time of the day"));
+    assert!(day.contains("found the text \"2026-06-31\"; give a date from 1950 to 2099"), "{day}");
+    assert!(sky(&moment.replace("09:30:00", "9:30")).contains("give a time of day"));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn textures_have_one_mapping() {
     };
     assert_eq!(texture("uv_scale = [2, 2]"), "");
     assert_eq!(texture("mapping = \"triplanar\"\nsize_m = 2"), "");
-    assert!(texture("mapping = \"triplanar\"").contains("does not say how large the picture is"));
+    assert!(texture("mapping = \"triplanar\"").contains("does not state the size of the image"));
     assert!(texture("size_m = 2").contains("belongs to mapping = \"triplanar\""));
     let both = texture("mapping = \"triplanar\"\nsize_m = 2\nuv_offset = [0.5, 0]");
     assert!(both.contains("\"uv_offset\" has no effect here, it belongs to mapping = \"uv\""), "{both}");

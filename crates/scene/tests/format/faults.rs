@@ -42,7 +42,7 @@ fn the_job_itself_is_right() {
 fn a_misspelt_key() {
     assert_eq!(
         errors_of_job("f_number", "f_nmuber"),
-        "job.toml:11:1: cameras.front.lens.f_nmuber: \"f_nmuber\" is no key of this table; did you mean \"f_number\"?"
+        "job.toml:11:1: cameras.front.lens.f_nmuber: unknown key \"f_nmuber\"; did you mean \"f_number\"?"
     );
 }
 
@@ -51,7 +51,7 @@ fn an_unknown_key_without_a_near_one() {
     let text = errors_of_job("size_m = [2, 2]", "size_m = [2, 2], banana = 1");
     assert_eq!(
         text,
-        "job.toml:26:43: scene.objects.wall.shape.banana: \"banana\" is no key of this table; \
+        "job.toml:26:43: scene.objects.wall.shape.banana: unknown key \"banana\"; \
          remove it; the keys are \"type\", \"size_m\""
     );
 }
@@ -119,19 +119,13 @@ fn numbers_that_are_none() {
          job.toml:12:20: cameras.front.lens.focus_distance_m: found inf; give a number above 0 (m)"
     );
     assert!(
-        errors_of_job("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]")
-            .contains("found -inf; give a finite number")
+        errors_of_job("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]").contains("found -inf; give a finite number")
     );
     assert!(errors_of_job("f_number = 2.0", "f_number = 1e999").contains("number of at least 0.5"));
-    assert!(
-        errors_of_job("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits")
-    );
+    assert!(errors_of_job("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits"));
     for digitless in ["0x", "0xg1", "0b2"] {
         let messages = errors_of_changes(&[&format!("render.spp={digitless}")]);
-        assert!(
-            !messages.contains("too large") && messages.ends_with("give a whole number from 1 to 1048576"),
-            "{messages}"
-        );
+        assert!(!messages.contains("too large") && messages.ends_with("give a whole number from 1 to 1048576"), "{messages}");
     }
 }
 
@@ -144,7 +138,7 @@ fn an_unknown_material() {
     let text = errors_of_job("material = \"grey\"", "material = \"grey\"\nclass = \"wall\"");
     assert_eq!(
         text,
-        "job.toml:28:9: scene.objects.wall.class: there is no class \"wall\"; define the class, the scene has none"
+        "job.toml:28:9: scene.objects.wall.class: there is no class \"wall\"; define the class; the scene has none"
     );
 }
 
@@ -163,8 +157,7 @@ fn an_unknown_texture_mesh_and_metal() {
     assert!(text.contains("scene.materials.grey.reflectance.texture: there is no texture \"brick\""), "{text}");
     let text = errors_of_job("shape = { type = \"quad\", size_m = [2, 2] }", "mesh = \"car\"");
     assert!(text.contains("scene.objects.wall.mesh: there is no mesh \"car\""), "{text}");
-    let text =
-        errors_of_job("type = \"diffuse\"\nreflectance = 0.18", "type = \"conductor\"\nmetal = \"Pb\"\nalpha = 0.1");
+    let text = errors_of_job("type = \"diffuse\"\nreflectance = 0.18", "type = \"conductor\"\nmetal = \"Pb\"\nalpha = 0.1");
     assert!(text.contains("scene.materials.grey.metal: found the text \"Pb\"; give one of \"A"), "{text}");
 }
 
@@ -178,9 +171,7 @@ fn duplicate_statements() {
          \"look_at_m\", \"rotation_deg\""
     );
     let file = "file = \"camera.toml\"\nposition_m = [0, 0, 1]";
-    assert!(
-        errors_of_job("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\"")
-    );
+    assert!(errors_of_job("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\""));
 }
 
 #[test]
@@ -188,12 +179,11 @@ fn one_name_twice() {
     let twice = "[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.2\n\n[[scene.objects]]";
     assert_eq!(
         errors_of_job("[[scene.objects]]", twice),
-        "job.toml:25:8: scene.materials.grey.name: the name \"grey\" is taken by line 20; choose another"
+        "job.toml:25:8: scene.materials.grey.name: the name \"grey\" is already used at line 20; choose a different one"
     );
     let classes = "[scene.classes]\ncar = 26\nvan = 26\n\n[[scene.objects]]";
     assert!(
-        errors_of_job("[[scene.objects]]", classes)
-            .contains("scene.classes.van: the class number 26 is taken by line 25")
+        errors_of_job("[[scene.objects]]", classes).contains("scene.classes.van: the class number 26 is already used at line 25")
     );
 }
 
@@ -201,11 +191,11 @@ fn one_name_twice() {
 fn a_format_that_is_missing_or_another() {
     assert_eq!(
         errors_of_job("format = 1", ""),
-        "job.toml:1:1: the key \"format\" is missing; add \"format = 1\" at the head of the file"
+        "job.toml:1:1: the key \"format\" is missing; add \"format = 1\" at the start of the file"
     );
     assert_eq!(
         errors_of_job("format = 1", "format = 2"),
-        "job.toml:1:10: format: found format 2, and this program reads format 1; write the file in format 1, or use a \
+        "job.toml:1:10: format: found format 2; this program reads format 1; write the file in format 1, or use a \
          program that reads this format"
     );
 }
@@ -213,7 +203,7 @@ fn a_format_that_is_missing_or_another() {
 #[test]
 fn overrides_that_are_wrong() {
     let cases = [
-        ("render.spp", "`set` render.spp: this is no key=value; give a dotted key, \"=\" and a value: render.spp=16"),
+        ("render.spp", "`set` render.spp: expected key=value; give a dotted key, \"=\" and a value: render.spp=16"),
         ("render.spp=0", "`set` render.spp=0: found 0; give a whole number from 1 to 1048576"),
         (
             "cameras.front.lens.f_number=-1",
@@ -221,36 +211,36 @@ fn overrides_that_are_wrong() {
         ),
         (
             "cameras.frnt.lens.f_number=4",
-            "`set` cameras.frnt.lens.f_number=4: no entry is called \"frnt\"; did you mean \"front\"? give a number from 0 \
+            "`set` cameras.frnt.lens.f_number=4: there is no entry \"frnt\"; did you mean \"front\"? give a number from 0 \
              to 0, or a name: front",
         ),
         (
             "format.x=4",
-            "`set` format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \"sequence\", \
+            "`set` format.x=4: unknown key \"format\"; remove it; the keys are \"scene\", \"cameras\", \"sequence\", \
              \"render\", \"output\"",
         ),
         (
             "scene.objects.wall.shape.size_m.x.y=4",
-            "`set` scene.objects.wall.shape.size_m.x.y=4: no entry is called \"x\"; give a number from 0 to 1",
+            "`set` scene.objects.wall.shape.size_m.x.y=4: there is no entry \"x\"; give a number from 0 to 1",
         ),
         (
             "cameras.front.name.x=4",
-            "`set` cameras.front.name.x=4: there is no table that could hold \"x\"; correct the key",
+            "`set` cameras.front.name.x=4: there is no table for \"x\"; correct the key",
         ),
         (
             "cameras.front.lens.distorsion=null",
-            "`set` cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" that could be taken out; correct \
-             the key, or leave the change out",
+            "`set` cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" to remove; correct \
+             the key, or omit the change",
         ),
         (
             "cameras.front.lens.focal_length=null",
-            "`set` cameras.front.lens.focal_length=null: there is no \"focal_length\" in \"cameras.front.lens\" that could be taken out; did \
-             you mean \"focal_length_mm\"? correct the key, or leave the change out",
+            "`set` cameras.front.lens.focal_length=null: there is no \"focal_length\" in \"cameras.front.lens\" to remove; did \
+             you mean \"focal_length_mm\"? correct the key, or omit the change",
         ),
         (
             "scene.objects.wal=null",
-            "`set` scene.objects.wal=null: there is no \"wal\" in \"scene.objects\" that could be taken out; did you mean \
-             \"wall\"? correct the key, or leave the change out",
+            "`set` scene.objects.wal=null: there is no \"wal\" in \"scene.objects\" to remove; did you mean \
+             \"wall\"? correct the key, or omit the change",
         ),
     ];
     for (set, expected) in cases {
@@ -258,7 +248,7 @@ fn overrides_that_are_wrong() {
     }
     assert!(
         errors_of_changes(&["render.ssp=16"])
-            .starts_with("`set` render.ssp=16: \"ssp\" is no key of this table; did you mean \"spp\"?")
+            .starts_with("`set` render.ssp=16: unknown key \"ssp\"; did you mean \"spp\"?")
     );
 }
 
@@ -297,14 +287,14 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 fn the_command_line_supersedes_what_it_makes_meaningless() {
     let message = notices("max_bounces = 8\ncaustics = false", |o| o.add("render.integrator=direct"));
     let expected =
-        "`set` render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
+        "`set` render.integrator=direct overrides \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(message, Ok(vec![expected.to_owned()]));
     let message = notices("max_bounces = 8", |o| o.add_render("`integrator` flat", "integrator", "\"flat\""));
-    assert_eq!(message, Ok(vec!["`integrator` flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
+    assert_eq!(message, Ok(vec!["`integrator` flat overrides \"max_bounces\" (job.toml:31)".to_owned()]));
     let message = notices("route = \"pupil\"\noverscan = 0.1", |o| o.add("render.route=lens"));
-    assert_eq!(message, Ok(vec!["`set` render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
+    assert_eq!(message, Ok(vec!["`set` render.route=lens overrides \"overscan\" (job.toml:32)".to_owned()]));
     let message = notices("", |o| o.add("cameras.front.lens.type=pinhole"));
-    let expected = "`set` cameras.front.lens.type=pinhole supersedes \"focus_distance_m\" (job.toml:12)";
+    let expected = "`set` cameras.front.lens.type=pinhole overrides \"focus_distance_m\" (job.toml:12)";
     assert_eq!(message, Ok(vec![expected.to_owned()]));
     let message = notices("integrator = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
     assert!(message.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{message}");
@@ -347,8 +337,8 @@ fn a_file_of_another_kind_is_one_fault() {
         files.put("job.toml", &example.text(kind));
         load(&files, &[]).expect_err("no job").to_string()
     };
-    assert_eq!(as_job("scene.toml"), "job.toml:1:1: this is a scene file; give a job file that names it");
-    assert_eq!(as_job("camera.toml"), "job.toml:1:1: this is a camera file; give a job file that names it");
+    assert_eq!(as_job("scene.toml"), "job.toml:1:1: this is a scene file; give a job file that refers to it");
+    assert_eq!(as_job("camera.toml"), "job.toml:1:1: this is a camera file; give a job file that refers to it");
     let set = |set: &str| load(&example, &[set]).expect_err("another kind").to_string();
     assert_eq!(
         set("scene=camera.toml"),
@@ -370,20 +360,20 @@ fn a_file_of_another_kind_is_one_fault() {
 fn brackets_too_many_or_too_few() {
     assert_eq!(
         errors_of_job("[[scene.materials]]", "[scene.materials]").lines().next(),
-        Some("job.toml:19:1: scene.materials: found one table; give a list of tables: double its brackets, [[ ]]")
+        Some("job.toml:19:1: scene.materials: found one table; give a list of tables: use double brackets, [[ ]]")
     );
     assert_eq!(
         errors_of_job("[cameras.lens]", "[[cameras.lens]]"),
-        "job.toml:8:1: cameras.front.lens: found a list of tables; give one table: in single brackets, [ ]"
+        "job.toml:8:1: cameras.front.lens: found a list of tables; give one table: use single brackets, [ ]"
     );
 }
 
 #[test]
 fn text_that_is_not_toml() {
     let text = errors_of_job("f_number = 2.0", "f_number = = 2.0");
-    assert!(text.starts_with("job.toml:11:12: this is not TOML: "), "{text}");
+    assert!(text.starts_with("job.toml:11:12: invalid TOML: "), "{text}");
     let text = errors_of_job("f_number = 2.0", "f_number = 2.0\nf_number = 2.0");
-    assert!(text.contains("job.toml:12:1: this is not TOML: duplicate key"), "{text}");
+    assert!(text.contains("job.toml:12:1: invalid TOML: duplicate key"), "{text}");
     // A missing quotation mark invalidates every later line: only the first place is reported.
     let text = errors_of_job("format = 1", "format = { a = \"");
     assert!(text.starts_with("job.toml:1:") && text.lines().count() <= 3, "{text}");
@@ -433,7 +423,7 @@ fn sensors_that_contradict_themselves() {
         load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
     };
     assert!(errors("cfa = \"rggb\"", "cfa = \"mono\"").contains("three channels contradicts cfa = \"mono\""));
-    assert!(errors("black_level_dn = 168", "black_level_dn = 4095").contains("a converter of 12 bits ends at 4095 DN"));
+    assert!(errors("black_level_dn = 168", "black_level_dn = 4095").contains("an ADC of 12 bits ends at 4095 DN"));
     assert!(
         errors("{ camera = \"canon-eos-5d-mark-ii\", peak = 0.5 }", "[0.3, 0.4, { spectrum = \"blue.csv\" }]")
             .is_empty()

@@ -50,6 +50,6 @@ fn a_key_of_twenty_thousand_parts() {
     let message =
         load(&DescriptionFiles::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
     assert!(message.starts_with("`set` a.a.a.a."), "{message}");
-    let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
+    let end = "…: this key has 20000 parts; at most 80 are possible; correct the key: render.spp=16";
     assert!(message.ends_with(end) && message.len() < 400, "{message}");
 }

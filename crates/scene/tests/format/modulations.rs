@@ -39,14 +39,14 @@ fn invalid_modulations_are_reported_with_their_place() {
         ("type = \"pwm\", frequency_hz = 0, duty_cycle = 0.5", "modulation.frequency_hz: found 0"),
         (
             "type = \"pwm\", frequency_hz = 100, duty_cycle = 0.1, rise_s = 0.003",
-            "modulation: half of the rise and the fall",
+            "modulation: half of the rise time plus half of the fall time",
         ),
-        ("type = \"blink\", frequency_hz = 100, fall_s = 0.02", "must fit into the pulse and into the pause, 0.005 s"),
+        ("type = \"blink\", frequency_hz = 100, fall_s = 0.02", "more than the shorter of pulse and pause, 0.005 s"),
         ("type = \"mains\", frequency_hz = 50, modulation_depth = 1.2", "modulation_depth: found 1.2"),
         ("type = \"table\", points = [[0, 1], [0, 2]]", "the time 0 s follows 0 s; give the times in rising order"),
         ("type = \"table\", points = [[0, 0], [1, 0]]", "dark at all times"),
         ("type = \"table\", points = [[0, 1], [1, -1]]", "found the level -1"),
-        ("type = \"table\", points = [[0, 1], [2, 0]], period_s = 1", "the table lasts 2 s, and its period is 1 s"),
+        ("type = \"table\", points = [[0, 1], [2, 0]], period_s = 1", "the table lasts 2 s, but its period is 1 s"),
         ("type = \"table\", points = [[0, 1], [2, 0]], file = \"a.csv\"", "\"points\", \"file\" contradict each other"),
         (
             "type = \"table\", points = [[0, 1], [2, 0]], phases = \"random\"",
@@ -56,11 +56,11 @@ fn invalid_modulations_are_reported_with_their_place() {
         ("type = \"programme\", steps = [{ level = 0, duration_s = 2 }]", "dark at all times"),
         (
             "type = \"programme\", steps = [{ level = 1, duration_s = 2 }], repeats = false, phases = \"random\"",
-            "\"phases\" has no effect on what is gone through once; remove it, or let it repeat",
+            "\"phases\" has no effect on a modulation that does not repeat; remove it, or let it repeat",
         ),
         (
             "type = \"pwm\", frequency_hz = 90, duty_cycle = 0.1, multiplexed_rows = 16",
-            "multiplexed_rows: a lamp has no rows",
+            "multiplexed_rows: this light has no rows",
         ),
         ("type = \"pulses\", frequency_hz = 90", "modulation.type: found the text \"pulses\""),
     ] {
@@ -77,7 +77,10 @@ fn places_have_delays_where_there_is_something_to_delay() {
         ""
     );
     let idle = lamp(places);
-    assert!(idle.contains("instances[1].modulation_delay_s: \"modulation_delay_s\" has no effect on a lamp"), "{idle}");
+    assert!(
+        idle.contains("instances[1].modulation_delay_s: \"modulation_delay_s\" has no effect on an unmodulated light"),
+        "{idle}"
+    );
 }
 
 #[test]

@@ -47,9 +47,9 @@ fn unused_names_are_reported() {
     assert_eq!(
         described("mixed").unused.notes(),
         [
-            "not read: the mesh that no object shows: spare",
-            "not read: 2 materials that no object has: more, rest",
-            "not read: 2 textures that nothing shown has: b, c"
+            "not read: the mesh that no object uses: spare",
+            "not read: 2 materials that no object uses: more, rest",
+            "not read: 2 textures that no used material has: b, c"
         ]
     );
 }

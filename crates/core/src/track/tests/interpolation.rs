@@ -177,6 +177,6 @@ fn bad_keys_have_one_clear_error() {
     assert_eq!(refused(&[good(0.0), far, good(1.0)]), TrackError::NotFinite { key: 0 });
     assert_eq!(
         refused(&[good(0.0), good(1.0), good(0.5)]).to_string(),
-        "key 2 of the track is at 0.5 s, before key 1 at 1 s; give the keys in the order of time"
+        "key 2 of the track is at 0.5 s, before key 1 at 1 s; give the keys in order of time"
     );
 }
