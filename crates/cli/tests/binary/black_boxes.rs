@@ -73,7 +73,7 @@ fn a_camera_falls_off_as_zemax_s_export_says() {
         }
     }
     let output = plan(folder.path(), &job("", SENSOR, CALIBRATED, 64)).ok().out;
-    assert!(output.contains("ri.txt") && output.contains("computed for 587.562 nm, taken for all wavelengths"), "{output}");
+    assert!(output.contains("ri.txt") && output.contains("computed for 587.562 nm, used for all wavelengths"), "{output}");
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn unusable_exports_are_reported_with_their_line() {
         (listing_text.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers; expected 3"]),
         (format!("{listing_text}\r\nsecond\r\n{}", rows(1.0, 1.0)), &["ri.txt:18", "second table"]),
         (listing_text[..200].to_owned(), &["ri.txt", "no row of numbers"]),
-        (export(&rows(0.5, 1.0)), &["job.toml", "known to 20°", "extend it"]),
+        (export(&rows(0.5, 1.0)), &["job.toml", "given up to 20° from the axis", "extend it"]),
     ] {
         std::fs::write(folder.path().join("ri.txt"), &listing).expect("written");
         plan(folder.path(), &job("", SENSOR, CALIBRATED, 1)).refused(phrases);
@@ -207,7 +207,7 @@ fn unusable_ray_transfer_files_are_reported() {
     }
     std::fs::write(folder.path().join("lens.json"), &file_text).expect("written");
     let near = plan(folder.path(), &job("", sensor, &transferred("lens.json", 0.005), 1));
-    near.refused(&["job.toml", "sensor_distance_mm", "within the plane at 0.01 mm"]);
+    near.refused(&["job.toml", "sensor_distance_mm", "closer than the plane at 0.01 mm"]);
     let focus = transferred("lens.json", 1.0).replace("sensor_distance_mm = 1", "focus_distance_m = 0.001");
     plan(folder.path(), &job("", sensor, &focus, 1))
         .refused(&["job.toml", "no sensor position focuses the lens at 0.001 m"]);
