@@ -219,7 +219,7 @@ fn raws_that_contradict_their_camera_are_refused() {
     frames.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that captured it"]);
     frames.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
     frames.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is also frame 0"]);
-    frames.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
+    frames.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not an image"]);
     frames.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
     let colour = ["--levels", "0..255"];
     frames.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);
