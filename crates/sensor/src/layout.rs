@@ -215,7 +215,7 @@ impl Layout {
 
     /// Maps a point of the sensor (pixels, the top left corner is 0, 0) to the delivered image. With skipping, tiles of more than one pixel keep
     /// their centre.
-    pub(crate) fn to_image(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn image_point(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
         let (n, m) = self.steps();
         let (left, top) = self.region.map_or((0, 0), |r| (r.x, r.y));
         let middle = |tile: usize| if self.skipping.is_some() { 0.5 * tile as f64 } else { 0.0 };

@@ -100,7 +100,7 @@ impl Sensor {
     /// Maps a point of the sensor to the delivered image; raster coordinates of both, px.
     #[must_use]
     pub fn to_image(&self, raster_px: [f64; 2]) -> [f64; 2] {
-        self.parameters.read_out.layout.to_image(&self.parameters.cfa, raster_px)
+        self.parameters.read_out.layout.image_point(&self.parameters.cfa, raster_px)
     }
 
     /// Bits of the delivered numbers: those of the ADC, or those after merging and companding.

@@ -52,7 +52,7 @@ fn the_limit_is_reached_and_reported() {
     let job = job(place.path(), "spp = 64\n");
     let output = text(&place.path().join("out"));
     let run = etendue(["render", &job, "-o", &output, "--noise", "0.2"]).ok();
-    assert!(run.err.contains("--noise 0.2 supersedes") && run.err.contains("spp"), "{}", run.err);
+    assert!(run.err.contains("--noise 0.2 overrides") && run.err.contains("spp"), "{}", run.err);
     assert!(run.err.contains("samples a pixel (") && run.err.contains("of the sensor's noise"), "{}", run.err);
     assert!(!run.err.contains("still noisier"), "{}", run.err);
     let file = read_exr(&Path::new(&output).join("front/sampling.exr")).expect("layers");
@@ -105,7 +105,7 @@ fn samples_are_even_or_as_noise_says_but_not_both() {
     );
     let uniform = etendue(["plan", &limited, "--spp", "32"]).ok();
     assert!(uniform.out.contains("32 samples per pixel in 4 replicates"), "{}", uniform.out);
-    assert!(uniform.err.contains("--spp 32 supersedes") && uniform.err.contains("noise_threshold"), "{}", uniform.err);
+    assert!(uniform.err.contains("--spp 32 overrides") && uniform.err.contains("noise_threshold"), "{}", uniform.err);
     let assert_refused = |render: &str, phrases: &[&str]| {
         let job = job(place.path(), render);
         etendue(["plan", &job]).refused(phrases);

@@ -345,7 +345,7 @@ fn results_that_are_already_there() {
     let lean = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
     etendue(["render", &job, "-o", &out].into_iter().chain(lean)).ok();
     let before = crate::support::contents(&modified.path("out"));
-    etendue(["render", &job, "-o", &out, "--seed", "5"]).refused(&["out/front", "already there", "--overwrite"]);
+    etendue(["render", &job, "-o", &out, "--seed", "5"]).refused(&["out/front", "already exists", "--overwrite"]);
     assert_eq!(before, crate::support::contents(&modified.path("out")), "nothing was touched");
     etendue(["render", &job, "-o", &out, "--seed", "5", "--overwrite"]).ok();
     assert_ne!(before, crate::support::contents(&modified.path("out")));

@@ -173,7 +173,7 @@ fn filters_of_the_paper_that_cannot_be() {
     );
     filter(&drops.replace("count = 9", "count = 0"), &["count"]);
     let blurred = drops.replace("blur_px = 2", "blur_px = 200, min_radius_px = 4, max_radius_px = 4");
-    filter(&blurred, &["blur_px", "600 px of the picture"]);
+    filter(&blurred, &["blur_px", "600 px in the image"]);
     filter("\"pulse_noise\", amplitude_dn = 10, probability = 0.51", &["probability", "0.5"]);
     filter("\"pulse_noise\", amplitude_dn = 256, probability = 0.1", &["amplitude_dn", "255"]);
     filter("\"gaussian_noise\", sigma_dn = -1", &["sigma_dn"]);

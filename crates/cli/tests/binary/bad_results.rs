@@ -81,7 +81,7 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "picture.0000.png")])
         .refused(&["two EXR files or two images"]);
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "ground_truth.exr")])
-        .refused(&["ground_truth.exr", "channels"]);
+        .refused(&["ground_truth.exr", "the quantity is \"ground truth\""]);
     etendue(["compare", &file(&a, "none.exr"), &file(&a, "radiance.exr")]).refused(&["none.exr"]);
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "radiance.exr"), "--significance", "2"])
         .refused(&["--significance 2", "probability"]);
@@ -169,7 +169,7 @@ fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
     fs::copy(film(&other_run), film(&b)).expect("copied");
     merge().refused(&["front.film.exr", "another plan", "render the shard again"]);
     fs::copy(film(&a), film(&b)).expect("copied");
-    merge().refused(&["front.film.exr", "the shard 0/2, where 1/2 is expected"]);
+    merge().refused(&["front.film.exr", "states the shard 0/2; expected 1/2"]);
     fs::write(film(&b), &good[..good.len() / 2]).expect("written");
     merge().refused(&["front.film.exr"]);
     fs::remove_file(film(&b)).expect("removed");

@@ -189,7 +189,7 @@ fn missing_data_is_reported_and_omitted_or_taken_from_a_base() {
     output.ok();
     let merged_text = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
     assert!(
-        !merged_text.contains("stand-in") && !merged_text.contains("[lens]") && merged_text.contains("base = "),
+        !merged_text.contains("placeholder") && !merged_text.contains("[lens]") && merged_text.contains("base = "),
         "{merged_text}"
     );
     etendue(["measure", "lens", &text(&place.path().join("found.toml"))]).ok();
@@ -291,7 +291,7 @@ fn photographs_of_a_checkerboard_give_a_calibration_and_no_more() {
     }
     let known: Vec<&String> = report["parameters"].as_object().expect("parameters").keys().collect();
     assert!(known.iter().all(|key| key.starts_with("lens.projection.")), "{known:?}");
-    for what in ["gain", "fall-off", "point spread", "white balance", "colour matrix"] {
+    for what in ["gain", "relative illumination", "point spread", "white balance", "colour matrix"] {
         assert!(report["not_known"].to_string().contains(what), "{what}: {report:#}");
     }
     let camera = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");

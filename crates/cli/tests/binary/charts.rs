@@ -259,7 +259,7 @@ fn nonsense_is_refused_and_leaves_nothing() {
         .refused(&["no electronics"]);
     let refused_folder = place.chart("flat-field", &[]);
     etendue(["chart", "flat-field", "--camera", &camera, "-o", &text(&refused_folder)])
-        .refused(&["already there", "--overwrite"]);
+        .refused(&["already exists", "--overwrite"]);
 }
 
 /// A change of the camera also changes the chart: with half the focal length twice the width is in view at the same distance.
@@ -296,7 +296,7 @@ fn set_changes_the_written_job_and_its_camera() {
     assert!(scene.contains("luminance_cd_m2 = 42"), "{scene}");
     assert!(camera.contains("focal_length_mm = 1") && camera.contains("\"lens.distortion\""), "{camera}");
     let plan = etendue(["plan", &text(&changed.join("job.toml"))]).ok().out;
-    assert!(plan.contains("7 samples a pixel") && plan.contains("pinhole, 1 mm"), "{plan}");
+    assert!(plan.contains("7 samples per pixel") && plan.contains("pinhole, 1 mm"), "{plan}");
 }
 
 /// A wrong key gives the same error as `render` of the same job.

@@ -42,7 +42,7 @@ fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
     let moving = text(&tests().join("jobs/moving/moving.toml"));
     etendue(["render", &job, "-o", &shard, "--spp", "2", "--shard", "0/1"]).ok();
     let first = RunningProcess::render_into(&out);
-    let expected_problem = format!("another run (process {}) writes into this folder", first.0.id());
+    let expected_problem = format!("another run (process {}) is writing into this folder", first.0.id());
     let seconds: [&[&str]; 10] = [
         &["render", &job],
         &["render", &job, "--overwrite"],

@@ -160,7 +160,7 @@ fn incomplete_samples_are_computed_again() {
         }
     };
     spoil(record, &edit("\"frame\": 0", "\"frame\": 7"));
-    resume("2..4").refused(&["samples/000001.json", "changed after it was written", "make sample 1 anew"]);
+    resume("2..4").refused(&["samples/000001.json", "changed after it was written", "make sample 1 again"]);
     resume("0..3").ok().says(&["sample 1 is made again"]);
     assert!(place.files("out") == all_files);
     spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
@@ -245,7 +245,7 @@ fn bad_variations_are_refused_where_they_stand() {
         (vary(exposure, "type = \"gamma\""), &["variations.toml:4:8", "gamma", "log_uniform"]),
         (
             vary(exposure, "type = \"choice\"\nvalues = [1, 2]\nweights = [1]"),
-            &["variations.toml:6:", "1 weights of 2 choices"],
+            &["variations.toml:6:", "1 weights for 2 choices"],
         ),
         (
             vary(exposure, "type = \"normal\"\nmean = 1\nstandard_deviation = 1\nmin = 2"),

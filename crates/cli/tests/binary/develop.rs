@@ -203,7 +203,7 @@ fn a_raw_without_a_side_car_needs_its_levels() {
     let (raw, single) = ("out/bayer/raw.0000.dng", "lone.dng");
     fs::copy(frames.path(raw), frames.path(single)).expect("copied");
     frames.refused(&[single], "bayer.toml", &[], &["lone.dng", "camera.json", "--levels"]);
-    frames.refused(&[raw], "bayer.toml", &["--levels", "64..4024"], &["raw.0000.dng", "leave --levels out"]);
+    frames.refused(&[raw], "bayer.toml", &["--levels", "64..4024"], &["raw.0000.dng", "omit --levels"]);
     frames.refused(&[single], "bayer.toml", &["--levels", "64..64"], &["--levels", "BLACK < WHITE"]);
     frames.refused(&[single], "hdr.toml", &["--levels", "64..4024"], &["lone.dng", "companded", "side-car"]);
     frames.develop(&[single], "bayer.toml", &["--levels", "64..4024", "--seed", "9"]).ok();
@@ -219,8 +219,8 @@ fn raws_that_contradict_their_camera_are_refused() {
     frames.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that captured it"]);
     frames.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that captured it"]);
     frames.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
-    frames.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is frame 0"]);
-    frames.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
+    frames.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is also frame 0"]);
+    frames.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not an image"]);
     frames.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
     let colour = ["--levels", "0..255"];
     frames.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);

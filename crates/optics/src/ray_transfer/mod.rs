@@ -165,7 +165,7 @@ pub(crate) struct Entry {
 
 impl Entry {
     /// Transforms a vector from this frame to that of the lens.
-    fn to_frame(&self, v: DVec2) -> DVec2 {
+    fn to_frame(self, v: DVec2) -> DVec2 {
         DVec2::new(self.meridian.y, -self.meridian.x) * v.x + self.meridian * v.y
     }
 }

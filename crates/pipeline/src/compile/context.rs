@@ -70,7 +70,7 @@ impl<'a> Context<'a> {
     ) {
         match cause {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
-                self.overridden(format!("{by} supersedes {}", key_with_place(key, place)));
+                self.overridden(format!("{by} overrides {}", key_with_place(key, place)));
             }
             _ => self.error(code, place, problem, remedy),
         }

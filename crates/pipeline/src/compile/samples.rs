@@ -59,7 +59,7 @@ fn timed(render: &Render, context: &mut Context<'_>) -> SampleSettings {
     let passes = render.samples.passes.first().map(|pass| ("passes", &pass.place));
     let spp = render.samples.spp.as_ref().map(|spp| ("spp", &spp.place));
     for (key, place) in [noise, passes, spp].into_iter().flatten() {
-        context.overridden(format!("`time_s` supersedes {}", key_with_place(key, place)));
+        context.overridden(format!("`time_s` overrides {}", key_with_place(key, place)));
     }
     let replicates = render.samples.replicates.as_ref().map_or(REPLICATES, |setting| setting.value) as u32;
     SampleSettings {
@@ -180,7 +180,7 @@ fn uniform_samples(render: &Render, choices: &Choices, context: &mut Context<'_>
         let remedy = "give samples that are a multiple of the replicates";
         let by_quality = render.samples.spp.is_none() && choices.quality.is_some();
         if by_quality && !replicates.place.is_command_line() {
-            context.overridden(format!("`quality` supersedes {}", key_with_place("replicates", &replicates.place)));
+            context.overridden(format!("`quality` overrides {}", key_with_place("replicates", &replicates.place)));
         } else {
             let cause = render.samples.spp.as_ref().map(|spp| &spp.place);
             context.error_without_effect(
@@ -208,7 +208,7 @@ pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, co
     let by_flag = render.samples.spp.as_ref().map(|spp| &spp.place).filter(|place| place.is_command_line());
     if let Some(by) = by_flag.filter(|_| !variance.place.is_command_line()) {
         context.overridden(format!(
-            "{by} supersedes {}: one replicate gives no variance",
+            "{by} overrides {}: one replicate gives no variance",
             key_with_place("variance", &variance.place)
         ));
         return false;

@@ -170,10 +170,10 @@ fn camera(camera: &Camera, files: &mut FileList) {
     match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
         Some(QuantumEfficiency::Same(curve)) => curve.name_file(SpectrumValues::Share, files),
         Some(QuantumEfficiency::PerChannel(curves)) => {
-            curves.iter().for_each(|c| c.name_file(SpectrumValues::Share, files))
+            curves.iter().for_each(|c| c.name_file(SpectrumValues::Share, files));
         }
         Some(QuantumEfficiency::Named(list)) => {
-            list.iter().for_each(|(_, c)| c.name_file(SpectrumValues::Share, files))
+            list.iter().for_each(|(_, c)| c.name_file(SpectrumValues::Share, files));
         }
         Some(QuantumEfficiency::Measured { .. }) | None => {}
     }

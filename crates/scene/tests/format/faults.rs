@@ -119,13 +119,19 @@ fn numbers_that_are_none() {
          job.toml:12:20: cameras.front.lens.focus_distance_m: found inf; give a number above 0 (m)"
     );
     assert!(
-        errors_of_job("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]").contains("found -inf; give a finite number")
+        errors_of_job("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]")
+            .contains("found -inf; give a finite number")
     );
     assert!(errors_of_job("f_number = 2.0", "f_number = 1e999").contains("number of at least 0.5"));
-    assert!(errors_of_job("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits"));
+    assert!(
+        errors_of_job("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits")
+    );
     for digitless in ["0x", "0xg1", "0b2"] {
         let messages = errors_of_changes(&[&format!("render.spp={digitless}")]);
-        assert!(!messages.contains("too large") && messages.ends_with("give a whole number from 1 to 1048576"), "{messages}");
+        assert!(
+            !messages.contains("too large") && messages.ends_with("give a whole number from 1 to 1048576"),
+            "{messages}"
+        );
     }
 }
 
@@ -157,7 +163,8 @@ fn an_unknown_texture_mesh_and_metal() {
     assert!(text.contains("scene.materials.grey.reflectance.texture: there is no texture \"brick\""), "{text}");
     let text = errors_of_job("shape = { type = \"quad\", size_m = [2, 2] }", "mesh = \"car\"");
     assert!(text.contains("scene.objects.wall.mesh: there is no mesh \"car\""), "{text}");
-    let text = errors_of_job("type = \"diffuse\"\nreflectance = 0.18", "type = \"conductor\"\nmetal = \"Pb\"\nalpha = 0.1");
+    let text =
+        errors_of_job("type = \"diffuse\"\nreflectance = 0.18", "type = \"conductor\"\nmetal = \"Pb\"\nalpha = 0.1");
     assert!(text.contains("scene.materials.grey.metal: found the text \"Pb\"; give one of \"A"), "{text}");
 }
 
@@ -171,7 +178,9 @@ fn duplicate_statements() {
          \"look_at_m\", \"rotation_deg\""
     );
     let file = "file = \"camera.toml\"\nposition_m = [0, 0, 1]";
-    assert!(errors_of_job("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\""));
+    assert!(
+        errors_of_job("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\"")
+    );
 }
 
 #[test]
@@ -183,7 +192,8 @@ fn one_name_twice() {
     );
     let classes = "[scene.classes]\ncar = 26\nvan = 26\n\n[[scene.objects]]";
     assert!(
-        errors_of_job("[[scene.objects]]", classes).contains("scene.classes.van: the class number 26 is already used at line 25")
+        errors_of_job("[[scene.objects]]", classes)
+            .contains("scene.classes.van: the class number 26 is already used at line 25")
     );
 }
 
@@ -223,10 +233,7 @@ fn overrides_that_are_wrong() {
             "scene.objects.wall.shape.size_m.x.y=4",
             "`set` scene.objects.wall.shape.size_m.x.y=4: there is no entry \"x\"; give a number from 0 to 1",
         ),
-        (
-            "cameras.front.name.x=4",
-            "`set` cameras.front.name.x=4: there is no table for \"x\"; correct the key",
-        ),
+        ("cameras.front.name.x=4", "`set` cameras.front.name.x=4: there is no table for \"x\"; correct the key"),
         (
             "cameras.front.lens.distorsion=null",
             "`set` cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" to remove; correct \
@@ -286,8 +293,7 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 #[test]
 fn the_command_line_supersedes_what_it_makes_meaningless() {
     let message = notices("max_bounces = 8\ncaustics = false", |o| o.add("render.integrator=direct"));
-    let expected =
-        "`set` render.integrator=direct overrides \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
+    let expected = "`set` render.integrator=direct overrides \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(message, Ok(vec![expected.to_owned()]));
     let message = notices("max_bounces = 8", |o| o.add_render("`integrator` flat", "integrator", "\"flat\""));
     assert_eq!(message, Ok(vec!["`integrator` flat overrides \"max_bounces\" (job.toml:31)".to_owned()]));

@@ -43,7 +43,7 @@ fn the_delivered_image_has_its_size_and_its_coordinates() {
     let sensor = Sensor::new(p).expect("legal");
     assert_eq!((raw.plane.width(), raw.plane.height()), (4, 4));
     assert_eq!(sensor.image_size(10, 6), (4, 4));
-    assert_eq!(sensor.to_image([5.0, 3.0]), [1.5, 1.0]);
+    assert_eq!(sensor.image_point([5.0, 3.0]), [1.5, 1.0]);
 }
 
 /// Bayer tiles: of every two columns and three rows of tiles only the first is read, of 8 × 12 pixels that each hold their own number.
@@ -77,13 +77,13 @@ fn skipped_tiles_are_not_in_the_raw_and_leave_the_others_as_they_are() {
 fn points_of_a_thinned_image_lie_where_its_tiles_do() {
     let mut layout = Layout { skipping: Some(Skipping { columns: 2, rows: 3 }), ..Layout::default() };
     let bayer = Cfa::bayer(BayerPhase::Rggb);
-    assert_eq!(layout.to_image(&bayer, [1.0, 1.0]), [1.0, 1.0]);
-    assert_eq!(layout.to_image(&bayer, [5.0, 7.0]), [3.0, 3.0]);
+    assert_eq!(layout.image_point(&bayer, [1.0, 1.0]), [1.0, 1.0]);
+    assert_eq!(layout.image_point(&bayer, [5.0, 7.0]), [3.0, 3.0]);
     layout.region = Some(Region { x: 4, y: 6, width: 4, height: 6 });
-    assert_eq!(layout.to_image(&bayer, [5.0, 7.0]), [1.0, 1.0]);
+    assert_eq!(layout.image_point(&bayer, [5.0, 7.0]), [1.0, 1.0]);
     let mono = Cfa::mono();
     layout.region = None;
-    assert_eq!(layout.to_image(&mono, [2.5, 3.5]), [1.5, 1.5]);
+    assert_eq!(layout.image_point(&mono, [2.5, 3.5]), [1.5, 1.5]);
 }
 
 #[test]
