@@ -149,7 +149,7 @@ fn a_value_that_its_use_forbids_is_reported_with_its_line() {
     };
     assert_eq!(
         messages(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
-        ["b.csv:4: found 1.5 at 500 nm; expected a share between 0 and 1 \
+        ["b.csv:4: found 1.5 at 500 nm; expected a fraction from 0 to 1 \
           (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
     );
     assert_eq!(messages(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));
