@@ -135,9 +135,7 @@ mod tests {
         assert!(created.success());
         let message = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
         assert!(
-            message.ends_with(
-                "pipe.obj: this is a pipe, not a regular file; save its content as a file and give that"
-            ),
+            message.ends_with("pipe.obj: this is a pipe, not a regular file; save its content as a file and give that"),
             "{message}"
         );
         let message = read_bytes(Path::new("/dev/zero"), "mesh").expect_err("a device").to_string();
