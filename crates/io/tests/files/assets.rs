@@ -123,7 +123,7 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     assert_eq!(messages.len(), 3, "{messages:#?}");
     assert_eq!(
         messages[0],
-        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
+        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
         messages[1],
