@@ -140,7 +140,7 @@ mod tests {
         for (from, to, place) in [
             ("n 12 64 48", "n 12 64", "line 3"),
             ("n 12 64 48\n", "", "is missing"),
-            ("i c.png\ni d.png\ni e.png\n", "i c.png\n", "1 picture"),
+            ("i c.png\ni d.png\ni e.png\n", "i c.png\n", "1 image(s)"),
             ("250.5", "-1", "line 4"),
             ("d 1000000.0", "x 1", "line 7"),
             ("v 4.0", "i early.png", "line 1"),

@@ -97,7 +97,7 @@ mod tests {
         let held = parts.each_ref().map(|part| (FolderLock::shared(root), FolderLock::part(root, part)));
         assert!(held.iter().all(|(root_lock, part)| root_lock.is_ok() && part.is_ok()));
         let message = FolderLock::part(root, &parts[0]).expect_err("taken").error.to_string();
-        assert!(message.contains("another run writes into this folder"), "{message}");
+        assert!(message.contains("another run is writing into this folder"), "{message}");
         FolderLock::exclusive(root).expect_err("parts are taken");
         drop(held);
         let exclusive_lock = FolderLock::exclusive(root).expect("free");

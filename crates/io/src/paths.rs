@@ -186,7 +186,7 @@ mod tests {
             check_folders(&root, &root.join("linked/deep/x")),
         ] {
             let message = message.expect_err("a link in the place of a folder").to_string();
-            assert!(message.contains("linked: a symbolic link is in the place of a folder of results"), "{message}");
+            assert!(message.contains("linked: a symbolic link is in the place of a results folder"), "{message}");
         }
         assert_eq!(files_in(&root, &root).expect("readable"), Vec::<PathBuf>::new(), "a link is no file");
         remove_file(&root, &root.join("x")).expect("the link itself");

@@ -135,13 +135,11 @@ mod tests {
         assert!(created.success());
         let message = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
         assert!(
-            message.ends_with(
-                "pipe.obj: this is a pipe, not a file on a disk; save what it gives as a file and name that"
-            ),
+            message.ends_with("pipe.obj: this is a pipe, not a regular file; save its content as a file and give that"),
             "{message}"
         );
         let message = read_bytes(Path::new("/dev/zero"), "mesh").expect_err("a device").to_string();
-        assert!(message.starts_with("/dev/zero: this is a device, not a file on a disk"), "{message}");
+        assert!(message.starts_with("/dev/zero: this is a device, not a regular file"), "{message}");
         let link = place.path().join("link.obj");
         std::os::unix::fs::symlink(&pipe, &link).expect("link");
         assert!(read_bytes(&link, "mesh").is_err(), "a link to one is one");

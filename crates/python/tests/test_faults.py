@@ -57,7 +57,7 @@ def test_missing_files_are_told_at_the_key_that_names_them(tmp_path):
         ({"spp": "many"}, TypeError, "spp"),
         ({"set": "render.spp=1"}, TypeError, "set"),
         ({"set": {"render.spp": object()}}, TypeError, "render.spp"),
-        ({"set": {3: 1}}, TypeError, "a key is a text"),
+        ({"set": {3: 1}}, TypeError, "expected a str as key"),
         ({"folder": "somewhere"}, ValueError, "folder"),
         ({"light": 1}, TypeError, "light"),
     ],

@@ -52,7 +52,7 @@ def test_results_are_replaced_only_where_that_is_asked_for(job, results, tmp_pat
             save(tmp_path)
         save(tmp_path, overwrite=True)
     assert contents(tmp_path) == before
-    with pytest.raises(ValueError, match="exclude one another"):
+    with pytest.raises(ValueError, match="exclude each other"):
         job.save(tmp_path, overwrite=True, resume=True)
 
 

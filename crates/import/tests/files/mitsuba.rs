@@ -61,7 +61,7 @@ fn faults_have_their_line() {
         "<scene version=\"3.0.0\">\n<float name=\"a\" value=\"$spp\"/></scene>",
         "a.xml:2: \"$spp\" has no <default name=\"spp\" …> before it; add one, or give a value by -D spp=…",
     );
-    refused("<scene version=\"3.0.0\">\n<default name=\"a\"/></scene>", "a.xml:2: <default> without \"value\"");
+    refused("<scene version=\"3.0.0\">\n<default name=\"a\"/></scene>", "a.xml:2: <default> has no \"value\"");
     refused(
         "<scene version=\"3.0.0\"><include filename=\"a.xml\"/></scene>",
         "a.xml:1: includes are nested more than 16 levels deep; check for files that include each other",
@@ -123,12 +123,12 @@ fn values_that_are_given_hold_in_place_of_defaults() {
         (
             format!("{two}<default name=\"q\" value=\"0\"/>{}", ball("$r")),
             &[("r", "5"), ("q", "5")][..],
-            "a.xml: a value is given to the parameter \"q\", and \"$q\" does not occur in the scene: it names $r",
+            "a.xml: a value is given to the parameter \"q\", and \"$q\" does not occur in the scene: its parameters are $r",
         ),
         (
             ball("1"),
             &[("r", "5")],
-            "a.xml: a value is given to the parameter \"r\", and \"$r\" does not occur in the scene: it names no parameter",
+            "a.xml: a value is given to the parameter \"r\", and \"$r\" does not occur in the scene: the scene has no parameters",
         ),
         (ball("$r"), &[("r", "5"), ("r", "6")], "a.xml: the parameter \"r\" has two values; give one"),
     ] {
@@ -187,7 +187,7 @@ fn folders_that_are_not_there_are_refused() {
             "<shape type=\"sphere\"><path value=\".\"/></shape>",
             "a.xml:1: <path> is in another element; expected it at the top level of the scene",
         ),
-        ("<path/>", "a.xml:1: <path> without \"value\""),
+        ("<path/>", "a.xml:1: <path> has no \"value\""),
     ] {
         refused(&format!("<scene version=\"3.0.0\">{body}</scene>"), message);
     }

@@ -52,7 +52,7 @@ fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
     let refusing = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("open");
     let message = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
     assert!(
-        message.ends_with("x.txt: already there; choose another output folder, or allow it with `overwrite`"),
+        message.ends_with("x.txt: already exists; choose another output folder, or allow overwriting with `overwrite`"),
         "{message}"
     );
     drop(refusing);
@@ -80,7 +80,7 @@ fn one_run_at_a_time_has_a_folder() {
     let place = tempfile::tempdir().expect("temporary folder");
     let first = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("free");
     let message = OutputFolder::open(place.path(), ExistingFiles::Replace).expect_err("taken").to_string();
-    assert!(message.contains("another run of this process writes into this folder"), "{message}");
+    assert!(message.contains("another run of this process is writing into this folder"), "{message}");
     OutputFolder::open_part(place.path(), "a", ExistingFiles::Refuse).expect_err("taken");
     let again = first.reopened(ExistingFiles::Replace).expect("the same run");
     drop(first);
@@ -126,13 +126,13 @@ fn links_are_not_followed() {
     let refusing = OutputFolder::open(&root, ExistingFiles::Refuse).expect("open");
     for name in ["x.txt", "y.txt"] {
         let message = refusing.claim([name]).expect_err("a link is there").to_string();
-        assert!(message.contains("already there"), "{message}");
+        assert!(message.contains("already exists"), "{message}");
     }
     drop(refusing);
     let mut replacing = OutputFolder::open(&root, ExistingFiles::Replace).expect("open");
     for message in [replacing.claim(["deep/z.txt"]), replacing.write("deep/z.txt", b"")] {
         let message = message.expect_err("a link in the place of a folder").to_string();
-        assert!(message.contains("a symbolic link is in the place of a folder of results"), "{message}");
+        assert!(message.contains("a symbolic link is in the place of a results folder"), "{message}");
     }
     ["x.txt", "y.txt"].iter().for_each(|name| replacing.write(name, b"ours").expect("write"));
     replacing.commit().expect("commit");

@@ -46,10 +46,10 @@ fn a_tiff_that_is_cut_or_strange_is_refused() {
     let message = read(&complete[..complete.len() / 2]).expect_err("cut");
     assert!(message.starts_with("t.tif: not a readable TIFF"), "{message}");
     let message = read(&tiff::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4])).expect_err("ink");
-    assert_eq!(message, "t.tif: a TIFF of CMYK(8); expected grey or RGB: convert it");
+    assert_eq!(message, "t.tif: a TIFF in CMYK(8); expected grey or RGB: convert it");
     let message = read(b"{}").expect_err("no picture");
     let kinds = "expected PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
-    assert_eq!(message, format!("t.tif: not a picture of a known kind; {kinds}"));
+    assert_eq!(message, format!("t.tif: not an image of a known format; {kinds}"));
     let message = read(&tiff::<colortype::Gray32Float>(1, 1, &[f32::NAN])).expect_err("no number");
     assert_eq!(message, "t.tif: sample 0 is NaN; expected finite numbers");
 }

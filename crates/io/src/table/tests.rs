@@ -29,14 +29,14 @@ fn a_table_of_indices_is_refused_with_its_line() {
     for (text, message) in [
         (
             "400,1,2\n390,1,2\n",
-            "t.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once",
+            "t.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once",
         ),
         ("nm,n,k\n400,1\n", "t.csv:2: found 2 columns; expected three: wavelength in nm, n, k"),
         ("400,0,1\n", "t.csv:1: found 0; expected n above 0"),
         ("400,1,-0.5\n", "t.csv:1: found -0.5; expected k of 0 or more"),
         ("nm,n,k\nnm,n,k\n", "t.csv:2: found \"nm\"; expected a number"),
         ("400,1,inf\n", "t.csv:1: found \"inf\"; expected a number"),
-        ("nm n k\n", "t.csv: holds no row; expected three columns: wavelength in nm, n, k"),
+        ("nm n k\n", "t.csv: contains no row; expected three columns: wavelength in nm, n, k"),
     ] {
         assert_eq!(index(text).expect_err(text), message);
     }
@@ -53,14 +53,14 @@ fn coefficients_lie_by_observation_and_entrance_angle() {
 #[test]
 fn a_table_of_coefficients_is_refused_with_its_line() {
     for (text, message) in [
-        ("a,5,5\n", "t.csv:1: entrance angle 5° follows 5°: sort the table by rising angle, each once"),
-        ("a,5,95\n", "t.csv:1: found the entrance angle 95°; expected one from 0° to 90°"),
-        ("a,5\n2,1\n1,2\n", "t.csv:3: observation angle 1° follows 2°: sort the table by rising angle, each once"),
+        ("a,5,5\n", "t.csv:1: entrance angle 5° follows 5°: sort the table by increasing angle, each once"),
+        ("a,5,95\n", "t.csv:1: the entrance angle is 95°; expected 0° to 90°"),
+        ("a,5\n2,1\n1,2\n", "t.csv:3: observation angle 1° follows 2°: sort the table by increasing angle, each once"),
         ("a,5,30\n0.2,1\n", "t.csv:2: found 1 coefficients; expected 2, one for each entrance angle of the first row"),
-        ("a,5\n0.2,-1\n", "t.csv:2: found the coefficient -1; expected 0 or more"),
+        ("a,5\n0.2,-1\n", "t.csv:2: the coefficient is -1; expected 0 or more"),
         ("a,5\n0.2,x\n", "t.csv:2: found \"x\"; expected a number"),
-        ("a,5\n", "t.csv: holds no observation angle; expected one row at least behind the entrance angles"),
-        ("a\n", "t.csv: has no row of entrance angles; expected a word and one angle at least"),
+        ("a,5\n", "t.csv: contains no observation angle; expected at least one row after the entrance angles"),
+        ("a\n", "t.csv: has no row of entrance angles; expected a word and at least one angle"),
     ] {
         assert_eq!(retro(text).expect_err(text), message);
     }

@@ -256,7 +256,7 @@ mod tests {
         let cache = TileCache::new(Some(&folder), CacheUse::Read);
         let blocks = cache.make(&KEY, &LENGTHS, &mut fill).expect("made and not kept");
         assert_eq!(read(&*blocks, 0), Ok(block(0)));
-        assert!(read(&*blocks, 2).expect_err("not kept").contains("for its plan alone"));
+        assert!(read(&*blocks, 2).expect_err("not kept").contains("opened only for its plan"));
         assert!(!folder.exists());
         let (owner, file) = written_cache(&folder);
         fs::write(&file, b"damaged").expect("write");

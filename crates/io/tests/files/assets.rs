@@ -123,7 +123,7 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     assert_eq!(messages.len(), 3, "{messages:#?}");
     assert_eq!(
         messages[0],
-        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
+        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
         messages[1],
@@ -149,7 +149,7 @@ fn a_value_that_its_use_forbids_is_reported_with_its_line() {
     };
     assert_eq!(
         messages(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
-        ["b.csv:4: found 1.5 at 500 nm; expected a share between 0 and 1 \
+        ["b.csv:4: found 1.5 at 500 nm; expected a fraction from 0 to 1 \
           (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
     );
     assert_eq!(messages(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));

@@ -189,7 +189,7 @@ fn a_camera_of_several_is_chosen_by_its_name() {
     );
     assert!(error_text("cameras.txt", CalibrationFormat::Colmap, None).contains("select one by its id"));
     assert!(error_text("camera_info.yaml", CalibrationFormat::Ros, Some("wide")).contains("narrow_stereo"));
-    assert!(error_text("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("without a name"));
+    assert!(error_text("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("has no name"));
 }
 
 /// Message for a text, with its line.
@@ -230,10 +230,10 @@ fn faults_name_the_line_and_what_was_expected() {
             Some(1),
             "found 3 parameters; the model SIMPLE_RADIAL has 4",
         ),
-        (Colmap, "# no\n1 FISH 640 480 1\n".into(), Some(2), "none of SIMPLE_PINHOLE, SIMPLE_RADIAL"),
+        (Colmap, "# no\n1 FISH 640 480 1\n".into(), Some(2), "expected one of SIMPLE_PINHOLE, SIMPLE_RADIAL"),
         (Colmap, "1 PINHOLE 640\n".into(), Some(1), "ends before the height"),
         (Colmap, "# none\n".into(), None, "contains no camera"),
-        (Ocam, ocam.replace("5 -2.186", "6 -2.186"), Some(3), "counts 6 but holds 5"),
+        (Ocam, ocam.replace("5 -2.186", "6 -2.186"), Some(3), "the count is 6, but 5 numbers follow"),
         (Ocam, ocam.replace("-2.186000e+02", "2.186000e+02"), Some(3), "a0 = 218.6; expected a negative number"),
         (Ocam, ocam.replace("480 640", ""), None, "ends before the image size"),
         (Ocam, ocam.replace("480 640", "480 640\n1"), Some(20), "a sixth line"),

@@ -113,7 +113,7 @@ fn faults_name_the_line_and_what_was_expected() {
         (
             RIG.replace("\"linear-c\": 0.9995", "\"linear-c\": -1"),
             Some("camera:front:wide:120fov"),
-            "c = -1; expected a positive",
+            "c is -1; expected a positive",
         ),
         (NCORE.replace("parameters\": null", "parameters\": {\"a\": 1}"), None, "2: distortion by a windscreen"),
         (NCORE.replace("\"resolution\": [960, 744]", "\"resolution\": [960]"), None, "2: expected [width, height]"),
@@ -132,5 +132,5 @@ fn a_polynomial_that_turns_back_inside_the_picture_is_refused() {
     let text = r#"{"Model": "ftheta", "width": 1000, "height": 700, "cx": 499.5, "cy": 349.5,
                    "polynomial": "0 2e-3 -2e-6", "polynomial-type": "pixeldistance-to-angle"}"#;
     let message = read(text, None).expect("read").calibration.check().expect_err("folds").to_string();
-    assert!(message.contains("folds the picture over at a radius of 500.0"), "{message}");
+    assert!(message.contains("folds the image over at a radius of 500.0"), "{message}");
 }

@@ -76,24 +76,24 @@ fn inches_become_millimetres() {
 fn what_is_not_modelled_is_refused_with_its_line() {
     let zmx = |from: &str, to: &str| read("lens.zmx", &ZMX.replacen(from, to, 1)).expect_err("refused");
     let line = 1 + ZMX.lines().position(|l| l.contains("GLAS N-BK7")).expect("a line");
-    assert!(zmx("GLAS N-BK7", "GLAS MIRROR").starts_with(&format!("{line}: a mirror")));
-    assert!(zmx("GLAS N-BK7", "GLAS UNOBTAINIUM").contains("no glass is called `UNOBTAINIUM`"));
+    assert!(zmx("GLAS N-BK7", "GLAS MIRROR").starts_with(&format!("{line}: mirrors are not supported")));
+    assert!(zmx("GLAS N-BK7", "GLAS UNOBTAINIUM").contains("unknown glass `UNOBTAINIUM`"));
     assert!(zmx("TYPE EVENASPH", "TYPE COORDBRK").contains("type COORDBRK"));
     assert!(zmx("MODE SEQ", "MODE NSC").starts_with("2: a non-sequential lens"));
-    assert!(zmx("  STOP\n", "").contains("0 surfaces are the stop"));
+    assert!(zmx("  STOP\n", "").contains("0 surfaces are aperture stops"));
     assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`; expected a number"));
     assert!(zmx("UNIT MM", "UNIT FURLONG").contains("UNIT is `FURLONG`"));
     let seq = |from: &str, to: &str| read("lens.seq", &SEQ.replacen(from, to, 1)).expect_err("refused");
-    assert!(seq("NBK7_SCHOTT", "'mine'").contains("no glass is called `mine`"));
+    assert!(seq("NBK7_SCHOTT", "'mine'").contains("unknown glass `mine`"));
     assert!(
         seq("SO 0.0", "PRV\nPWL 600 500\n'mine' 1.5\nEND\nSO 0.0").contains("1 indices; expected one for each of 2")
     );
     assert!(zmx("ENPD 10.0", "FNUM 4 1").starts_with("5: a working f-number"));
     assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));
     assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("obscurations"));
-    assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not modelled"));
+    assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not supported"));
     assert!(seq("RDM;LEN", "LEN").contains("surfaces precede RDM"));
-    assert!(seq("3.5 NBK7_SCHOTT", "3.5 REFL").contains("a mirror"));
+    assert!(seq("3.5 NBK7_SCHOTT", "3.5 REFL").contains("mirrors are not supported"));
     assert!(read("lens.txt", SEQ).expect_err("what kind").contains(".zmx"));
     assert!(read_prescription(Path::new("nowhere.zmx")).is_err());
 }
@@ -137,7 +137,7 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
         assert!(old.notes[0].contains(&format!("line 11: {name} is in no supported catalogue")), "{:?}", old.notes);
     }
     let other = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "LAH66_SCHOTT")).expect_err("not Schott's");
-    assert!(other.contains("no glass is called `LAH66_SCHOTT`"), "{other}");
+    assert!(other.contains("unknown glass `LAH66_SCHOTT`"), "{other}");
 }
 
 #[test]
@@ -276,9 +276,9 @@ fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
         ("THI S2 PIM", "13: THI: found `PIM`; expected a number"),
         ("SCA EFL 100", "13: SCA: expected one factor above 0"),
         ("SCA 0", "13: SCA: expected one factor above 0"),
-        ("INS S2", "13: INS is not modelled"),
-        ("DEL S2", "13: DEL is not modelled"),
-        ("RDX S1 30", "13: RDX is not modelled"),
+        ("INS S2", "13: INS is not supported"),
+        ("DEL S2", "13: DEL is not supported"),
+        ("RDX S1 30", "13: RDX is not supported"),
         ("S 0 1", "13: S: expected a surface defined before (S0 to S3)"),
         ("S9 0 1", "13: S9: expected a surface defined before"),
     ] {

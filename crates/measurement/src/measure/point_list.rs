@@ -359,13 +359,13 @@ mod tests {
     fn wrong_lines_are_reported_by_number() {
         let head = "column,row,x_px,y_px,uncertainty_px\n";
         for (text, line, part) in [
-            (String::new(), 1, "names the columns"),
+            (String::new(), 1, "expected a header line"),
             ("column,row,x,y\n".to_owned(), 1, "x_px"),
             (format!("{head}0,0,1,2\n"), 2, "expected 5 numbers"),
             (format!("{head}0,0,1,2,0\n0.5,0,1,2,0\n"), 3, "whole number"),
             (format!("{head}0,0,1,nan,0\n"), 2, "y_px: expected a number"),
             (format!("{head}0,0,1,2,-1\n"), 2, "uncertainty_px"),
-            (format!("{head}0,0,1,2,0\n1,0,1,2,0\n0,0,3,2,0\n"), 4, "line 2 already"),
+            (format!("{head}0,0,1,2,0\n1,0,1,2,0\n0,0,3,2,0\n"), 4, "already in line 2"),
         ] {
             let error = read_points(&text).expect_err("refused");
             assert!(error.contains(&format!("points.csv:{line}: ")) && error.contains(part), "{error}");

@@ -138,7 +138,7 @@ fn what_is_no_lens_is_refused_with_its_reason() {
     assert!(with(&|s| s[1].thickness_mm = -1.0).starts_with("surface 2: thickness_mm is -1"));
     assert!(with(&|s| s[1].semi_aperture_mm = 51.0).starts_with("surface 2: semi_aperture_mm is 51"));
     assert!(with(&|s| s[1].thickness_mm = 1.0).starts_with("surfaces 2 and 3 overlap"));
-    assert!(with(&|s| s[2].glass = GLASS).starts_with("behind the last surface is glass"));
+    assert!(with(&|s| s[2].glass = GLASS).starts_with("the medium behind the last surface is glass"));
     assert!(with(&|s| s[1].radius_mm = -30.0).starts_with("the prescription has a focal length of -"));
     assert!(with(&|s| s[1].semi_aperture_mm = 3.0).starts_with("surface 2 clips the axial bundle"));
     // A rear surface so strong that the edge of the axial bundle meets it beyond the critical angle.

@@ -34,7 +34,7 @@ fn a_normalised_sphere_without_a_radius_is_a_point() {
     near(candela(&converted, "plain"), 600.0 * PI * 0.25 * 1e-4);
     near(candela(&converted, "cone"), 150.0 * 1e-4);
     assert_eq!(converted.scene.lights.len(), 4);
-    assert!(converted.reports("without \"normalize\", is dark and left out"), "{}", converted.report_text);
+    assert!(converted.reports("without \"normalize\" emits no light and is left out"), "{}", converted.report_text);
 }
 
 /// A mesh of 1 by 2 that is twice as large in the world has 8 units², whatever the materials of its faces.

@@ -32,17 +32,17 @@ fn wrap(converted: &ConvertedScene) -> Wrap {
     texture(converted).wrap.as_ref().expect("said").value
 }
 
-const OUTSIDE: &str = "a picture that is black outside of u, v = 0 … 1";
+const OUTSIDE: &str = "is clamped to its edge outside u, v = 0 … 1";
 
 #[test]
 fn an_image_without_a_wrap_mode_is_black_outside() {
     for inputs in ["", "token inputs:wrapS = \"useMetadata\" token inputs:wrapT = \"black\""] {
         let within = card(1.0, "letter.png", inputs);
         assert_eq!(wrap(&within), Wrap::Clamp);
-        assert!(!within.reports(OUTSIDE) && !within.reports("two ways"), "{}", within.report_text);
+        assert!(!within.reports(OUTSIDE) && !within.reports("wrapS and wrapT of an image differ"), "{}", within.report_text);
         let beyond = card(2.0, "letter.png", inputs);
         assert_eq!(wrap(&beyond), Wrap::Clamp);
-        assert!(beyond.reports(OUTSIDE) && beyond.reports("has its edge there (/a)"), "{}", beyond.report_text);
+        assert!(beyond.reports(OUTSIDE) && beyond.reports("which the shape shows (/a)"), "{}", beyond.report_text);
     }
     let again = card(2.0, "letter.png", "token inputs:wrapS = \"repeat\" token inputs:wrapT = \"repeat\"");
     assert_eq!(wrap(&again), Wrap::Repeat);
