@@ -71,7 +71,7 @@ def test_ctrl_c_cancels_while_other_threads_run(tmp_path, interruptible):
 def test_notes_go_to_logging(caplog):
     with caplog.at_level("INFO", logger="etendue"):
         etendue.Job.open(JOB, noise=0.5)
-    assert any("supersedes" in record.message for record in caplog.records)
+    assert any("overrides" in record.message for record in caplog.records)
 
 
 def test_warnings_go_to_warnings(tmp_path):

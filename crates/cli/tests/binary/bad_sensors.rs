@@ -70,7 +70,12 @@ fn captures_that_do_not_go_together() {
     let more = "{ exposure_ratio = 0.5 }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) is more sensitive"]);
     let more = "{ exposure_ratio = 0.1, dual_conversion_gain = true }";
-    refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0): the second readout of a charge"]);
+    refused_below(
+        3,
+        BITS,
+        &hdr(20, more),
+        &["cameras.front.sensor.hdr", "entry 1 (from 0): the second readout of a charge"],
+    );
     let more = "{ exposure_ratio = 0.1, read_noise_e = 1 }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) reaches no further"]);
     let more = "{ exposure_ratio = 0.01 }";

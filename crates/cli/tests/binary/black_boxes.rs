@@ -73,7 +73,10 @@ fn a_camera_falls_off_as_zemax_s_export_says() {
         }
     }
     let output = plan(folder.path(), &job("", SENSOR, CALIBRATED, 64)).ok().out;
-    assert!(output.contains("ri.txt") && output.contains("computed for 587.562 nm, used for all wavelengths"), "{output}");
+    assert!(
+        output.contains("ri.txt") && output.contains("computed for 587.562 nm, used for all wavelengths"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -82,7 +85,10 @@ fn unusable_exports_are_reported_with_their_line() {
     let listing_text = export(&rows(1.0, 1.0));
     for (listing, phrases) in [
         (listing_text.replace("5.2", "-5.2"), &["ri.txt:14", "0 or more"][..]),
-        (listing_text.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "expected increasing distances from the axis"]),
+        (
+            listing_text.replace("3.000000E1", "1.500000E1"),
+            &["ri.txt:14", "expected increasing distances from the axis"],
+        ),
         (listing_text.replace("0.000000E0 ", "1.000000E0 "), &["ri.txt:11", "expected 0, the axis"]),
         (listing_text.replace("degrees", "furlongs"), &["ri.txt", "does not state the unit of the fields"]),
         (listing_text.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "object heights"]),

@@ -37,7 +37,11 @@ fn the_plan_reports_branches_and_refuses_what_they_exclude() {
     let sharing = job(place.path(), "path_reuse_px = 2\n");
     let output = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
     assert!(output.err.contains("overrides") && output.err.contains("path_reuse_px"), "{}", output.err);
-    assert!(!output.out.contains("tails of the paths") && output.out.contains("4 lights are sampled"), "{}", output.out);
+    assert!(
+        !output.out.contains("tails of the paths") && output.out.contains("4 lights are sampled"),
+        "{}",
+        output.out
+    );
     etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
     etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
 }

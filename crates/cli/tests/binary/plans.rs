@@ -64,8 +64,8 @@ fn every_job_takes_any_integrator_and_any_samples() {
         }
     }
     let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.integrator=direct", "--spp", "2"]).ok();
-    let street = street.says(&["note: --set render.integrator=direct supersedes", "\"max_bounces\"", "\"caustics\""]);
-    street.says(&["note: --spp 2 supersedes \"replicates\" (scenes/street/street.toml:"]);
+    let street = street.says(&["note: --set render.integrator=direct overrides", "\"max_bounces\"", "\"caustics\""]);
+    street.says(&["note: --spp 2 overrides \"replicates\" (scenes/street/street.toml:"]);
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     let out = place.path().join("out");
     let completed = (0..3).find_map(|_| {
         let run = render(job, &out, &[&size[..], &["--time", "10", "--progressive", "--overwrite"]].concat()).ok();
-        let (seconds, options) = time_and_options(&run.says(&["--time supersedes", "spp"]));
+        let (seconds, options) = time_and_options(&run.says(&["--time overrides", "spp"]));
         ((seconds / 10.0 - 1.0).abs() < 0.1).then_some(options)
     });
     let options = completed.expect("10 s within a tenth");

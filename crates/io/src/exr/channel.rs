@@ -81,7 +81,7 @@ impl ImageRows<'_> {
     pub(super) fn bytes(&self, rows: Range<usize>) -> Result<Vec<u8>, EncodeError> {
         let strip = self.strips.as_ref().map(|strips| strips.rows(rows.clone())).transpose();
         let strip = strip.map_err(EncodeError::Read)?.unwrap_or_default();
-        let channels = self.channels.iter().map(|channel| self.from_channel(channel, &strip, rows.clone()));
+        let channels = self.channels.iter().map(|channel| self.row_source(channel, &strip, rows.clone()));
         let channels = channels.collect::<Result<Vec<_>, String>>().map_err(EncodeError::Read)?;
         let mut bytes = vec![0; self.row_bytes() * rows.len()];
         let mut rest = bytes.as_mut_slice();
@@ -104,7 +104,7 @@ impl ImageRows<'_> {
         Ok(bytes)
     }
 
-    fn from_channel<'s>(
+    fn row_source<'s>(
         &'s self,
         channel: &'s ChannelSource<'_>,
         strip: &'s [SampleRows],

@@ -258,11 +258,11 @@ impl Glasses {
                 })?;
                 Ok((from.glass.clone(), None))
             }
-            _ => self.from_catalogue(w),
+            _ => self.catalogue_glass(w),
         }
     }
 
-    fn from_catalogue(&mut self, w: &Words<'_>) -> Result<(GlassAsset, Option<String>), Error> {
+    fn catalogue_glass(&mut self, w: &Words<'_>) -> Result<(GlassAsset, Option<String>), Error> {
         let name = w.word(1);
         if let Some(known) = named(name).or_else(|| by_number(name)) {
             return Ok((known, None));

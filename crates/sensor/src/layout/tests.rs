@@ -43,7 +43,7 @@ fn the_delivered_image_has_its_size_and_its_coordinates() {
     let sensor = Sensor::new(p).expect("legal");
     assert_eq!((raw.plane.width(), raw.plane.height()), (4, 4));
     assert_eq!(sensor.image_size(10, 6), (4, 4));
-    assert_eq!(sensor.image_point([5.0, 3.0]), [1.5, 1.0]);
+    assert_eq!(sensor.to_image([5.0, 3.0]), [1.5, 1.0]);
 }
 
 /// Bayer tiles: of every two columns and three rows of tiles only the first is read, of 8 × 12 pixels that each hold their own number.

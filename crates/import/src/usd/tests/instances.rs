@@ -24,6 +24,10 @@ fn inactive_and_invisible_instances_are_left_out() {
 #[test]
 fn an_instancer_that_is_not_drawn_is_reported() {
     let converted = instancer("token visibility = \"invisible\"", "");
-    assert!(converted.scene.objects.is_empty() && converted.reports("prims that are invisible"), "{}", converted.report_text);
+    assert!(
+        converted.scene.objects.is_empty() && converted.reports("prims that are invisible"),
+        "{}",
+        converted.report_text
+    );
     assert!(!converted.reports("relationship"), "{}", converted.report_text);
 }

@@ -39,7 +39,11 @@ fn an_image_without_a_wrap_mode_is_black_outside() {
     for inputs in ["", "token inputs:wrapS = \"useMetadata\" token inputs:wrapT = \"black\""] {
         let within = card(1.0, "letter.png", inputs);
         assert_eq!(wrap(&within), Wrap::Clamp);
-        assert!(!within.reports(OUTSIDE) && !within.reports("wrapS and wrapT of an image differ"), "{}", within.report_text);
+        assert!(
+            !within.reports(OUTSIDE) && !within.reports("wrapS and wrapT of an image differ"),
+            "{}",
+            within.report_text
+        );
         let beyond = card(2.0, "letter.png", inputs);
         assert_eq!(wrap(&beyond), Wrap::Clamp);
         assert!(beyond.reports(OUTSIDE) && beyond.reports("which the shape shows (/a)"), "{}", beyond.report_text);

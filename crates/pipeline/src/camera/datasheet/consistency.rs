@@ -31,7 +31,7 @@ impl FigureUnit {
     }
 
     /// Converts an amplitude ratio of at least 1 to this scale.
-    fn from_ratio(self, ratio: f64) -> f64 {
+    fn ratio_to_scale(self, ratio: f64) -> f64 {
         match self {
             Self::Plain(_) => ratio,
             Self::Decibel => db(ratio),
@@ -53,12 +53,12 @@ impl SheetFindings {
     /// Compares a stated figure with the value derived from others.
     fn compare(&mut self, figure: Option<&Placed<f64>>, scale: FigureUnit, follows: PrintedRange, from: &str) {
         let Some(figure) = figure else { return };
-        if PrintedRange::printed(figure.value).meets(follows.rising(|x| scale.from_ratio(x))) {
+        if PrintedRange::printed(figure.value).meets(follows.rising(|x| scale.ratio_to_scale(x))) {
             return;
         }
         let off = scale.ratio(figure.value) / follows.printed - 1.0;
         let unit = scale.unit();
-        let computed = four_digits(scale.from_ratio(follows.printed));
+        let computed = four_digits(scale.ratio_to_scale(follows.printed));
         let problem = format!("found {}{unit}, but {computed}{unit} follows from {from}", figure.value);
         if off.abs() <= MAX_RELATIVE_DIFFERENCE {
             self.warnings.push(format!("{}: {problem}", figure.place));

@@ -32,7 +32,7 @@ pub(super) fn find(asset: &PrescriptionAsset) -> Result<ClearApertures, String> 
     let semi_apertures_mm: Vec<f64> =
         asset.surfaces.iter().zip(needed).map(|(s, needed_mm)| s.semi_aperture_mm.unwrap_or(needed_mm)).collect();
     let note = note(asset, &semi_apertures_mm);
-    Ok(ClearApertures { semi_apertures_mm, note: note })
+    Ok(ClearApertures { semi_apertures_mm, note })
 }
 
 fn note(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
