@@ -20,7 +20,7 @@ impl Observer for SampleObserver<'_> {
             Message::Note(_) if self.tells => self.all.message(message),
             Message::Note(_) => {}
             Message::Warning(warning) => {
-                self.all.message(Message::Warning(&format!("sample {}: {warning}", self.sample)))
+                self.all.message(Message::Warning(&format!("sample {}: {warning}", self.sample)));
             }
         }
     }

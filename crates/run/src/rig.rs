@@ -141,10 +141,10 @@ fn add_kalibr(calibrated: &[CalibratedCamera<'_>], none: &[String], rig: &mut Ri
         for camera in calibrated.iter().filter(|camera| camera.plan.mount.frame.as_deref() == frame) {
             match (camera.plan.mount.pose, kalibr::intrinsics(&camera.named())) {
                 (Some(pose), Ok(intrinsics)) => {
-                    links.push(kalibr::ChainLink { camera: camera.named(), intrinsics, pose })
+                    links.push(kalibr::ChainLink { camera: camera.named(), intrinsics, pose });
                 }
                 (None, _) => {
-                    left_out.push(format!("camera {}: {}", camera.plan.name, moving_reason(frame.unwrap_or(WORLD))))
+                    left_out.push(format!("camera {}: {}", camera.plan.name, moving_reason(frame.unwrap_or(WORLD))));
                 }
                 (_, Err(why)) => left_out.push(omit(rig, &camera.plan.name, &why)),
             }

@@ -67,7 +67,7 @@ pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observ
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
             Some(None) => {
-                retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() })
+                retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() });
             }
             None => {}
         }

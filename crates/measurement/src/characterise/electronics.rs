@@ -301,7 +301,7 @@ impl Electronics {
                     );
                 }
                 None => {
-                    findings.unknown("hot pixels", outlier_list(hot, &format!("have more than {:.0} e⁻/s", hot.limit)))
+                    findings.unknown("hot pixels", outlier_list(hot, &format!("have more than {:.0} e⁻/s", hot.limit)));
                 }
             },
         }
