@@ -64,7 +64,7 @@ fn every_job_takes_any_integrator_and_any_samples() {
         }
     }
     let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.integrator=direct", "--spp", "2"]).ok();
-    let street = street.says(&["note: --set render.integrator=direct supersedes", "\"max_bounces\"", "\"caustics\""]);
+    let street = street.says(&["note: --set render.integrator=direct overrides", "\"max_bounces\"", "\"caustics\""]);
     street.says(&["note: --spp 2 supersedes \"replicates\" (scenes/street/street.toml:"]);
 }
 
