@@ -247,7 +247,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
             "the transform is singular",
         ),
         ("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>", "the field of view is 180°"),
-        ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "\"intensity\" is below 0"),
+        ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "\"intensity\": emission is below 0"),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><rotate x=\"1\"/></transform></shape>",
             "<rotate> has no \"angle\"",
