@@ -41,7 +41,7 @@ const LENSES: [(&str, &str); 12] = [
     ),
     ("double Gauss, f/2.03", "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
     (
-        "pinhole behind a wind-screen",
+        "pinhole behind a windscreen",
         "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[external_optics.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
          radius_across_mm = 3000\nradius_upright_mm = 8000",
     ),

@@ -59,7 +59,7 @@ fn glass_that_the_camera_cannot_look_through() {
 #[test]
 fn what_bends_rays_has_no_route_at_the_pupil() {
     let route = "[render]\nroute = \"pupil\"";
-    plan(GLASS, route).refused(&["job.toml:9", "render.route", "wind-screen", "route = \"lens\""]);
+    plan(GLASS, route).refused(&["job.toml:9", "render.route", "windscreen", "route = \"lens\""]);
     plan(&format!("{SPHERE}distance_mm = 50"), route).refused(&["job.toml:9", "mirror", "route = \"lens\""]);
     let tinted = format!("{GLASS}internal_transmittance = [0.7, 0.9, 0.8]");
     plan(&tinted, "[render]\nwavelengths_per_path = 4").refused(&["job.toml:9", "dispersive optics"]);

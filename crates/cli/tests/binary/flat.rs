@@ -220,7 +220,7 @@ fn what_cannot_be_measured_is_refused() {
     }
     for (option, value, phrase) in [
         ("--irradiance-w-m2", "-0.01", "expected an irradiance of 0 W/m² or more"),
-        ("--irradiance-w-m2", "1e300", "--irradiance-w-m2 1e300: makes inf electrons"),
+        ("--irradiance-w-m2", "1e300", "--irradiance-w-m2 1e300: gives inf electrons"),
         ("--irradiance-w-m2", "1e15", "at most 9e15"),
         ("--photon-transfer", "2", "expected a whole number from 3 to 10000"),
     ] {

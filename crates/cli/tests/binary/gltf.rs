@@ -86,9 +86,9 @@ fn the_plan_says_what_became_of_what() {
     fs::write(&file, job(&scene_glb(), "")).expect("written");
     let plan = etendue(["plan", &text(&file)]).ok().out.split_whitespace().collect::<Vec<_>>().join(" ");
     for phrase in [
-        "scene.glb: material \"gold\": conductor of its colour, alpha 0.0900",
+        "scene.glb: material \"gold\": conductor of the base colour, alpha 0.0900",
         "material \"matt\": diffuse",
-        "material \"print\": coated of index 1.500, alpha 0.2500, colour by a picture",
+        "material \"print\": coated, index 1.500, alpha 0.2500, colour from an image",
         "174 triangles",
     ] {
         assert!(plan.contains(phrase), "{phrase}: {plan}");

@@ -161,8 +161,8 @@ fn keys_are_those_of_the_file() {
     let (output, job) = imported(place.path(), &scene("CUBICSPLINE", false), "a");
     let output = output.ok();
     for phrase in [
-        "node \"arm\" moves: a frame with 33 keys; its cubic curves have 16 keys from key to key, half-way off by",
-        "node \"hand\" moves: a frame with 5 keys; its steps take 1 µs",
+        "node \"arm\" moves: a frame with 33 keys; its cubic curves are sampled with 16 keys per interval",
+        "node \"hand\" moves: a frame with 5 keys; each of its steps takes 1 µs",
         "its meshes: object \"a\"",
     ] {
         assert!(output.err.contains(phrase), "{phrase}: {}", output.err);

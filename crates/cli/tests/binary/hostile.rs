@@ -54,7 +54,7 @@ fn unused_files_need_not_exist() {
     job.replace_first("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
     let plan = etendue(["plan", &job.job()]).ok().out;
     for phrase in
-        ["mesh that no object shows: spare", "material that no object has: rest", "texture that nothing shown has: big"]
+        ["mesh that no object uses: spare", "material that no object uses: rest", "texture that no used material has: big"]
     {
         assert!(plan.contains(phrase), "{plan}");
     }
@@ -70,7 +70,7 @@ fn numbers_that_keys_refuse_are_refused_as_arguments() {
     refused(&["--spp", "0"], &["--spp 0: found 0; give a whole number from 1 to 1048576"]);
     refused(&["--seed", "18446744073709551615"], &["--seed 18446744073709551615", "from 0 to 9223372036854775807"]);
     refused(&["--threads", "100000"], &["'100000'", "a whole number from 1 to 1024"]);
-    refused(&["--frames", "0..4294967295"], &["4294967295 frames; one run takes at most 100000"]);
+    refused(&["--frames", "0..4294967295"], &["4294967295 frames; one run can have at most 100000"]);
 }
 
 #[test]

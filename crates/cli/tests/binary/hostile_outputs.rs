@@ -71,7 +71,7 @@ fn links_are_replaced_and_never_written_through() {
     symlink(others.join("none.png"), real.join("front/picture.0000.png")).expect("link");
     let render =
         |options: &[&str]| etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options));
-    render(&[]).refused(&["front/", "already there"]);
+    render(&[]).refused(&["front/", "already exists"]);
     render(&["--overwrite"]).ok();
     assert!(contents(&real) == rendered(&small(), &LIGHT), "the files of a folder without links");
     assert!(!real.join("front/radiance.exr").is_symlink());
@@ -79,7 +79,7 @@ fn links_are_replaced_and_never_written_through() {
     assert_eq!(fs::read(others.join("theirs.exr")).expect("a file"), b"theirs");
     fs::remove_dir_all(real.join("front")).expect("removed");
     symlink(&others, real.join("front")).expect("link");
-    render(&["--overwrite"]).refused(&["front", "a symbolic link is in the place of a folder of results"]);
+    render(&["--overwrite"]).refused(&["front", "a symbolic link is in the place of a results folder"]);
     assert_eq!(contents(&others).len(), 1);
 }
 
@@ -93,7 +93,7 @@ fn a_link_in_the_place_of_the_state_is_refused_and_nothing_is_deleted_behind_it(
     symlink(&others, out.join(".progress")).expect("link");
     for options in [&["--overwrite"][..], &["--resume"], &[], &["--progressive"], &["--progressive", "--overwrite"]] {
         etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options))
-            .refused(&[".progress", "a symbolic link is in the place of a folder of results"]);
+            .refused(&[".progress", "a symbolic link is in the place of a results folder"]);
         assert_eq!(fs::read(others.join("front.film.exr")).expect("a file"), b"precious", "{options:?}");
     }
     assert_eq!(contents(&others).len(), 1);

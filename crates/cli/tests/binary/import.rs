@@ -110,12 +110,12 @@ fn an_import_says_what_became_of_what() {
         "its meshes: object \"floor\"",
         "light \"Key-Light\", point: 400 cd; its range is not used: light is not cut off",
         "camera \"eye\": perspective, vertical field of view 0.2292°; its near and far planes are not used",
-        "camera \"plan-view\": orthographic of 0.012",
+        "camera \"plan-view\": orthographic, 0.012",
     ] {
         assert!(output.err.contains(phrase), "{phrase}: {}", output.err);
     }
     let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
-    assert!(scene.contains("file = \"../floor.gltf\"") && scene.starts_with("# Made of floor.gltf"), "{scene}");
+    assert!(scene.contains("file = \"../floor.gltf\"") && scene.starts_with("# Converted from floor.gltf"), "{scene}");
     let job = fs::read_to_string(place.path().join("made/job.toml")).expect("a job");
     assert!(job.contains("rotation_deg = [180, 90, 0]"), "{job}");
     etendue(["import", &text(&place.path().join("floor.gltf")), "-o", &text(&place.path().join("made"))])
@@ -235,7 +235,7 @@ fn alpha_of_pbrt_is_opacity() {
     };
     let sun = "LightSource \"distant\" \"float illuminance\" 300 \"point3 from\" [ 0 3 4 ] \"point3 to\" [ 0 0 0 ] ";
     for (alpha, illuminance, phrase) in
-        [("0.25", 180.0, "made: 2 objects"), ("0", 240.0, "a shape of alpha 0 is left out")]
+        [("0.25", 180.0, "written: 2 objects"), ("0", 240.0, "a shape of alpha 0 is left out")]
     {
         let place = tempfile::tempdir().expect("a temporary folder");
         let (imported, out) = (place.path().join("made"), place.path().join("out"));
@@ -251,7 +251,7 @@ fn alpha_of_pbrt_is_opacity() {
         pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"realistic\" \"string lensfile\" \"wide.dat\"");
     fs::write(place.path().join("a.pbrt"), scene).expect("written");
     let output = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
-    assert!(output.err.contains("the camera \"realistic\" is not understood: a perspective of 40°"), "{}", output.err);
+    assert!(output.err.contains("the camera \"realistic\" is not supported: a perspective camera of 40°"), "{}", output.err);
 }
 
 /// The scenes of scenes/import against the same written by hand, by the Z test of `compare`; a lamp that is a tenth brighter is detected.

@@ -88,5 +88,5 @@ fn a_medium_inside_glass_is_named() {
     let scene = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 0.1 0.3 0.6 ] \"rgb sigma_s\" [ 1.2 0.8 0.4 ]\n\
                  MediumInterface \"m\" \"\"\nMaterial \"dielectric\" \"float eta\" 1.33\nShape \"sphere\" \"float radius\" 1";
     let (_, notes) = mean(scene);
-    assert!(notes.contains("the medium \"m\" inside glass is left out"), "{notes}");
+    assert!(notes.contains("the medium \"m\" in a dielectric is left out"), "{notes}");
 }

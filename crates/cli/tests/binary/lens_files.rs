@@ -173,7 +173,7 @@ fn first_order_figures_are_of_the_primary_wavelength() {
 
 #[test]
 fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
-    for (edit, message) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not modelled")] {
+    for (edit, message) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not supported")] {
         let (_folder, words) = arguments("lens.seq", &seq("50 4 NBK7_SCHOTT", "-50 47", edit), &[]);
         etendue(words).refused(&["lens.seq", ":14", message]);
     }

@@ -34,11 +34,11 @@ fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
     let raised = ["--limit", "picture-mib=1908", "--limit", "texture-cache-mib=65536"];
     job.render(&raised).refused(&["checker.png: not a readable image"]);
     job.write("checker.png", png_head(3000, 3000));
-    job.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
+    job.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: decompresses to 9 MiB", "picture-mib=9"]);
     // Measurements store images as floats.
     let image = text(&job.folder().join("checker.png"));
-    etendue(["--limit", "picture-mib=34", "measure", "sfr", &image]).refused(&["unpacks to 35 MiB"]);
-    etendue(["inspect", &image, "--limit", "picture-mib=34"]).refused(&["unpacks to 35 MiB"]);
+    etendue(["--limit", "picture-mib=34", "measure", "sfr", &image]).refused(&["decompresses to 35 MiB"]);
+    etendue(["inspect", &image, "--limit", "picture-mib=34"]).refused(&["decompresses to 35 MiB"]);
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_long_description_is_refused_before_it_is_read() {
     let job = fs::read_to_string(modified.folder().join("small.toml")).expect("the job");
     modified.write("small.toml", format!("{job}# {}\n", " ".repeat(1 << 20)));
     let phrases =
-        ["small.toml", "the file has 2 MiB, and files of its kind are read up to 1 MiB", "--limit description-mib=2"];
+        ["small.toml", "the file has 2 MiB, but files of its kind may have at most 1 MiB", "--limit description-mib=2"];
     modified.render(&["--limit", "description-mib=1"]).refused(&phrases);
     etendue(["plan", &modified.job(), "--limit", "description-mib=2"]).ok();
     modified.write("small.toml", &job);
@@ -71,13 +71,13 @@ fn corners_and_bases_are_counted() {
     let job = text(&modified.folder().join("2.toml"));
     etendue(["plan", &job]).ok();
     etendue(["plan", &job, "--limit", "bases=2"])
-        .refused(&["more than 2 files are built one on the other", "--limit bases=4"]);
+        .refused(&["references has more than 2 files", "--limit bases=4"]);
 }
 
 #[test]
 fn limits_that_are_none_are_refused() {
     etendue(["plan", "x.toml", "--limit", "picture=1"])
-        .refused(&["--limit picture=1: no limit is called", "picture-mib"]);
+        .refused(&["--limit picture=1: unknown limit", "picture-mib"]);
     etendue(["plan", "x.toml", "--limit", "bases"]).refused(&["--limit bases: expected NAME=N"]);
     etendue(["plan", "x.toml", "--limit", "bases=many"]).refused(&["a whole number from 1 to 64, not 'many'"]);
 }

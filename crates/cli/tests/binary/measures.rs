@@ -133,7 +133,7 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
     etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera)]).refused(&["--pixel-pitch-um"]);
     let repeated = ["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"];
-    etendue(repeated).refused(&["sensor.toml", "already there", "--overwrite"]);
+    etendue(repeated).refused(&["sensor.toml", "already exists", "--overwrite"]);
     assert_eq!(std::fs::read_to_string(&camera).expect("a file"), written);
     etendue(repeated.into_iter().chain(["--overwrite"])).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");

@@ -217,7 +217,7 @@ fn unsupported_content_is_reported_and_the_rest_is_a_scene() {
         "the surface \"hair\" is not supported: a diffuse grey of 0.5 is used instead (a.xml:3)",
         "shape \"sphere\": \"wobble\" is not used (a.xml:3)",
         "the emitter \"sunsky\" is not supported and left out (a.xml:4)",
-        "facets of a \"roughplastic\" after Beckmann are GGX's of the same α",
+        "the Beckmann distribution of a \"roughplastic\" becomes GGX with the same α",
         "it has no supported camera",
     ] {
         assert!(messages.contains(phrase), "{phrase}: {messages}");
@@ -230,7 +230,7 @@ fn unsupported_content_is_reported_and_the_rest_is_a_scene() {
 fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
     for (body, phrase) in [
         ("<shape type=\"sphere\"><ref id=\"none\"/></shape>", "a.xml:2: no element has the id \"none\""),
-        ("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "\"radius\" of -1"),
+        ("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "\"radius\" is -1"),
         ("<shape type=\"sphere\"><float name=\"radius\" value=\"wide\"/></shape>", "expected a number, found \"wide\""),
         (
             "<bsdf type=\"mask\" id=\"m\"><ref id=\"m\"/></bsdf><shape type=\"disk\"><ref id=\"m\"/></shape>",
@@ -241,13 +241,13 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
             "is in an instance, which Mitsuba does not allow",
         ),
         ("<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>", "none.obj"),
-        ("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>", "a second element is called \"a\""),
+        ("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>", "duplicate id \"a\""),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><scale x=\"0\"/></transform></shape>",
-            "a space without extent",
+            "the transform is singular",
         ),
-        ("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>", "a field of 180°"),
-        ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "light below 0"),
+        ("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>", "the field of view is 180°"),
+        ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "\"intensity\": emission is below 0"),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><rotate x=\"1\"/></transform></shape>",
             "<rotate> has no \"angle\"",
@@ -323,7 +323,7 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
         etendue(["import", &text(file), "-o", &imported].iter().chain(definitions)).refused(phrases);
         assert!(!place.path().join("made").exists(), "{definitions:?}: nothing is written");
     };
-    assert_refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and no \"$q\" stands in the scene: it names $r"]);
+    assert_refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and \"$q\" does not occur in the scene: its parameters are $r"]);
     assert_refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
     assert_refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
     assert_refused(&file, &["-Dr"], &["NAME=VALUE"]);

@@ -89,7 +89,7 @@ fn ground_truth_does_not_see_rain() {
 #[test]
 fn the_plan_reports_precipitation_and_its_model() {
     let plan = Weather::new("type = \"rain\", rate_mm_h = 10").plan();
-    for phrase in ["rain of 10 mm/h", "11.6 mm/h", "3165 drops a m³", "1.56 1/km", "drops"] {
+    for phrase in ["rain of 10 mm/h", "11.6 mm/h", "3165 drops per m³", "1.56 1/km", "drops"] {
         assert!(plan.contains(phrase), "{phrase}: {plan}");
     }
     let plan = Weather::new("type = \"snow\", rate_mm_h = 1, most = 0").plan();

@@ -108,7 +108,7 @@ fn a_rig_has_the_files_of_a_render_without_one() {
     let mut expected = rendered(&["--frames", "0..2"]);
     expected.retain(|name, _| name.starts_with("calibration/"));
     assert_same(&expected, &contents(Path::new(&out)), "rig");
-    etendue(["rig", &job(), "-o", &out]).refused(&["already there"]);
+    etendue(["rig", &job(), "-o", &out]).refused(&["already exists"]);
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn a_study_reports_times_and_errors_and_writes_jobs() {
             study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
         let spp = recommendation.expect("recommended")["point"]["spp"].as_u64().expect("a number");
         assert!(spp >= samples, "{name}: {spp}");
-        assert!(plan.contains(&format!("{spp} samples a pixel")), "{name}: {spp} in {plan}");
+        assert!(plan.contains(&format!("{spp} samples per pixel")), "{name}: {spp} in {plan}");
     }
     assert!(etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).status == 2, "there is a study already");
 }

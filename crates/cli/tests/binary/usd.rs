@@ -250,8 +250,8 @@ fn kinds_of_usd_are_what_usd_core_computes() {
         check_lights(&scene, &figures);
         check_materials(&scene, &figures);
         for phrase in [
-            "one unit is 0.01 m (as it says); y is up",
-            "changes: all stands as at time code 1",
+            "one unit is 0.01 m (as stated); y is up",
+            "is animated: its value at time code 1 is used",
             "prims that are invisible, or have a purpose other than rendering (guide, proxy), are left out",
             "camera \"Shot\": 35 mm at f/2.8",
         ] {
@@ -318,15 +318,15 @@ fn unsupported_content_of_usd_is_reported() {
     );
     let messages = output.ok().err;
     for phrase in [
-        "one unit is 0.01 m (as where nothing is said); y is up",
+        "one unit is 0.01 m (the default, as it is not stated); y is up",
         "none.usda",
         "a \"BasisCurves\" is not supported and left out",
-        "a subdivision surface is its control mesh with smooth normals",
+        "a subdivision surface becomes its control mesh with smooth normals",
         "a RectLight emits no light and is left out",
         "it has no light: a uniform sky of 2000 cd/m² is added",
-        "it has no cameras: \"view\" is ours",
+        "it has no cameras: \"view\" is added",
         "clearcoat is not used",
-        "is a pane without thickness",
+        "becomes a thin sheet",
         "a mesh lacks the texture coordinates \"st\": its textures have the value of their corner everywhere",
     ] {
         assert!(messages.contains(phrase), "{phrase} is not said: {messages}");
@@ -341,11 +341,11 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
     let deep = format!("{}{}", "def \"a\" { ".repeat(80), "}".repeat(80));
     for (body, phrase) in [
         ("def Sphere \"a\" {\n double radius = = 2\n}\n", "a.usda:3: "),
-        ("def Sphere \"a\" { double radius = -1 }\n", "/a: \"radius\" of -1"),
+        ("def Sphere \"a\" { double radius = -1 }\n", "/a: \"radius\" is -1"),
         ("(\n metersPerUnit = 0\n)\n", "\"metersPerUnit\" is 0; expected a finite number above 0"),
-        ("(\n metersPerUnit = -1\n)\n", "\"metersPerUnit\" of -1"),
-        ("(\n metersPerUnit = inf\n)\n", "\"metersPerUnit\" of inf"),
-        ("def Camera \"a\" { float focalLength = 0 }\n", "\"focalLength\" of 0"),
+        ("(\n metersPerUnit = -1\n)\n", "\"metersPerUnit\" is -1"),
+        ("(\n metersPerUnit = inf\n)\n", "\"metersPerUnit\" is inf"),
+        ("def Camera \"a\" { float focalLength = 0 }\n", "\"focalLength\" is 0"),
         (
             "def Mesh \"a\" { int[] faceVertexCounts = [3] int[] faceVertexIndices = [0, 1, 9] point3f[] points = [(0,0,0), (1,0,0)] }\n",
             "a face refers to point 9, and there are 2 points",
@@ -360,13 +360,13 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
         ),
         (
             "def PointInstancer \"a\" { rel prototypes = </a> int[] protoIndices = [0] point3f[] positions = [(0,0,0)] }\n",
-            "or in a circle",
+            "or form a cycle",
         ),
-        (&deep, "more than 64 deep"),
+        (&deep, "more than 64 levels deep"),
         ("def Sphere \"B}lb\" {}\n", "line 2: the name of a prim contains braces"),
         (
             "class \"a\" (inherits = </b>) {}\nclass \"b\" (specializes = </a>) {}\ndef \"c\" (inherits = </a>) {}\n",
-            "in a circle",
+            "inherits from itself",
         ),
     ] {
         let (place, output) = imported(body);
@@ -386,7 +386,7 @@ fn crates_and_packages_that_lie_are_refused() {
         etendue(["import", &text(&file), "-o", &text(&place.path().join("made"))]).refused(&[name, phrase]);
     };
     let crate_bytes = fs::read(folder.join("kinds.usdc")).expect("a crate");
-    assert_refused("cut.usdc", &crate_bytes[..crate_bytes.len() / 2], "leads beyond its end");
+    assert_refused("cut.usdc", &crate_bytes[..crate_bytes.len() / 2], "an offset is beyond the end of the file");
     // The table of sections is at the offset in bytes 16 to 24; sections have a name of 16 bytes and their offset.
     let table = u64::from_le_bytes(crate_bytes[16..24].try_into().expect("eight")) as usize;
     for section in ["TOKENS", "STRINGS", "FIELDS", "FIELDSETS", "PATHS", "SPECS"] {
@@ -396,14 +396,14 @@ fn crates_and_packages_that_lie_are_refused() {
         let start = u64::from_le_bytes(crate_bytes[at..at + 8].try_into().expect("eight")) as usize;
         let mut lying = crate_bytes.clone();
         lying[start..start + 8].copy_from_slice(&(1_u64 << 40).to_le_bytes());
-        assert_refused("lying.usdc", &lying, "damaged, or no scene that is read");
+        assert_refused("lying.usdc", &lying, "damaged, or not a supported scene");
     }
     let package = fs::read(folder.join("kinds.usdz")).expect("a package");
-    assert_refused("cut.usdz", &package[..package.len() - 30], "no package that can be read");
+    assert_refused("cut.usdz", &package[..package.len() - 30], "the package cannot be read");
     // The method of the first file of the directory.
     let at = package.windows(4).position(|w| w == b"PK\x01\x02").expect("a directory") + 10;
     let mut packed = package.clone();
     packed[at] = 8;
-    assert_refused("packed.usdz", &packed, "is compressed or encrypted, which packages are not");
-    assert_refused("none.usdz", b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "a package without a layer");
+    assert_refused("packed.usdz", &packed, "is compressed or encrypted, which is not allowed in a package");
+    assert_refused("none.usdz", b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "the package has no layer");
 }

@@ -113,7 +113,7 @@ fn animations_that_are_none() {
     assert_refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
     assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",
-        &["times_s[2]", "0.2 s stands behind 0.3 s", "rising"],
+        &["times_s[2]", "the time 0.2 s follows 0.3 s", "rising"],
     );
     assert_refused("files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1]", &["2 times for 3 files", "give 3 times"]);
     assert_refused(

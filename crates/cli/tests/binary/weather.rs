@@ -135,7 +135,7 @@ fn open_meshes_and_layers_of_nothing() {
     let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
     job.write("open.obj", mesh);
     job.replace_first("small.toml", SUN, &FOG.replacen(shape, "shape = { type = \"mesh\", file = \"open.obj\" }", 1));
-    job.render(&[]).refused(&["small.toml:", "shape.file", "open", "3 of its 6 edges", "close its holes"]);
+    job.render(&[]).refused(&["small.toml:", "shape.file", "not closed", "3 of its 6 edges", "close its holes"]);
     let clear = ModifiedJob::new();
     clear
         .render(&["--set", "output.weather=true"])

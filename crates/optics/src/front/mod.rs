@@ -55,7 +55,7 @@ impl Optic {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Windscreen(_) => "wind-screen",
+            Self::Windscreen(_) => "windscreen",
             Self::Mirror(_) => "mirror",
         }
     }

@@ -29,7 +29,7 @@ pub(crate) fn largest_dn(bits: u32) -> f64 {
 }
 
 impl Effect for Adc {
-    const NAME: &'static str = "converter";
+    const NAME: &'static str = "ADC";
     const KEY: &'static str = "sensor.bits";
 
     /// Each factor of the gain is checked as described.

@@ -123,12 +123,12 @@ mod tests {
             effects.into_iter().filter(|effect| effect.status.is_modelled()).map(|effect| effect.name).collect()
         };
         p.noise = false;
-        assert_eq!(remaining(&p), ["full well", "converter"]);
+        assert_eq!(remaining(&p), ["full well", "ADC"]);
         p.noise = true;
         p.charge.dark.current_e_s = 3.0;
-        assert_eq!(remaining(&p), ["shot noise", "dark current", "full well", "read noise", "converter"]);
+        assert_eq!(remaining(&p), ["shot noise", "dark current", "full well", "read noise", "ADC"]);
         p.exposure.exposure_s = 0.0;
         p.voltage.noise.white_e = 0.0;
-        assert_eq!(remaining(&p), ["full well", "converter"]);
+        assert_eq!(remaining(&p), ["full well", "ADC"]);
     }
 }

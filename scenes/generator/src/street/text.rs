@@ -30,7 +30,7 @@ fn light() -> &'static str {
 /// The job that renders the street.
 pub(super) fn job() -> String {
     String::from(
-        "# The street as the camera behind a car's wind-screen sees it. Made by scenes/generator.\n\
+        "# The street as the camera behind a car's windscreen sees it. Made by scenes/generator.\n\
          format = 1\n\
          scene = \"scene.toml\"\n\n\
          [[cameras]]\n\

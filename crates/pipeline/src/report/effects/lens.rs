@@ -151,7 +151,7 @@ fn dispersion(camera: &CameraPlan) -> PlannedEffect {
     let absent_reason =
         format!("{} wavelengths share each path: the lens treats all wavelengths equally", camera.settings.wavelengths);
     let text = "each path carries one wavelength: rays through the lens depend on wavelength";
-    PlannedEffect::new(GROUP, "one wavelength a path", required_if(is_there, text, absent_reason))
+    PlannedEffect::new(GROUP, "one wavelength per path", required_if(is_there, text, absent_reason))
         .described_by("render.wavelengths_per_path")
 }
 
@@ -159,7 +159,7 @@ fn route(camera: &CameraPlan, cost: &FrameCost) -> PlannedEffect {
     let is_there = matches!(camera.settings.route, Route::Pupil(_));
     let text = "radiance is rendered at the centre of the entrance pupil, and the lens is applied to the image";
     let status = required_if(is_there, text, "each sample is traced through the lens");
-    let effect = PlannedEffect::new(GROUP, "lens on the picture", status).described_by("render.route");
+    let effect = PlannedEffect::new(GROUP, "lens applied after rendering", status).described_by("render.route");
     PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "the lens on the picture")), ..effect }
         .dropped_by([camera_change(camera, "render.route", "lens")])
 }
@@ -183,13 +183,13 @@ fn external_optics(camera: &CameraPlan, name: &'static str, key: &'static str, s
 fn mirror(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Mirror(_)));
     let status = required_if(is_there, "each ray is reflected at the mirror", "none is described");
-    external_optics(camera, "mirror before the lens", "external_optics.mirror", status)
+    external_optics(camera, "mirror in front of the lens", "external_optics.mirror", status)
 }
 
 fn windscreen(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Windscreen(_)));
     let status = required_if(is_there, "each ray is traced through the windscreen's layers", "none is described");
-    external_optics(camera, "wind-screen", "external_optics.windscreen", status)
+    external_optics(camera, "windscreen", "external_optics.windscreen", status)
 }
 
 fn drops(camera: &CameraPlan) -> PlannedEffect {
@@ -205,13 +205,13 @@ fn drops(camera: &CameraPlan) -> PlannedEffect {
         None => EffectStatus::LeftOut("none is described".to_owned()),
     };
     let key = "external_optics.windscreen.drops";
-    PlannedEffect::new(GROUP, "drops on the wind-screen", status).described_by(key).dropped_by([without(camera, key)])
+    PlannedEffect::new(GROUP, "drops on the windscreen", status).described_by(key).dropped_by([without(camera, key)])
 }
 
 fn dirt(camera: &CameraPlan) -> PlannedEffect {
     let is_there = camera.body.front.as_ref().is_some_and(|front| front.dirt().is_some());
     let status = required_if(is_there, "each ray is weighted by the mask", "none is described");
-    external_optics(camera, "dirt before the lens", "external_optics.dirt", status)
+    external_optics(camera, "dirt in front of the lens", "external_optics.dirt", status)
 }
 
 /// An effect on the irradiance: dropping the last one removes the whole section, with its margin.

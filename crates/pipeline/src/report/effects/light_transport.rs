@@ -174,7 +174,7 @@ fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
             "lights are sampled by their irradiance only: mirror images of lights are noisier".to_owned(),
         ),
     };
-    let effect = PlannedEffect::new(GROUP, "lights drawn by gloss", status).described_by("render.light_sampling");
+    let effect = PlannedEffect::new(GROUP, "light sampling by gloss", status).described_by("render.light_sampling");
     effect.dropped_by([camera_change(camera, "render.light_sampling", "irradiance")])
 }
 

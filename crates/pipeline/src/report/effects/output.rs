@@ -21,7 +21,7 @@ fn cube(camera: &CameraPlan) -> PlannedEffect {
     let status = required_if(bands.is_some(), text, "no output and no effect needs a spectrum");
     let (width, height) = camera.film_size();
     let planes = 2 * bands.map_or(0, Bands::count) * size_of::<f32>();
-    PlannedEffect::new(GROUP, "cube of bands", status)
+    PlannedEffect::new(GROUP, "spectral bands", status)
         .described_by("render.band_width_nm")
         .with_memory(f64::from(width) * f64::from(height) * planes as f64)
 }

@@ -54,7 +54,7 @@ fn black_level(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
     let text = "a black level other than the sensor's is subtracted";
     let status = required_if(is_own, text, "the sensor's black level is subtracted");
     let key = "isp.black_level";
-    PlannedEffect::new(GROUP, "own black level", status).described_by(key).dropped_by([without(camera, key)])
+    PlannedEffect::new(GROUP, "black level correction", status).described_by(key).dropped_by([without(camera, key)])
 }
 
 fn defects(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
@@ -112,7 +112,7 @@ fn quantisation(format: PictureFormat) -> PlannedEffect {
         PictureFormat::Png { bits } => format!("{bits} bits"),
         PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
     };
-    let effect = PlannedEffect::new(GROUP, "picture bits", EffectStatus::Modelled(text));
+    let effect = PlannedEffect::new(GROUP, "image bit depth", EffectStatus::Modelled(text));
     effect.described_by("isp.picture_bits").with_error("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
 }
 

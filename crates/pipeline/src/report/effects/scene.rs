@@ -78,7 +78,7 @@ fn motion(camera: &CameraPlan) -> PlannedEffect {
 fn modulation(plan: &Plan) -> PlannedEffect {
     let text = "each row receives the mean of a light over its exposure, evaluated only for lights that change";
     let status = required_if_present(plan.is_modulated(), text, "all lights are constant");
-    PlannedEffect::new(GROUP, "lights that change", status).described_by("scene.lights.modulation")
+    PlannedEffect::new(GROUP, "time-varying lights", status).described_by("scene.lights.modulation")
 }
 
 /// The sun of a sky, or suns among the lights. One key leaves out a sky's; those among the lights are named in their list.
@@ -100,7 +100,7 @@ fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
         _ => ("uniform radiance from all directions", lights.uniform_environment),
     };
     let status = required_if(is_there, text, "no light comes from infinity");
-    let effect = PlannedEffect::new(GROUP, "sky and surroundings", status).described_by("scene.environment");
+    let effect = PlannedEffect::new(GROUP, "sky and environment", status).described_by("scene.environment");
     effect.dropped_by(plan.sources.environment.is_some().then(|| "scene.environment=null".to_owned()))
 }
 
@@ -109,7 +109,7 @@ fn lamps(lights: &LightCounts) -> PlannedEffect {
     let count = lights.lamps + lights.openings;
     let text = format!("{count} lights, sampled by their contribution at each surface");
     let status = required_if(count > 0, text, "none");
-    let effect = PlannedEffect::new(GROUP, "lamps", status).described_by("scene.lights");
+    let effect = PlannedEffect::new(GROUP, "light sources", status).described_by("scene.lights");
     effect.dropped_by(["scene.lights=null".to_owned()])
 }
 
@@ -119,11 +119,11 @@ fn measured_lamps(plan: &Plan) -> PlannedEffect {
     let count = plan.sources.lamps.iter().filter(|lamp| is_measured(lamp.profile())).count();
     let text = format!("{count} lights; intensity distributions are evaluated only for these");
     let status = required_if_present(count > 0, text, "no light has a measured distribution");
-    PlannedEffect::new(GROUP, "measured lamp distributions", status).described_by("scene.lights.file")
+    PlannedEffect::new(GROUP, "photometric distributions", status).described_by("scene.lights.file")
 }
 
 fn glowing_surfaces(lights: &LightCounts) -> PlannedEffect {
     let count = lights.triangles + lights.spheres;
     let status = required_if(count > 0, format!("{count} triangles and spheres emit light"), "no surface emits light");
-    PlannedEffect::new(GROUP, "glowing surfaces", status).described_by("scene.materials.emission")
+    PlannedEffect::new(GROUP, "emissive surfaces", status).described_by("scene.materials.emission")
 }
