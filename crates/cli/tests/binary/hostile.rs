@@ -53,9 +53,11 @@ fn unused_files_need_not_exist() {
         "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
     job.replace_first("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
     let plan = etendue(["plan", &job.job()]).ok().out;
-    for phrase in
-        ["mesh that no object uses: spare", "material that no object uses: rest", "texture that no used material has: big"]
-    {
+    for phrase in [
+        "mesh that no object uses: spare",
+        "material that no object uses: rest",
+        "texture that no used material has: big",
+    ] {
         assert!(plan.contains(phrase), "{plan}");
     }
     job.replace_first("small.toml", "texture = \"checker\"", "texture = \"big\"");

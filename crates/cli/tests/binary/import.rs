@@ -251,7 +251,11 @@ fn alpha_of_pbrt_is_opacity() {
         pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"realistic\" \"string lensfile\" \"wide.dat\"");
     fs::write(place.path().join("a.pbrt"), scene).expect("written");
     let output = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
-    assert!(output.err.contains("the camera \"realistic\" is not supported: a perspective camera of 40°"), "{}", output.err);
+    assert!(
+        output.err.contains("the camera \"realistic\" is not supported: a perspective camera of 40°"),
+        "{}",
+        output.err
+    );
 }
 
 /// The scenes of scenes/import against the same written by hand, by the Z test of `compare`; a lamp that is a tenth brighter is detected.

@@ -215,7 +215,8 @@ fn edges_have_the_modulation_of_the_table() {
     assert!((sharp[19] - expected(19)).abs() > 0.05, "an edge without the table is another");
     let lens = "type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n[cameras.effects]\npsf = { mtf = { file = \"mtf.txt\" } }";
     let output = plan(folder.path(), &job("", "width_px = 8, height_px = 8, pixel_pitch_um = 5", lens, 2)).ok().out;
-    for phrase in ["table of modulation", "modulation error at most 0.00", "mean of tangential and sagittal", "1 other fields"]
+    for phrase in
+        ["table of modulation", "modulation error at most 0.00", "mean of tangential and sagittal", "1 other fields"]
     {
         assert!(output.contains(phrase), "no {phrase} in\n{output}");
     }

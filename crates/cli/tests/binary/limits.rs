@@ -70,14 +70,12 @@ fn corners_and_bases_are_counted() {
     }
     let job = text(&modified.folder().join("2.toml"));
     etendue(["plan", &job]).ok();
-    etendue(["plan", &job, "--limit", "bases=2"])
-        .refused(&["references has more than 2 files", "--limit bases=4"]);
+    etendue(["plan", &job, "--limit", "bases=2"]).refused(&["references has more than 2 files", "--limit bases=4"]);
 }
 
 #[test]
 fn limits_that_are_none_are_refused() {
-    etendue(["plan", "x.toml", "--limit", "picture=1"])
-        .refused(&["--limit picture=1: unknown limit", "picture-mib"]);
+    etendue(["plan", "x.toml", "--limit", "picture=1"]).refused(&["--limit picture=1: unknown limit", "picture-mib"]);
     etendue(["plan", "x.toml", "--limit", "bases"]).refused(&["--limit bases: expected NAME=N"]);
     etendue(["plan", "x.toml", "--limit", "bases=many"]).refused(&["a whole number from 1 to 64, not 'many'"]);
 }

@@ -247,7 +247,10 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
             "the transform is singular",
         ),
         ("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>", "the field of view is 180°"),
-        ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "\"intensity\": emission is below 0"),
+        (
+            "<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>",
+            "\"intensity\": emission is below 0",
+        ),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><rotate x=\"1\"/></transform></shape>",
             "<rotate> has no \"angle\"",
@@ -323,7 +326,11 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
         etendue(["import", &text(file), "-o", &imported].iter().chain(definitions)).refused(phrases);
         assert!(!place.path().join("made").exists(), "{definitions:?}: nothing is written");
     };
-    assert_refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and \"$q\" does not occur in the scene: its parameters are $r"]);
+    assert_refused(
+        &file,
+        &["-Dq=1"],
+        &["a.xml: ", "\"q\", and \"$q\" does not occur in the scene: its parameters are $r"],
+    );
     assert_refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
     assert_refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
     assert_refused(&file, &["-Dr"], &["NAME=VALUE"]);
