@@ -362,7 +362,7 @@ fn damage_is_reported() {
         file["textures"] = json!([{ "source": 0 }]);
         file["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": { "index": 0 } });
     });
-    refused(&["version 1.0"], |file| file["asset"]["version"] = json!("1.0"));
+    refused(&["version is 1.0"], |file| file["asset"]["version"] = json!("1.0"));
     refused(&["no triangles"], |file| file["scenes"][0]["nodes"] = json!([]));
     let message = read_bytes("a.gltf", b"{ \"asset\": ", &[]).expect_err("cut off");
     assert!(message.contains("JSON") && message.contains("line 1"), "{message}");

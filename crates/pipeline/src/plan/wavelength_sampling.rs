@@ -31,8 +31,10 @@ pub struct SpectralGain {
     /// red, green, blue).
     pub mean: f64,
     /// Minimum.
+    #[serde(rename = "least")]
     pub min: f64,
     /// Maximum.
+    #[serde(rename = "most")]
     pub max: f64,
 }
 

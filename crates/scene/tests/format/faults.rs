@@ -178,9 +178,8 @@ fn duplicate_statements() {
          \"look_at_m\", \"rotation_deg\""
     );
     let file = "file = \"camera.toml\"\nposition_m = [0, 0, 1]";
-    assert!(
-        errors_of_job("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\"")
-    );
+    let message = errors_of_job("position_m = [0, 0, 1]", file);
+    assert!(message.contains("cameras.front.lens: \"lens\" contradicts \"file\""), "{message}");
 }
 
 #[test]
@@ -191,10 +190,8 @@ fn one_name_twice() {
         "job.toml:25:8: scene.materials.grey.name: the name \"grey\" is already used at line 20; choose a different one"
     );
     let classes = "[scene.classes]\ncar = 26\nvan = 26\n\n[[scene.objects]]";
-    assert!(
-        errors_of_job("[[scene.objects]]", classes)
-            .contains("scene.classes.van: the class number 26 is already used at line 25")
-    );
+    let message = errors_of_job("[[scene.objects]]", classes);
+    assert!(message.contains("scene.classes.van: the class number 26 is already used at line 25"), "{message}");
 }
 
 #[test]
