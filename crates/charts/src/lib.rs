@@ -9,7 +9,7 @@
 //! −y/1000) m.
 //!
 //! This crate is independent of lens and sensor models: the caller provides the camera as a function from raster points to rays
-//! ([`RayCamera`]) and one from light to electrons ([`Meter`]). It reads no file and measures nothing.
+//! ([`RayCamera`]) and one from light to electrons ([`CameraResponse`]). It reads no file and measures nothing.
 
 mod camera_station;
 pub mod design;

@@ -22,7 +22,7 @@ use crate::{
 const SET_FILE: &str = "dataset.json";
 
 /// Renders the samples of a data set and writes them in the requested formats; returns the paths of the written files. Samples are committed one by one: an
-/// interrupted run keeps the complete ones, and a resumed one ([`Existing::Resume`]) skips them. Files over all samples, such as COCO's, include all samples in
+/// interrupted run keeps the complete ones, and a resumed one ([`ExistingFiles::Resume`]) skips them. Files over all samples, such as COCO's, include all samples in
 /// the folder. Runs on the caller's thread pool.
 ///
 /// # Errors

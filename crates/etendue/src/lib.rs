@@ -1,7 +1,7 @@
 //! Étendue as a library: from a job file to results, and every verb of the program as a function with typed arguments and reports.
 //!
 //! ```no_run
-//! use etendue::{Existing, Job, RenderOptions, Unobserved};
+//! use etendue::{ExistingFiles, Job, RenderOptions, Unobserved};
 //!
 //! # fn main() -> Result<(), etendue::Error> {
 //! let job = Job::open("scenes/street/street.toml")?;
@@ -9,7 +9,7 @@
 //! let camera = &results.cameras()[0];
 //! let depth = camera.ground_truth().depth;
 //! assert_eq!(depth.width(), camera.camera().body.raster.width());
-//! results.save("out/street".as_ref(), Existing::Refuse, &Unobserved)?;
+//! results.save("out/street".as_ref(), ExistingFiles::Refuse, &Unobserved)?;
 //! # Ok(())
 //! # }
 //! ```

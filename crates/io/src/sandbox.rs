@@ -51,7 +51,7 @@ impl Sandbox {
         Self { looked_for: Some(Arc::default()), ..self }
     }
 
-    /// Requested files, by the requested paths; some need not exist. Empty unless the sandbox [records](Self::noting) them.
+    /// Requested files, by the requested paths; some need not exist. Empty unless the sandbox [records](Self::recording) them.
     #[must_use]
     pub fn requested_files(&self) -> Vec<PathBuf> {
         let noted = self.looked_for.as_ref();

@@ -60,7 +60,7 @@ pub(crate) fn parse(text: &str) -> Read<TreeNode> {
 }
 
 /// Returns the document with a document mark before an initial brace or bracket, on the same line: otherwise it could be a key, and the scanner would keep all
-/// its tokens until the end, some 400 bytes per byte. Other forms of the problem, such as after a comment, are bounded by [`MOST_VALUES`].
+/// its tokens until the end, some 400 bytes per byte. Other forms of the problem, such as after a comment, are bounded by [`MAX_VALUES`].
 fn as_document(text: &str) -> Cow<'_, str> {
     let start = text.len() - text.trim_start().len();
     if text[start..].starts_with(['{', '[']) {

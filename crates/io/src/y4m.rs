@@ -54,7 +54,7 @@ fn limited_range(rgb: [u8; 3]) -> [u8; 3] {
 /// Relative tolerance of a fraction.
 const TOLERANCE: f64 = 1e-12;
 
-/// Simplest fraction within [`NEAR`] of a number above 0: the first such convergent of its continued fraction.
+/// Simplest fraction within [`TOLERANCE`] of a number above 0: the first such convergent of its continued fraction.
 fn fraction(value: f64) -> [u64; 2] {
     let (mut before, mut now) = ([0.0, 1.0], [1.0, 0.0]);
     let mut rest = value;

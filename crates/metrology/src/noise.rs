@@ -97,7 +97,7 @@ pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseEr
     saturated_percent([frame], full_scale).map_or(Ok(()), |percent| Err(NoiseError::Saturated { percent }))
 }
 
-/// Checks that the frames' means are within [`UNSTEADY`] of their median, less black.
+/// Checks that the frames' means are within [`MAX_MEAN_DEVIATION`] of their median, less black.
 fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
     let mut sorted = means.to_vec();
     sorted.sort_by(f64::total_cmp);

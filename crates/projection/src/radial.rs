@@ -4,8 +4,8 @@
 //!
 //! | | the polynomial takes | and gives | barrel has |
 //! | --- | --- | --- | --- |
-//! | [`Sense::IdealToObserved`] | the undistorted radius | the distorted radius | k₁ < 0 (OpenCV, with the radius in focal lengths) |
-//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that map output to input) |
+//! | [`DistortionDirection::IdealToObserved`] | the undistorted radius | the distorted radius | k₁ < 0 (OpenCV, with the radius in focal lengths) |
+//! | [`DistortionDirection::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that map output to input) |
 //!
 //! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A polynomial of the other
 //! direction is available as a [`fit`](RadialDistortion::fitted), with its residual; to first order its k₁ has the opposite sign.

@@ -42,7 +42,7 @@ pub fn by_name(name: &str) -> Option<&'static Sensitivity> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names accepted by [`named`]: canon-eos-5d-mark-ii, nikon-d5100, sony-ilce-7sm2.
+/// The names accepted by [`by_name`]: canon-eos-5d-mark-ii, nikon-d5100, sony-ilce-7sm2.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES

@@ -37,7 +37,7 @@ pub fn by_name(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names accepted by [`named`]: water, glass (clear float glass), glass-green, acrylic, polycarbonate.
+/// The names accepted by [`by_name`]: water, glass (clear float glass), glass-green, acrylic, polycarbonate.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES

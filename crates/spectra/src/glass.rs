@@ -11,7 +11,7 @@
 //! | [`Dispersion::Cauchy`] | n = A + B/λ² + C/λ⁴ | Cauchy 1836 |
 //! | [`Dispersion::Conrady`] | n = A + B/λ + C/λ³·⁵ | Conrady 1929 |
 //!
-//! A glass given only by index and Abbe number ([`Dispersion::of_abbe`]) is a Conrady curve through n_d, with n_F − n_C = (n_d − 1)/V_d and the
+//! A glass given only by index and Abbe number ([`Dispersion::from_abbe`]) is a Conrady curve through n_d, with n_F − n_C = (n_d − 1)/V_d and the
 //! partial dispersion of Schott's normal line, (n_g − n_F)/(n_F − n_C) = 0.6438 − 0.001682 V_d (Schott TIE-29). Ordinary glasses obey this third
 //! condition to 1 %; fluor crowns and short flints deviate from it by design.
 

@@ -48,7 +48,7 @@ pub fn by_name(name: &str) -> Option<&'static Spectrum> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names accepted by [`named`]: CIE illuminants (A, D50, D65, E, FL2, FL11, HP1, LED-B3, LED-B5, LED-RGB1, LED-V1) and measured lamps
+/// The names accepted by [`by_name`]: CIE illuminants (A, D50, D65, E, FL2, FL11, HP1, LED-B3, LED-B5, LED-RGB1, LED-V1) and measured lamps
 /// (incandescent, led-white-yag, mercury, metal-halide, sodium-high-pressure, sodium-low-pressure).
 #[must_use]
 pub fn names() -> &'static [&'static str] {

@@ -4,7 +4,7 @@
 //! (`data/SOURCES.md` lists their sources and licences), parsed once on first use.
 //!
 //! **Outside a table** sensitivities and emissions are zero, and reflectances, transmittances and refractive indices hold their end value;
-//! [`Outside`] selects the rule and [`Spectrum::covered_nm`] returns the range of the table.
+//! [`Extrapolation`] selects the rule and [`Spectrum::covered_nm`] returns the range of the table.
 
 pub mod camera;
 pub mod colour;

@@ -64,7 +64,7 @@ pub fn by_name(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The symbols accepted by [`named`]: Ag, Al, Au, Cr, Cu, Fe.
+/// The symbols accepted by [`by_name`]: Ag, Al, Au, Cr, Cu, Fe.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES

@@ -61,7 +61,7 @@ pub fn source(name: &str) -> Option<&'static str> {
     find(name).map(|entry| entry.source)
 }
 
-/// The names accepted by [`named`]: leaves, asphalt, concrete, soil, skin, rubber, paints, road markings, sheeting, cotton.
+/// The names accepted by [`by_name`]: leaves, asphalt, concrete, soil, skin, rubber, paints, road markings, sheeting, cotton.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     &NAMES

@@ -139,7 +139,7 @@ impl Spectrum {
         self.values.iter().copied().fold(f32::INFINITY, f32::min)
     }
 
-    /// First and last wavelength (nm, within 300–1 100) covered by the table or function of the spectrum; beyond, its [`Outside`] rule holds.
+    /// First and last wavelength (nm, within 300–1 100) covered by the table or function of the spectrum; beyond, its [`Extrapolation`] rule holds.
     #[must_use]
     pub fn covered_nm(&self) -> (f64, f64) {
         self.covered_nm

@@ -112,7 +112,7 @@ impl<'a> FrameRenderer<'a> {
         self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
     }
 
-    /// Renders a frame of `job` with `spp` and with [`MORE`] times as many samples per pixel.
+    /// Renders a frame of `job` with `spp` and with [`SECOND_SAMPLES_RATIO`] times as many samples per pixel.
     ///
     /// # Errors
     /// The job is invalid, the observer cancels, or bands on disk cannot be read.

@@ -1,6 +1,6 @@
 //! Cost of each choice of rendering in time and error, for a user's own job.
 //!
-//! A study renders parts of a job's frame repeatedly, with few samples and in many configurations ([`WayToRender`]). For each it measures the time and noise
+//! A study renders parts of a job's frame repeatedly, with few samples and in many configurations ([`Configuration`]). For each it measures the time and noise
 //! of a sample (pilots), and the distance of its mean from that of the exact form (bias separate from variance). From these it estimates time and error of
 //! any number of samples. It then names the configurations that no other beats (the Pareto front), with three recommendations: draft, standard image and
 //! reference.

@@ -1,12 +1,12 @@
 //! Viewer page: every layer of a result, as HTML that a browser opens from the file system.
 //!
 //! ```no_run
-//! use etendue::{Existing, Unobserved};
+//! use etendue::{ExistingFiles, Unobserved};
 //! use etendue_view::{ViewRequest, view};
 //!
 //! # fn main() -> Result<(), etendue::Error> {
 //! let request = ViewRequest { beside: Some("out/fog".into()), ..ViewRequest::new("out/clear") };
-//! let page = view(&request, Some("out/page".as_ref()), Existing::Refuse, &Unobserved)?;
+//! let page = view(&request, Some("out/page".as_ref()), ExistingFiles::Refuse, &Unobserved)?;
 //! assert!(page.ends_with("index.html"));
 //! # Ok(())
 //! # }

@@ -22,7 +22,7 @@ fn special(f: impl Fn(f64) -> f64, x: f32) -> f32 {
 
 /// Largest angle reduced here; libm reduces larger ones.
 const MAX_REDUCED_ANGLE: f32 = 1.0e6;
-/// π/2 to 33 bits, so that its products with the turns of an angle up to [`LARGEST`] are exact.
+/// π/2 to 33 bits, so that its products with the turns of an angle up to [`MAX_REDUCED_ANGLE`] are exact.
 const HALF_PI_HIGH: f64 = f64::from_bits(0x3ff9_21fb_5440_0000);
 /// Low part of π/2.
 const HALF_PI_LOW: f64 = f64::from_bits(0x3dd0_b461_1a62_6331);

@@ -13,7 +13,7 @@ use super::kernel::{
 /// Largest angle reduced here; libm reduces larger ones.
 const MAX_REDUCED_ANGLE: f64 = 16_384.0;
 /// π/2 in three parts of 39, 39 and 53 bits (Cody & Waite), so that the first two have exact products with the turns
-/// of an angle up to [`LARGEST`].
+/// of an angle up to [`MAX_REDUCED_ANGLE`].
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5444_0000),
     f64::from_bits(0x3d86_8c23_4c4c_4000),

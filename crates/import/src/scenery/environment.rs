@@ -110,7 +110,7 @@ impl SceneBuilder {
     }
 }
 
-/// Returns true if `turn` of [`Scenery::light_picture`] leaves the image upright and not mirrored: no resampling is needed.
+/// Returns true if `turn` of [`SceneBuilder::light_image`] leaves the image upright and not mirrored: no resampling is needed.
 pub(crate) fn is_upright(turn: &DMat3) -> bool {
     (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0
 }

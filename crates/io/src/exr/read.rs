@@ -57,7 +57,7 @@ impl ExrFile {
 }
 
 impl ExrSamples {
-    /// Samples one by one, as [`Samples::to_floats`] returns them.
+    /// Samples one by one, as [`ExrSamples::to_floats`] returns them.
     pub(crate) fn floats(&self) -> Box<dyn Iterator<Item = f32> + '_> {
         match self {
             Self::Half(values) | Self::Float(values) => Box::new(values.iter().copied()),

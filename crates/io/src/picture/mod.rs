@@ -36,7 +36,7 @@ pub fn read_image(file: &Path) -> Result<ImageAsset, Error> {
 /// Decodes the bytes of `file`.
 ///
 /// # Errors
-/// As [`read_picture`].
+/// As [`read_image`].
 pub fn decode_image(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels, to_rec_709) = if bytes.starts_with(&EXR_MAGIC) {
         raster::from_exr(file, decode_exr_as_stored(file, bytes)?)?

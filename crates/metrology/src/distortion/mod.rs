@@ -2,7 +2,7 @@
 //!
 //! 1. The radial polynomial of k₁ and k₂ nearest to the image is fitted in both directions, with its centre ([`RadialFit`]).
 //! 2. Starting with the better one, image positions are mapped to those of a camera without distortion that has the scale at the
-//!    image centre and the same tilt of the chart ([`ideal`](Ideal)). The map has degree nine; its value, slope and, as nearly as
+//!    image centre and the same tilt of the chart ([`ideal`](IdealMap)). The map has degree nine; its value, slope and, as nearly as
 //!    possible, curvature at the centre are a homography's. (For discs, the shift of each centroid is subtracted and the map
 //!    fitted again; [`disc`](crate::patch_statistics).)
 //! 3. The ratio of the two distances from the centre, observed over ideal, against the observed one in half diagonals, is the

@@ -28,7 +28,7 @@ const MAD_TO_SIGMA: f64 = 1.482_602_2;
 pub struct Outliers {
     /// Columns and rows in the stack, from 0.
     pub positions: Vec<[usize; 2]>,
-    /// Fraction of all pixels; `None` for fewer than [`FEWEST`].
+    /// Fraction of all pixels; `None` for fewer than [`MIN_OUTLIERS`].
     pub fraction: Option<Estimate>,
     /// Mean additional current of hot pixels, e⁻/s.
     pub mean_e_s: Option<Estimate>,

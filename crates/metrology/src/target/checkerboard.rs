@@ -1,7 +1,7 @@
 //! Checkerboards: the corners of four squares.
 //!
 //! Candidates come from [`chess`], in the image and in copies of half, a quarter and an eighth of its size (in which defocused
-//! corners look sharp). They are refined ([`chess::refined`]), linked if the line between two has a dark and a bright side along
+//! corners look sharp). They are refined ([`chess::refine_corner`]), linked if the line between two has a dark and a bright side along
 //! its whole length, and grown to a lattice. The copy with the most corners is used, and each corner is refined in the image
 //! itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance to its nearest neighbour, 3 to 12 px.
 

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::{footprint::Footprint, source::SPLIT_FRACTION};
 
-/// Cells across a ghost of a source with [`SHARE`] of the light, and the maximum.
+/// Cells across a ghost of a source with [`SPLIT_FRACTION`] of the light, and the maximum.
 const CELLS: f64 = 32.0;
 const MAX_CELLS: f64 = 192.0;
 /// Distance of points, cells.

@@ -5,8 +5,8 @@
 //!
 //! - **f-number**: A_p on the axis is π (f/2N)² with the focal length f = √(dA/dΩ) at the principal point, so that E = π τ L/(4 N²) there
 //!   (small-pupil limit, as a pinhole), for every projection.
-//! - **Constant pupil**: [`PupilStance::Flat`] keeps the disc perpendicular to the axis, foreshortened by cos θ (a rectilinear projection then gives
-//!   cos⁴ θ, and no light comes from 90° on). [`PupilStance::Turning`] keeps A_p for every direction. The pupils of wide lenses nearly do so: they
+//! - **Constant pupil**: [`PupilOrientation::Flat`] keeps the disc perpendicular to the axis, foreshortened by cos θ (a rectilinear projection then gives
+//!   cos⁴ θ, and no light comes from 90° on). [`PupilOrientation::Oriented`] keeps A_p for every direction. The pupils of wide lenses nearly do so: they
 //!   tilt and move towards the light (an equisolid fisheye is then uniform, an equidistant one falls off as sin θ/θ). A measured relative
 //!   illumination replaces both.
 //! - **Defocus**, if a focus distance is given: rays begin on the pupil's disc of radius f/2N and meet where the principal ray meets the plane in

@@ -1,6 +1,6 @@
 //! The geometry that contains all directions of a sensor image at sufficient resolution.
 //!
-//! - Up to [`WIDEST_RECTILINEAR_RAD`] from the axis: one rectilinear view, none of whose pixels is wider than a pixel of the sensor image anywhere. A
+//! - Up to [`MAX_RECTILINEAR_RAD`] from the axis: one rectilinear view, none of whose pixels is wider than a pixel of the sensor image anywhere. A
 //!   lens without distortion or lateral colour has the sensor image's own pixels.
 //! - Beyond that: six views, none of whose pixels is wider than the longer side of a pixel of the sensor image anywhere. (Near the pole of an
 //!   equirectangular panorama the width of pixels tends to zero, but not their height.)

@@ -7,7 +7,7 @@
 //! - [`PupilProjection::Rectilinear`]: one view about the optical axis, direction = ((px − principal) · pitch, 1) with the
 //!   tangents X/Z and Y/Z of the camera frame. Without distortion and with square pixels an image made by
 //!   [`PupilProjection::covering`] has exactly the pixels of the sensor image.
-//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for sensor images that extend farther than [`WIDEST_RECTILINEAR_RAD`] from the axis.
+//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for sensor images that extend farther than [`MAX_RECTILINEAR_RAD`] from the axis.
 
 use core::f64::consts::FRAC_PI_2;
 

@@ -53,7 +53,7 @@ impl From<EffectsOutput> for ScratchOutput {
 /// Light of a film with bands in `cube`, with all rows exposed equally.
 ///
 /// # Errors
-/// As [`Light::of_film`], and on disk errors.
+/// As [`Light::from_film`], and on disk errors.
 pub(super) fn light_from_film(
     camera: &CameraPlan,
     film: Film,

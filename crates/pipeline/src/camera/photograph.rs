@@ -31,7 +31,7 @@ impl Light {
     /// for all of them.
     ///
     /// # Errors
-    /// As [`Light::of_film`].
+    /// As [`Light::from_film`].
     pub fn from_captures(
         camera: &CameraPlan,
         films: Vec<Film>,

@@ -1,6 +1,6 @@
 //! Accumulates one pixel's samples into means with an unbiased variance.
 //!
-//! Samples of one replicate are summed in sample order in f64 ([`Sums`]). The replicates of a pixel are scrambled independently, so that the scatter of their
+//! Samples of one replicate are summed in sample order in f64 ([`ReplicateSums`]). The replicates of a pixel are scrambled independently, so that the scatter of their
 //! means is an unbiased estimate of the total variance. The scatter of the samples is not: it overstates the variance of a stratified mean by factors of ten
 //! to thousands.
 
@@ -127,7 +127,7 @@ pub struct PixelLight {
 }
 
 impl PixelLight {
-    /// Light from means and variances of [`Layout::slots`] values.
+    /// Light from means and variances of [`FilmLayout::slots`] values.
     pub(super) fn new(
         layout: &FilmLayout,
         means: Vec<f64>,

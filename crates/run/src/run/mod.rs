@@ -1,7 +1,7 @@
 //! One run: its request, its state, and its next step.
 //!
 //! A [`Run`] is the whole state of a run: its plan, its films with their passes, the states of the sensors, its progress. [`Run::next`] derives from it the
-//! next [`Step`]. The step changes the state. This repeats until the results of a camera, or the film of a shard, are ready. All runs are this loop:
+//! next [`RunStep`]. The step changes the state. This repeats until the results of a camera, or the film of a shard, are ready. All runs are this loop:
 //!
 //! | run | differs by |
 //! | --- | --- |

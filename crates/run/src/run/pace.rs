@@ -2,7 +2,7 @@
 //!
 //! The sample rate is that of the last pass, because it may change with other work on the machine or a lower clock. Except for the last passes, no pass is
 //! estimated to take more than [`MAX_FRACTION`] of the remaining time. No pass is larger than all passes before it, so that the image refines evenly and a
-//! wrong rate is noticed early. When [`LAST_FRACTION`] of the total time is left, a pass takes all of it. Passes are whole unless the smallest one, one
+//! wrong rate is noticed early. When [`MAX_LAST_FRACTION`] of the total time is left, a pass takes all of it. Passes are whole unless the smallest one, one
 //! sample per pixel in each replicate, is too large: then a pass takes a subset of the pixels.
 
 use etendue_pipeline::plan::{PARTS, Pass};

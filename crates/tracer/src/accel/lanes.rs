@@ -25,7 +25,7 @@ impl PlaneOffset {
         Self(index.min(5) * size_of::<F32x8>())
     }
 
-    /// Byte offset from the first of the six: less than six times the size of [`Eight`], and a multiple of it.
+    /// Byte offset from the first of the six: less than six times the size of [`F32x8`], and a multiple of it.
     #[inline(always)]
     pub(crate) fn bytes(self) -> usize {
         self.0

@@ -5,7 +5,7 @@
 //!
 //! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a triangle is off the true
 //! surface by no more than its corners are, and [`InstanceTransform::merged`] includes this in its error bound. Two kinds of instances are not
-//! merged. One that moves, or whose vertices do, has no single place. One with a triangle less than [`STEEP`] times as high as that rounding would
+//! merged. One that moves, or whose vertices do, has no single place. One with a triangle less than [`MIN_HEIGHT_ROUNDINGS`] times as high as that rounding would
 //! have a tilted plane.
 
 use etendue_core::{PrimitiveId, TimeInterval};
@@ -35,7 +35,7 @@ pub(crate) struct MergedMesh {
     pub(super) bounds: Box3,
     /// Instance and primitive of each triangle, in ascending order.
     names: Vec<(u32, u32)>,
-    /// Number in the tree of each instance's first triangle; [`NONE_LEFT`] for those that are not in it.
+    /// Number in the tree of each instance's first triangle; [`NO_PRIMITIVE`] for those that are not in it.
     first: Vec<u32>,
 }
 
@@ -61,7 +61,7 @@ impl MergedMesh {
         Some(Self { tree, bounds, names, first })
     }
 
-    /// The number in the tree of a triangle that a ray leaves; [`NONE_LEFT`] if it is not in it.
+    /// The number in the tree of a triangle that a ray leaves; [`NO_PRIMITIVE`] if it is not in it.
     #[inline(always)]
     pub(super) fn number(&self, left: Option<PrimitiveId>) -> u32 {
         let first = |left: PrimitiveId| self.first.get(left.instance as usize).filter(|first| **first != NO_PRIMITIVE);
@@ -74,7 +74,7 @@ impl MergedMesh {
     }
 }
 
-/// Static instances of meshes with [`MOST`] triangles together at most, those of few triangles chosen first, in ascending order; none if
+/// Static instances of meshes with [`MAX_MERGED_TRIANGLES`] triangles together at most, those of few triangles chosen first, in ascending order; none if
 /// there is only one.
 fn mergeable_instances(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize> {
     let triangles = |instance: &usize| match world.instances()[*instance].shape {

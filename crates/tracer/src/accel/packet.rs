@@ -125,7 +125,7 @@ impl HalfPacket {
         primitives.chunks(HALF_SIZE).map(move |chunk| Self::new(chunk, &corners))
     }
 
-    /// The half of at most [`Half::SIZE`] triangles by their numbers.
+    /// The half of at most [`HalfPacket::SIZE`] triangles by their numbers.
     pub(super) fn new(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         let mut half = Self { corners: [[F32x4([f32::NAN; HALF_SIZE]); 3]; 3], primitives: [u32::MAX; HALF_SIZE] };
         for (lane, primitive) in primitives.iter().enumerate() {

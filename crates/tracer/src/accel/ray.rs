@@ -125,7 +125,7 @@ pub(crate) struct LocalRay {
     /// Shears of x and y along z, and the length of z: t = z · scale.
     pub(super) shear: [f32; 2],
     pub(super) scale: f32,
-    /// Number in the tree of the triangle that the ray leaves; [`NONE_LEFT`] if it leaves none.
+    /// Number in the tree of the triangle that the ray leaves; [`NO_PRIMITIVE`] if it leaves none.
     pub(super) left: u32,
 }
 
@@ -151,7 +151,7 @@ impl LocalRay {
         }
     }
 
-    /// Sets the triangle that the ray leaves, by its number in the tree, or [`NONE_LEFT`].
+    /// Sets the triangle that the ray leaves, by its number in the tree, or [`NO_PRIMITIVE`].
     #[inline(always)]
     pub(super) fn excluding(self, left: u32) -> Self {
         Self { left, ..self }

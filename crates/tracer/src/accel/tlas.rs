@@ -251,7 +251,7 @@ impl LaneTask for OcclusionQuery<'_, '_> {
     }
 }
 
-/// The triangle that a ray leaves, in an instance's own tree; [`NONE_LEFT`] if it belongs to another.
+/// The triangle that a ray leaves, in an instance's own tree; [`NO_PRIMITIVE`] if it belongs to another.
 #[inline(always)]
 fn left_of(ray: &Ray, instance: u32) -> u32 {
     match ray.left {

@@ -56,7 +56,7 @@ impl Placement {
         }
     }
 
-    /// As [`Placement::still`], mutable.
+    /// As [`Placement::static_transform`], mutable.
     pub(crate) fn still_mut(&mut self) -> Option<&mut InstanceTransform> {
         match self {
             Self::Static(transform) => Some(transform),

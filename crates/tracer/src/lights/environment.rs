@@ -89,7 +89,7 @@ pub enum EnvironmentError {
     /// All texels are black.
     #[error("the environment map is black everywhere; remove it")]
     Black,
-    /// Luminance above [`BRIGHTEST`].
+    /// Luminance above [`MAX_LIGHT_VALUE`].
     #[error(
         "the brightest texel of the environment map, {texel:e} times {scale:e} cd/m², exceeds the maximum of 1e30; lower the \
          scale"

@@ -6,7 +6,7 @@
 //! the plane of incidence, half vectors move by half of the motion of the light; across it, by 1/(cos θₒ + cos θᵢ) of it. The two widths are
 //! distinct, as towards grazing they differ by orders of magnitude.
 //!
-//! The diffuse part counts as at least [`LEAST`] of the light that the lobes reflect: a floor for lights outside them.
+//! The diffuse part counts as at least [`MIN_DIFFUSE_FRACTION`] of the light that the lobes reflect: a floor for lights outside them.
 
 use core::f32::consts::{FRAC_1_PI, PI};
 

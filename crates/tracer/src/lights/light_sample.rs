@@ -16,7 +16,7 @@ pub struct LightSample<const N: usize> {
     /// Spectral radiance towards the point; for a lamp without an opening the spectral irradiance of a surface that faces it.
     pub radiance: Spectral<N>,
     /// Density of the direction, including that of the choice, 1/sr; for a lamp without an opening the probability of the choice. Times the
-    /// number of the receiver's samples ([`LightSampleContext::draws`]). Positive.
+    /// number of the receiver's samples ([`LightSampleContext::samples`]). Positive.
     pub pdf: f32,
     /// True for a lamp without an opening: only light sampling can find it.
     pub delta: bool,

@@ -71,7 +71,7 @@ impl LightSampler {
     }
 
     /// The light selected by `u` in [0, 1), and its probability; `None` if nothing reaches the receiver. The start of the receiver
-    /// ([`LightSampler::start`], [`LightSampler::local_share`]) serves all its samples.
+    /// ([`LightSampler::start`], [`LightSampler::local_fraction`]) serves all its samples.
     pub(super) fn sample<F: Fn(u32) -> LampIrradiance>(
         &self,
         query: &TreeQuery<'_, F>,
@@ -110,7 +110,7 @@ impl LightSampler {
         sampled.filter(|light| self.reaches(light.id, receiver))
     }
 
-    /// The probability of a light at infinity among those at infinity: by its weight, and to [`MATT_SHARE`] by its weight for a diffuse
+    /// The probability of a light at infinity among those at infinity: by its weight, and to [`DIFFUSE_FRACTION`] by its weight for a diffuse
     /// receiver. Suns that the receiver faces away from keep their probabilities.
     fn distant_probability(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
         let raised = self.weighted_distant_probability(light, receiver);

@@ -12,7 +12,7 @@
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
 //! - The caller states the time interval over which changing strengths are averaged, within the view's interval. A light that is
 //!   dark throughout the view's interval is never sampled; other lights count in light selection with their level over it
-//!   ([`crate::materials::choice_level`]).
+//!   ([`crate::materials::selection_level`]).
 
 mod collect;
 mod environment;

@@ -8,7 +8,7 @@ pub(super) struct EnvironmentCell {
     pub(super) solid_angle: f64,
 }
 
-/// Fraction of light that comes from bright patches beyond [`BRIGHT`] times the mean. The weight of a cell is proportional to radiance and
+/// Fraction of light that comes from bright patches beyond [`MIN_BRIGHT_RATIO`] times the mean. The weight of a cell is proportional to radiance and
 /// solid angle; its solid angle is in units of the whole sphere.
 pub(super) fn patches(cells: impl Iterator<Item = EnvironmentCell> + Clone) -> f64 {
     let all: f64 = cells.clone().map(|cell| cell.weight).sum();

@@ -72,7 +72,7 @@ impl Sun {
     /// A sun of spectral `irradiance` on a surface that faces it, W·m⁻²·nm⁻¹.
     ///
     /// # Errors
-    /// As [`Sun::of_radiance`].
+    /// As [`Sun::from_radiance`].
     pub fn from_irradiance(
         direction: DVec3,
         angular_diameter_deg: f64,

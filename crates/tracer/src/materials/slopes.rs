@@ -41,7 +41,7 @@ struct StripInterval {
 /// Facets of one slope y.
 struct SlopeStrip {
     y: f64,
-    /// Stretch of the coordinate along x, see [`SeenFacets::slope`].
+    /// Stretch of the coordinate along x, see [`VisibleFacets::slope`].
     stretch: f64,
     weight: f64,
 }

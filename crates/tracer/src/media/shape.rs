@@ -32,7 +32,7 @@ pub enum MediumRegion {
 
 impl MediumRegion {
     /// Start and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` if there is none. For a
-    /// mesh from the ray's first entry to its last exit: gaps may lie between ([`Shape::gaps`]).
+    /// mesh from the ray's first entry to its last exit: gaps may lie between ([`MediumRegion::gaps`]).
     pub(super) fn span(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(f64, f64)> {
         let (from, to) = match self {
             Self::Everywhere => (0.0, end),

@@ -137,7 +137,7 @@ fn unit(a: u32, b: u32) -> f64 {
     unit_f64(u64::from(a) << 32 | u64::from(b))
 }
 
-/// A Poisson number of mean [`MEAN`] by inversion.
+/// A Poisson number of mean [`MEAN_PARTICLES`] by inversion.
 fn poisson(u: f64) -> u32 {
     let (mut count, mut chance) = (0, exp(-MEAN_PARTICLES));
     let mut below = chance;

@@ -10,7 +10,7 @@
 //! - f-number: focal length over the diameter of the paraxial entrance pupil. On the axis light follows the real bundle; a lens corrected for coma
 //!   gives E = π τ L/4N², not the flat disc's π τ L/(1 + 4N²).
 //! - Neither pupil is constant: each field point has the pupil that its rays pass.
-//! - [`Prescribed::projected_solid_angle_sr`] holds at 587.56 nm, by a quadrature accurate to about 1e-5.
+//! - [`PrescriptionLens::projected_solid_angle_sr`] holds at 587.56 nm, by a quadrature accurate to about 1e-5.
 
 mod beam;
 mod bundles;

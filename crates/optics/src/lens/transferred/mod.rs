@@ -8,7 +8,7 @@
 //!   the entrance pupil, which is the origin of the camera frame: the point where principal rays near the axis cross it.
 //! - f-number: focal length over the diameter of the entrance pupil of the bundle on the axis, at the sensor position.
 //! - Neither pupil is constant: each field point has the pupil of the functions.
-//! - [`Transferred::projected_solid_angle_sr`] holds for the wavelength nearest to 587.56 nm, by a quadrature accurate to about 1e-5.
+//! - [`RayTransferLens::projected_solid_angle_sr`] holds for the wavelength nearest to 587.56 nm, by a quadrature accurate to about 1e-5.
 //!
 //! Left out: effects outside the functions: absorbing glass, reflecting surfaces (a transmittance stands for both), scatter, the errors of the fit.
 

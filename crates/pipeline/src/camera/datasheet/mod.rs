@@ -3,7 +3,7 @@
 //! A data sheet's figures follow from each other (`etendue_sensor::figures`), so that reading errors become visible: K·1/K = 1, SNR_max² = μ_e.sat, DR =
 //! μ_e.sat/μ_e.min, μ_e.min from σ_d and K, photons times efficiency are electrons, and the saturation capacity has a digital number. Each pair is compared
 //! with the tolerance of its digits: half a unit of the last one, of the figure and of all figures from which it is computed (trailing zeros do not count as
-//! digits). Data sheets mix means of several units of a camera. A larger difference of up to [`LOOSE`] is therefore accepted with a warning; beyond it, the
+//! digits). Data sheets mix means of several units of a camera. A larger difference of up to [`MAX_RELATIVE_DIFFERENCE`] is therefore accepted with a warning; beyond it, the
 //! sheet contradicts itself and is refused.
 
 mod consistency;

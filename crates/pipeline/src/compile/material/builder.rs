@@ -38,7 +38,7 @@ struct CompiledMaterial {
     name: String,
     /// True if any of its textures uses texture coordinates.
     needs_coordinates: bool,
-    /// For a material with a stated flux: number of emissive sides. Its radiance is that of a total area of 1 m² until [`MaterialTableBuilder::of_area`]
+    /// For a material with a stated flux: number of emissive sides. Its radiance is that of a total area of 1 m² until [`MaterialTableBuilder::with_area`]
     /// replaces it.
     flux_sides: Option<f64>,
     /// For a modulated material: true if each of its objects has its own phase.
@@ -150,7 +150,7 @@ impl MaterialTableBuilder {
         Some(id)
     }
 
-    /// Returns true if a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] must make a variant.
+    /// Returns true if a material's light is stated as a flux, so that [`MaterialTableBuilder::with_area`] must make a variant.
     pub(in super::super) fn has_stated_flux(&self, id: MaterialId) -> bool {
         self.materials.get(id.0 as usize).is_some_and(|material| material.flux_sides.is_some())
     }

@@ -18,7 +18,7 @@ pub(super) struct TexelInterpretation {
 }
 
 impl TexelInterpretation {
-    /// Encoding of [`Reading::texels`] for pixels of a format.
+    /// Encoding of [`TexelInterpretation::texels`] for pixels of a format.
     pub(super) fn encoding(self, format: PixelFormat) -> TexelEncoding {
         match (format.is_bytes() && self.scale == 1.0, self.encoded && !self.alpha) {
             (true, true) => TexelEncoding::Srgb8,

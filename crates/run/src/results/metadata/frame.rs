@@ -71,7 +71,7 @@ pub(crate) fn with_state(mut facts: Value, after: &SensorState, since: u32) -> V
     facts
 }
 
-/// Adds the digests of the frame's files and a hash of all facts, for [`check_whole`].
+/// Adds the digests of the frame's files and a hash of all facts, for [`check_seal`].
 pub(crate) fn with_seal(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> Value {
     facts[FILES] = json!(files);
     facts[SHA256] = seal(&facts).into();

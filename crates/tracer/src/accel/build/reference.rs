@@ -122,7 +122,7 @@ pub(super) fn swept(count: usize, bounds: &(impl Fn(u32) -> Box3 + Sync)) -> Vec
     (0..count as u32).into_par_iter().map(reference).collect()
 }
 
-/// As [`whole`], with several references to a triangle that is large compared with the others.
+/// As [`unsplit_references`], with several references to a triangle that is large compared with the others.
 pub(super) fn split_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
     let mut references = unsplit_references(count, corners);
     let limits = SplitLimits::new(&references);

@@ -122,7 +122,7 @@ fn resolved(source: NodeSource, top: &Bvh2) -> NodeSource {
     }
 }
 
-/// True if more than [`CROWD`] centres coincide, at a resolution of 2⁻²¹ of the whole.
+/// True if more than [`MAX_COINCIDENT`] centres coincide, at a resolution of 2⁻²¹ of the whole.
 fn is_crowded(binary: &[BinaryNode]) -> bool {
     let Some(bounds) = binary.first().map(|root| root.bounds).filter(|_| binary.len() > MAX_COINCIDENT) else {
         return false;

@@ -14,7 +14,7 @@ const EXTENT_RANGE_M: [f64; 2] = [1e-4, 100.0];
 /// Minimum cosine at which the area of a flat face is evaluated; closer to its plane, the area is that at this cosine.
 const MIN_COS: f32 = 1e-3;
 
-/// Maximum fraction of the flux that a flat opening may lose towards its own plane. An isotropic lamp loses half of [`LEAST_COS`].
+/// Maximum fraction of the flux that a flat opening may lose towards its own plane. An isotropic lamp loses half of [`MIN_COS`].
 const MAX_LOST_FRACTION: f64 = 0.01;
 
 /// Directions in the plane of a flat opening over which its loss is summed: steps of 0.1°.

@@ -117,7 +117,7 @@ impl OpeningFacets {
         (facet_sample.surface.pdf > 0.0).then_some(facet_sample)
     }
 
-    /// Density with which [`Facets::sample`] returns the direction to a point that was hit, 1/sr.
+    /// Density with which [`OpeningFacets::sample`] returns the direction to a point that was hit, 1/sr.
     pub(in crate::lights) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         let weights = self.weights(hit.receiver.position);
         let facet = self.facet_of(hit.point.primitive as usize);

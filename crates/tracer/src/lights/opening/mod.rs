@@ -6,7 +6,7 @@
 //!   and reflectors within the opening.
 //! - A flat opening emits from both sides, a body outwards, wherever the intensity is positive. No flux is lost, except by flat
 //!   openings within a cosine of 10⁻³ towards their plane: there A(ω) is at least that fraction of the face, so that radiance is
-//!   bounded. [`Opening::lost_share`] returns the loss. Lamps that lose more than a hundredth are refused.
+//!   bounded. [`Opening::lost_fraction`] returns the loss. Lamps that lose more than a hundredth are refused.
 //! - Rays hit a mesh of flat facets ([`Opening::mesh`]) or a sphere that its instance stretches. Light
 //!   samples lie on the same surface, and A(ω) is that of the mesh, except for the side of round bodies: the silhouette of their
 //!   48 sides has the circle's width in the mean over directions and differs from it by at most 1.5·10⁻³.

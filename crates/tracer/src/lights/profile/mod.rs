@@ -6,7 +6,7 @@
 //! - [`Profile::value`]: the function,
 //! - [`Profile::flux_sr`]: its integral over all directions, sr times the unit of the value,
 //! - [`Profile::peak`] and [`Profile::on_axis`]: its maximum, and its value along its [`Profile::axis`],
-//! - its [`Spread`], for the selection of lamps.
+//! - its [`DirectionalExtent`], for the selection of lamps.
 //!
 //! A profile belongs to directions in space: a mask shapes the light in the whole volume that it crosses.
 

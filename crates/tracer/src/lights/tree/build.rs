@@ -2,7 +2,7 @@
 //!
 //! The lights of a node are halved repeatedly, always the part of the highest cost, by the best of the planes between twelve bins along each axis,
 //! until there are eight parts. Each part of several lights becomes a node. Lights that no plane separates (coincident ones), and those at deep
-//! levels, are halved by count, so that the tree is never deeper than [`DEEP`] + log₂ n.
+//! levels, are halved by count, so that the tree is never deeper than [`MAX_SAH_DEPTH`] + log₂ n.
 
 use core::ops::Range;
 

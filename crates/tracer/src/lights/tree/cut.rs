@@ -1,11 +1,11 @@
 //! The cut of the tree from which a receiver chooses.
 //!
-//! Clusters are opened before the choice, from the root on, until [`OPENED`] nodes are open. One of the resulting slots is sampled. (Conty Estevez
+//! Clusters are opened before the choice, from the root on, until [`MAX_OPENED_NODES`] nodes are open. One of the resulting slots is sampled. (Conty Estevez
 //! and Kulla 2018 open near clusters in the same manner, and sample each.) Opened are:
 //!
-//! - For a glossy receiver, clusters whose weight would exceed [`MATTERS`] of the whole estimate if all their light came from the place in them
+//! - For a glossy receiver, clusters whose weight would exceed [`GLOSSY_THRESHOLD`] of the whole estimate if all their light came from the place in them
 //!   that the lobes favour most. The mean of a narrow lobe over a cluster contains no information on the one lamp in it that is reflected.
-//! - For a diffuse receiver in view, clusters whose weight exceeds [`MATTERS_TO_MATT`], as the estimate of a cluster around or near the receiver
+//! - For a diffuse receiver in view, clusters whose weight exceeds [`DIFFUSE_THRESHOLD`], as the estimate of a cluster around or near the receiver
 //!   is rough. Elsewhere on a path this is not worth its time.
 
 use super::light_tree::{LightTree, ParentSlot, TreeQuery, mix};

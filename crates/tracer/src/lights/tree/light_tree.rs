@@ -110,7 +110,7 @@ impl LightTree {
     }
 }
 
-/// Turns a row of weights into selection weights: [`MATT_SHARE`] by the weights for a diffuse receiver, the rest by the raised weights.
+/// Turns a row of weights into selection weights: [`DIFFUSE_FRACTION`] by the weights for a diffuse receiver, the rest by the raised weights.
 /// Returns the sum of the raised ones.
 #[inline(always)]
 pub(super) fn mix(raised: &mut [f32], plain: &[f32]) -> f32 {

@@ -4,7 +4,7 @@
 //! intensity and the cone of its light. From these follows a bound-like estimate of the irradiance at a receiver. A cluster is entered with a
 //! probability proportional to this estimate. Differences here: nodes have eight children, whose estimates are computed four at once; leaves that are
 //! lamps are weighted by their own intensity towards the receiver. A sample costs O(log n). [`LightTree::probability`] follows the path to a light
-//! with the same arithmetic in the same order, so that it returns the same bits as [`LightTree::pick`].
+//! with the same arithmetic in the same order, so that it returns the same bits as [`LightTree::sample`].
 //!
 //! An estimate is zero only where the light is certainly zero (behind the emitter, below the receiver's horizon).
 //!
@@ -56,7 +56,7 @@ impl LightTree {
         Some((child.index as usize, probability))
     }
 
-    /// The probability with which [`LightTree::pick`] returns a light.
+    /// The probability with which [`LightTree::sample`] returns a light.
     pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(
         &self,
         query: &TreeQuery<'_, F>,

@@ -14,7 +14,7 @@ pub(super) const TILE: u32 = 64;
 /// Bytes of three floats.
 pub(super) const FLOAT_TEXEL: usize = 12;
 
-/// Bytes of the block of [`Statistics`].
+/// Bytes of the block of [`ImageStatistics`].
 pub(super) const STATISTICS_BYTES: usize = 36;
 
 /// One resolution.
