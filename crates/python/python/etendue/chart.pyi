@@ -569,7 +569,7 @@ def led_flicker(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Pulsed lamps of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020).
+    """Pulsed lights of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020).
 
     frequencies_hz: Frequencies of the columns, Hz. One, or a sequence of them. Default: 90,110,200,400.
     duty_cycles: Duty cycles of the rows: fractions of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
@@ -608,12 +608,12 @@ def points(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Small lamps in the dark: point-spread function, chromatic displacement.
+    """Small lights in the dark: point-spread function, chromatic displacement.
 
     columns: Columns [default: as many as fit the field].
     rows: Rows [default: as many as fit the field].
     pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
-    diameter_px: Diameter of a lamp, px of the image's middle. Default: 0.5.
+    diameter_px: Diameter of a light, px at the image centre. Default: 0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
     set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].

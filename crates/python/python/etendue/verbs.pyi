@@ -63,7 +63,7 @@ def rig(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
     noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel instead of K × K; sets sensor.scale of all cameras.
     integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
     quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -116,7 +116,7 @@ def tradeoff(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
     noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel instead of K × K; sets sensor.scale of all cameras.
     integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
     quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -174,7 +174,7 @@ def dataset(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
     noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel instead of K × K; sets sensor.scale of all cameras.
     integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
     quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -188,10 +188,10 @@ def dataset(
     scratch: Folder of these scratch files, which are removed at the end of the run [default: that of --cache].
     output: Folder for the results; created if missing.
     overwrite: Replace existing results.
-    variations: The variations file (TOML): keys of the job, its scene and its cameras with how their values are drawn [default: nothing varies but noise].
-    samples: Samples to make, first to last (the last excluded); each is the same alone or among all. Default: 0..1.
+    variations: The variations file (TOML): keys of the job, its scene and its cameras with the distributions of their values [default: only noise varies].
+    samples: Samples to make, first to last (the last excluded); a sample does not depend on the others. Default: 0..1.
     frames: Frames of each sample, first to last (the last excluded). Default: 0..1.
-    format: Formats to write, with commas between them [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes, cryptomatte, mcap, openlabel, osi. One, or a sequence of them.
+    format: Formats to write, separated by commas [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes, cryptomatte, mcap, openlabel, osi. One, or a sequence of them.
     resume: Resume the data set in the folder: complete samples are kept, and more may be added.
     threads: Worker threads [default: one per processor]. The result does not depend on it.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
@@ -351,7 +351,7 @@ def inspect(
 ) -> str:
     """Print the content of a file, with units; write it as an image.
 
-    file: A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car.
+    file: A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lights (IES, EULUMDAT), JSON side-car.
     png: Write its content as an image here.
     layer: Layer of an EXR for the image: a channel, or the part of channel names before the last dot (depth, instance, flow.forward, N).
     boxes: Draw the boxes of a frame's objects on the image.
@@ -377,7 +377,7 @@ def view(
     beside: Second result, shown side by side, by a wipe, and as the difference; of the same sizes.
     frames: Frames to show, first to last (the last excluded) [default: all].
     max_mb: Maximum size of the numbers of one layer, MB; larger layers are downsampled by a whole factor. Default: 32.
-    output: Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an existing page is replaced].
+    output: Folder for the page, or the name of one file that ends in .html and contains everything [default: the folder `view` in FOLDER, where an existing page is replaced].
     overwrite: Replace existing files.
     no_open: Write the page without opening it; this is the default without a terminal.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
