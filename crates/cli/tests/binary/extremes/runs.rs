@@ -34,7 +34,7 @@ fn runs_that_cannot_go_on() {
     let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
     let memory = refused_without_files(2, "a film for which there is no memory", &memory, place.path());
     // Free memory depends on the addresses given by the system.
-    let needed = memory.found.split(", and ").next().unwrap_or_default().to_owned();
+    let needed = memory.found.split(", but ").next().unwrap_or_default().to_owned();
     let memory = Row { found: format!("{needed}, and less is free"), ..memory };
     let caption = "With real limits of the system. Small failed allocations and panics of workers have their own tests (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs).";
     check("Runs that cannot continue", caption, &[full, memory]);
