@@ -4,7 +4,7 @@ use crate::scenes::{camera, shipped};
 use etendue_bench_rays::clock::process_cpu_s;
 use etendue_bench_rays::table::Table;
 use etendue_pipeline::render::{LightRequest, light};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 
 const NOTE: &str = "Five scenes in 320 × 200 px (the Cornell box as it is), by `noise_threshold` and by as many samples everywhere as its mean, four \
     seeds each. Left: the root of the variance of a pixel's electrons by its scatter over the seeds, over the variance that the sensor has there, mean over pixels that are not \
@@ -102,7 +102,7 @@ impl SeedImages {
         let from_s = process_cpu_s();
         for seed in 1..=SEEDS {
             plan.cameras[0].settings.seed = seed;
-            let film = light(plan, camera(plan), LightRequest::default(), &Unobserved).expect("nobody cancels");
+            let film = light(plan, camera(plan), LightRequest::default(), &NullObserver).expect("nobody cancels");
             let rate = film.electron_rate.expect("electrons are folded").mean;
             width = rate.width();
             electrons.push(rate.samples().iter().map(|e| f64::from(*e) * noise.exposure_s()).collect::<Vec<f64>>());

@@ -13,7 +13,7 @@ use etendue_pipeline::plan::Route;
 use etendue_pipeline::pupil_depth::pupil_depth;
 use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::stored::StoredRadianceImage;
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
 use rayon::ThreadPool;
@@ -104,7 +104,7 @@ fn blend(plan: &Plan) -> FastBlend {
 }
 
 fn through_lens(plan: &Plan, pool: &ThreadPool) -> (SpectralCube<Radiance>, f64) {
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &NullObserver)));
     (film.expect("nobody cancels").radiance().expect("a cube is kept").mean, seconds)
 }
 

@@ -8,7 +8,7 @@ use etendue_core::SpectralCube;
 use etendue_core::quantity::Radiance;
 use etendue_io::Provenance;
 use etendue_io::exr::encode_spectral;
-use etendue_pipeline::Unobserved;
+use etendue_pipeline::NullObserver;
 use etendue_pipeline::render::{LightRequest, light};
 
 const NOTE: &str = "Radiance of a small picture of the street (a noisy one: it compresses badly), without its variance, \
@@ -45,6 +45,6 @@ pub fn table() -> Table {
 
 fn radiance() -> SpectralCube<Radiance> {
     let plan = STREET.small_plan();
-    let film = light(&plan, camera(&plan), LightRequest::default(), &Unobserved).expect("nobody cancels");
+    let film = light(&plan, camera(&plan), LightRequest::default(), &NullObserver).expect("nobody cancels");
     film.radiance().expect("the street keeps radiance").mean
 }

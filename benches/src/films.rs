@@ -2,7 +2,7 @@
 
 use crate::child;
 use crate::memory::peak_mb;
-use etendue::{ExistingFiles, FilmMemory, JobRequest, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, FilmMemory, JobRequest, NullObserver, RenderOptions};
 use etendue_bench_rays::clock::process_cpu_s;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
@@ -55,7 +55,7 @@ pub fn child(folder: &str, job: &str) -> String {
     pool(2).install(|| {
         let request = JobRequest { films, ..JobRequest::new(folder.join(format!("{job}.toml"))) };
         let job = request.open().unwrap_or_else(|errors| panic!("{errors}"));
-        let result = job.save(&RenderOptions::default(), &output, ExistingFiles::Replace, &Unobserved);
+        let result = job.save(&RenderOptions::default(), &output, ExistingFiles::Replace, &NullObserver);
         result.unwrap_or_else(|error| panic!("{error}"))
     });
     std::fs::remove_dir_all(&output).expect("the folder of temporary files can be written to");

@@ -6,7 +6,7 @@ use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{LightRequest, light, light_counts};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use rayon::ThreadPool;
 
 const NOTE: &str = "The street without sun and sky, under lamps of all directions spread over 240 × 14 m, 4 to 8 m above \
@@ -94,7 +94,7 @@ fn scene(lamps: u32) -> String {
 fn rendered(plan: &mut Plan, pool: &ThreadPool, seed: u64) -> (Vec<f32>, f64) {
     let settings = &mut plan.cameras[0].settings;
     (settings.spp, settings.seed) = (SPP, seed);
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &NullObserver)));
     let electrons = film.expect("nobody cancels").electron_rate.expect("the street's camera folds electrons");
     (electrons.mean.samples().to_vec(), seconds)
 }

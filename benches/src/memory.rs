@@ -4,7 +4,7 @@ use crate::child;
 use crate::scenes::{ALL, Scene, camera};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
-use etendue_pipeline::Unobserved;
+use etendue_pipeline::NullObserver;
 use etendue_pipeline::render::{LightRequest, light};
 
 /// The argument that makes this program a child that measures the scene named next.
@@ -27,7 +27,7 @@ pub fn child(scene: &str) -> String {
     let plan = Scene::named(scene).thin_plan();
     let compiled = peak_mb();
     let camera = camera(&plan);
-    let film = pool(2).install(|| light(&plan, camera, LightRequest::default(), &Unobserved));
+    let film = pool(2).install(|| light(&plan, camera, LightRequest::default(), &NullObserver));
     std::hint::black_box(film.expect("nobody cancels"));
     let (width, height) = camera.film_size();
     let film_mb = camera.film_layout().bytes(width as usize, height as usize) / 1e6;

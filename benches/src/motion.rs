@@ -6,7 +6,7 @@ use etendue_bench_rays::runs::{COUNT, RunStatistics};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{LightRequest, light, light_counts};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use rayon::ThreadPool;
 use std::fmt::Write as _;
 
@@ -67,7 +67,7 @@ pub fn table() -> Table {
 
 /// Processor time of a frame, s.
 fn frame_s(plan: &Plan, pool: &ThreadPool) -> f64 {
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &NullObserver)));
     std::hint::black_box(film.expect("nobody cancels"));
     seconds
 }

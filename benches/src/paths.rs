@@ -6,7 +6,7 @@ use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::{busiest, pool};
 use etendue_pipeline::render::{LightRequest, light, light_counts};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use rayon::ThreadPool;
 
 const NOTE: &str = "Small pictures (320 × 200 px of the street with its own field of view, 256 × 256 px of the others). \
@@ -81,7 +81,7 @@ fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> PathMeas
 /// Time by the clock, and processor time of the busiest thread, of one rendering, s.
 fn rendered(plan: &Plan, pool: &ThreadPool) -> (f64, f64) {
     let start = clock_s();
-    let (film, cpu) = busiest(pool, || light(plan, camera(plan), LightRequest::default(), &Unobserved));
+    let (film, cpu) = busiest(pool, || light(plan, camera(plan), LightRequest::default(), &NullObserver));
     let clock = clock_s() - start;
     std::hint::black_box(film.expect("nobody cancels"));
     (clock, cpu)

@@ -13,7 +13,7 @@ use etendue_bench_rays::machine;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::render::{LightRequest, light};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use rayon::ThreadPool;
 use std::path::Path;
 
@@ -63,7 +63,7 @@ impl PeerRequest<'_> {
         let settings = &mut self.plan.cameras[0].settings;
         (settings.spp, settings.seed) = (spp, seed);
         let before = self.pool.broadcast(|_| cpu_s());
-        let film = self.pool.install(|| light(&self.plan, camera(&self.plan), LightRequest::default(), &Unobserved));
+        let film = self.pool.install(|| light(&self.plan, camera(&self.plan), LightRequest::default(), &NullObserver));
         let after = self.pool.broadcast(|_| cpu_s());
         let seconds = after.iter().zip(&before).map(|(after, before)| after - before).sum();
         (film.expect("nobody cancels"), seconds)

@@ -6,7 +6,7 @@ use etendue_bench_rays::runs::RunStatistics;
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{LightRequest, light, light_counts};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use rayon::ThreadPool;
 
 const NOTE: &str = "The lane 8 to 23 m ahead in the jobs' own pictures (columns 424 to 536, rows 340 to 420), 64 samples a \
@@ -63,7 +63,7 @@ fn row(name: &str, plan: &mut Plan, pool: &ThreadPool) -> Vec<String> {
 fn rendered(plan: &mut Plan, pool: &ThreadPool, seed: u64) -> (Vec<f64>, f64) {
     let settings = &mut plan.cameras[0].settings;
     (settings.spp, settings.seed) = (SPP, seed);
-    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &Unobserved)));
+    let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), LightRequest::default(), &NullObserver)));
     let electrons = film.expect("nobody cancels").electron_rate.expect("the street's camera folds electrons");
     (electrons.mean.samples().iter().map(|e| f64::from(*e)).collect(), seconds)
 }

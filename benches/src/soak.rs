@@ -2,7 +2,7 @@
 
 use crate::child;
 use crate::memory::resident_mb;
-use etendue::{ExistingFiles, JobRequest, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, NullObserver, RenderOptions};
 use etendue_bench_rays::table::Table;
 use etendue_bench_rays::threads::pool;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ pub fn child(renders: &str) -> String {
 fn render(job: &Path, folder: &Path) {
     let request = JobRequest { spp: Some(2), ..JobRequest::new(job) };
     let job = request.open().unwrap_or_else(|errors| panic!("{errors}"));
-    let result = job.save(&RenderOptions::default(), folder, ExistingFiles::Replace, &Unobserved);
+    let result = job.save(&RenderOptions::default(), folder, ExistingFiles::Replace, &NullObserver);
     result.unwrap_or_else(|error| panic!("{error}"));
 }
 

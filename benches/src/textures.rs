@@ -11,7 +11,7 @@ use etendue_core::quantity::Display;
 use etendue_io::TextureMemory;
 use etendue_io::photograph::Encoding;
 use etendue_io::png::encode_display;
-use etendue_pipeline::Unobserved;
+use etendue_pipeline::NullObserver;
 use etendue_pipeline::render::{LightRequest, light};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub fn child(folder: &str, limit_mb: &str) -> String {
     };
     let film = pool(2).install(|| {
         let plan = plan_within(&folder.join("job.toml"), &memory);
-        light(&plan, camera(&plan), LightRequest::default(), &Unobserved)
+        light(&plan, camera(&plan), LightRequest::default(), &NullObserver)
     });
     std::hint::black_box(film.expect("nobody cancels"));
     format!("{:.1} {}", process_cpu_s(), peak_mb())

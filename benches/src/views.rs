@@ -10,7 +10,7 @@ use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraPlan, Plan, Route};
 use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::stored::StoredRadianceImage;
-use etendue_pipeline::{Unobserved, compile_camera};
+use etendue_pipeline::{NullObserver, compile_camera};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Overrides, load_camera};
 use std::path::Path;
@@ -74,7 +74,7 @@ pub fn table() -> Table {
 }
 
 fn shot(plan: &Plan, camera: &CameraPlan) -> etendue_pipeline::film::Film {
-    light(plan, camera, LightRequest::default(), &Unobserved).expect("nobody cancels")
+    light(plan, camera, LightRequest::default(), &NullObserver).expect("nobody cancels")
 }
 
 /// The street's camera with another body, by one of the routes.

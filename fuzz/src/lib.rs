@@ -14,9 +14,9 @@
 //! What was found lies in `fuzz/found`, and a test reads all of it again. docs/evidence/fuzzing.md tells how long each target ran.
 
 pub mod attempt;
-pub mod found;
 pub mod mutate;
 mod random;
+pub mod stored_inputs;
 pub mod targets;
 pub mod watch;
 pub mod worker;

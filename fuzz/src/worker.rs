@@ -121,7 +121,10 @@ fn kind(finding: &str, attempt: &Attempt) -> String {
 pub fn work(target: &Target, folder: &Path, seed: u64, until: StopCondition) -> WorkerResult {
     let mut inputs = (target.prepare)(folder);
     inputs.extend(
-        crate::found::findings(target.name).into_iter().map(|(_, input)| input).filter(|i| i.len() < MAX_STORED_BYTES),
+        crate::stored_inputs::findings(target.name)
+            .into_iter()
+            .map(|(_, input)| input)
+            .filter(|i| i.len() < MAX_STORED_BYTES),
     );
     let (input_start, start) = (Arc::new(AtomicU64::new(0)), Instant::now());
     watch_time(Arc::clone(&input_start), start);

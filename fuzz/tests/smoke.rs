@@ -3,7 +3,7 @@
 use etendue_fuzz::attempt::{attempt, keep_panics};
 use etendue_fuzz::targets::TARGETS;
 use etendue_fuzz::worker::{StopCondition, work};
-use etendue_fuzz::{found, mutate};
+use etendue_fuzz::{mutate, stored_inputs};
 use std::fs;
 use std::sync::Mutex;
 
@@ -41,7 +41,7 @@ fn stored_findings_are_fixed() -> Result<(), Vec<String>> {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let _ = (target.prepare)(folder.path());
         let file = folder.path().join(target.file);
-        for (name, input) in found::findings(target.name) {
+        for (name, input) in stored_inputs::findings(target.name) {
             fs::write(&file, &input).expect("written");
             let finding = attempt(target, &file).finding(target, input.len());
             findings.extend(finding.map(|finding| format!("{}/{name}: {finding}", target.name)));
@@ -49,7 +49,7 @@ fn stored_findings_are_fixed() -> Result<(), Vec<String>> {
         }
     }
     // Findings of a reader that is not built in are not read.
-    let stored = fs::read_dir(found::folder()).expect("found").flatten();
+    let stored = fs::read_dir(stored_inputs::folder()).expect("found").flatten();
     let stored = stored.filter(|folder| cfg!(feature = "usd") || folder.file_name() != "usd");
     let files = stored.flat_map(|folder| fs::read_dir(folder.path()).into_iter().flatten()).count();
     assert_eq!(count, files, "every folder of fuzz/found is that of a target");

@@ -8,7 +8,7 @@ use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::pupil_depth::pupil_depth;
 use etendue_pipeline::render::{LightRequest, light};
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
-use etendue_pipeline::{Plan, Unobserved};
+use etendue_pipeline::{NullObserver, Plan};
 use etendue_spectra::observer;
 use etendue_stats::EstimatedPlane;
 use etendue_tracer::accel::Simd;
@@ -41,7 +41,7 @@ impl Shot {
     #[must_use]
     pub fn render_camera(mut plan: Plan, index: usize) -> Self {
         plan.cameras.iter_mut().for_each(|camera| camera.products.variance |= camera.settings.replicates > 1);
-        let film = light(&plan, &plan.cameras[index], LightRequest::default(), &Unobserved).expect("nobody cancels");
+        let film = light(&plan, &plan.cameras[index], LightRequest::default(), &NullObserver).expect("nobody cancels");
         assert_eq!(film.not_finite_samples(), 0, "samples that are not finite");
         Self { plan, film, index }
     }

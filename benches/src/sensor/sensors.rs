@@ -2,7 +2,7 @@
 
 use etendue_sensor::cfa::Cfa;
 use etendue_sensor::effects::angle_response::AngleResponse;
-use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
+use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, HotPixels, SpreadDistribution};
 use etendue_sensor::effects::full_well::Blooming;
 use etendue_sensor::effects::lag::Trap;
 use etendue_sensor::effects::neighbours::Crosstalk;
@@ -157,7 +157,7 @@ fn spread() -> DarkSpread {
 fn patterned_dark() -> DarkCurrent {
     DarkCurrent {
         spread: spread(),
-        hot: Some(Hot { fraction: 1e-4, mean_e_s: 1e5 }),
+        hot: Some(HotPixels { fraction: 1e-4, mean_e_s: 1e5 }),
         dark_current_rts: Some(TwoLevel { mean: 1e4, ..TWO_LEVEL }),
         ..DarkCurrent::uniform(500.0)
     }

@@ -10,5 +10,5 @@ mod place;
 pub use choice::{Word, choice, word};
 pub use file_name::{html, png, svg, toml};
 pub use frames::{MAX_FRAMES, frames, samples, seed};
-pub use number::{in_range, not_negative, positive, whole};
+pub use number::{in_range, integer, not_negative, positive};
 pub use place::{grid, place, point, region, size, tile};

@@ -4,7 +4,7 @@ use clap::builder::RangedI64ValueParser;
 use std::ops::RangeInclusive;
 
 /// Parses a whole number of a range; the error message is our own.
-pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone {
+pub fn integer(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|n| range.contains(n));
         let (min, max) = (range.start(), range.end());
@@ -47,8 +47,8 @@ mod tests {
 
     #[test]
     fn whole_numbers_have_ranges() {
-        assert_eq!((whole(3..=10)("3"), whole(3..=10)("10")), (Ok(3), Ok(10)));
-        assert_eq!(whole(3..=10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
-        assert_eq!(whole(1..=9)("1.5"), Err("expected a whole number from 1 to 9, not '1.5'".to_owned()));
+        assert_eq!((integer(3..=10)("3"), integer(3..=10)("10")), (Ok(3), Ok(10)));
+        assert_eq!(integer(3..=10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
+        assert_eq!(integer(1..=9)("1.5"), Err("expected a whole number from 1 to 9, not '1.5'".to_owned()));
     }
 }

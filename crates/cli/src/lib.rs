@@ -66,7 +66,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     panics::silence_decoder_panics();
     let (arguments, spelling) = match parsed(arguments, Spelling::flags) {
         Ok(parsed) => parsed,
-        Err(told) => return usage(&told),
+        Err(error) => return usage(&error),
     };
     let terminal = TerminalProgress::default();
     let console = SpelledConsole { console: &terminal, spelling: &spelling };
@@ -141,10 +141,10 @@ pub fn set_limit(limit: &str) -> Result<(), Error> {
 pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> {
     let program = OsString::from("etendue");
     let arguments = std::iter::once(&program).chain(arguments).cloned();
-    let (arguments, spelling) = parsed(arguments, Spelling::parameters).map_err(|told| {
-        let text = told.to_string();
+    let (arguments, spelling) = parsed(arguments, Spelling::parameters).map_err(|error| {
+        let text = error.to_string();
         let words = text.split("\n\nUsage:").next().unwrap_or_default().trim_start_matches("error: ").trim_end();
-        Error::coded(code_of(&told), words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
+        Error::coded(code_of(&error), words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
     })?;
     arguments.run(&SpelledConsole { console, spelling: &spelling }).map_err(|error| spelling.error(error))
 }

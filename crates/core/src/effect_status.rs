@@ -36,7 +36,7 @@ impl Display for EffectStatus {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Modelled(_) => "modelled",
-            Self::WhereNeeded(_) => "where the data need it",
+            Self::WhereNeeded(_) => "modelled where needed",
             Self::LeftOut(_) | Self::NotDescribed => "left out",
         })
     }

@@ -92,6 +92,6 @@ pub trait Observer: Sync {
 
 /// An observer that watches nothing and never stops.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Unobserved;
+pub struct NullObserver;
 
-impl Observer for Unobserved {}
+impl Observer for NullObserver {}

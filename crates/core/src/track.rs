@@ -21,7 +21,7 @@ use turn::{Turn, vector_between};
 
 pub use rolling::RollingError;
 
-pub(crate) use rates::{CurvatureBounds, Moving as MovingTransform};
+pub(crate) use rates::{CurvatureBounds, MovingTransform};
 
 /// Pose at a moment: scale, then rotation, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]

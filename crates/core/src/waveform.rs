@@ -101,7 +101,7 @@ pub enum WaveformError {
     #[error("there are no levels; give at least one")]
     Empty,
     /// Times are out of order, or not finite.
-    #[error("the time {time_s} s follows {before_s} s; give the times in rising order")]
+    #[error("the time {time_s} s follows {before_s} s; give the times in increasing order")]
     Unordered {
         /// Time of the later row, s.
         time_s: f64,

@@ -53,7 +53,7 @@ impl CompleteSamples<'_> {
         let drawn = SampleVariation::new(self.set.variations.as_ref(), self.set.seed, sample);
         match (record.seed, &record.set) == (drawn.seed, &drawn.set()) && record.split == drawn.split {
             true => Ok(record),
-            false => Err("its values are not those that this data set samples".to_owned()),
+            false => Err("its values differ from those that this data set samples".to_owned()),
         }
     }
 

@@ -1,14 +1,14 @@
 //! Data sets: a job, varied sample after sample, written in the formats of training and test data sets.
 //!
 //! ```no_run
-//! use etendue::{ExistingFiles, JobRequest, Unobserved};
+//! use etendue::{ExistingFiles, JobRequest, NullObserver};
 //! use etendue_dataset::{DatasetRequest, dataset};
 //!
 //! # fn main() -> Result<(), etendue::Error> {
 //! let job = JobRequest::new("scenes/cornell/cornell.toml");
 //! let variations = "scenes/cornell/variations.toml".into();
 //! let request = DatasetRequest { variations: Some(variations), samples: 0..100, ..DatasetRequest::new(job) };
-//! dataset(&request, "out/boxes".as_ref(), ExistingFiles::Refuse, &Unobserved)?;
+//! dataset(&request, "out/boxes".as_ref(), ExistingFiles::Refuse, &NullObserver)?;
 //! # Ok(())
 //! # }
 //! ```

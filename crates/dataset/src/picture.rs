@@ -83,7 +83,7 @@ pub(crate) fn each(
         }
         if !frame_result.raw.invalid.is_empty() {
             let count = frame_result.raw.invalid.len();
-            warn(&format!("{camera}, frame {frame}: {count} pixels have no valid light; their digital number is 0"));
+            warn(&format!("{camera}, frame {frame}: pixels without valid light, whose digital number is 0: {count}"));
         }
         let (extension, bytes) = file?;
         let (pose, time) = results.pose(frame);

@@ -6,7 +6,7 @@ use clap::Args;
 use etendue::{Error, JobRequest, Simd};
 use etendue_arguments::{Word, choice, frames, samples};
 use etendue_scene::Place;
-use etendue_scene::record::variations::{ChoiceOf, Distribution, Preset, SetFormat, Variation, Variations};
+use etendue_scene::record::variations::{Distribution, Preset, SetFormat, Variation, Variations, WeightedChoice};
 
 const FORMATS: [Word<SetFormat>; 11] = [
     (SetFormat::Coco, "coco", "Images, and one JSON file with boxes and masks"),
@@ -113,7 +113,7 @@ fn ends(distribution: &Distribution) -> Vec<String> {
 }
 
 /// Values of a choice as TOML.
-pub(crate) fn choice_texts(choice: &ChoiceOf) -> Vec<String> {
+pub(crate) fn choice_texts(choice: &WeightedChoice) -> Vec<String> {
     choice.values.iter().map(etendue_scene::written::Item::in_one_line).collect()
 }
 

@@ -5,14 +5,14 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, Unobserved};
+use etendue::{Error, ExistingFiles, JobRequest, NullObserver, RenderOptions};
 use std::path::{Path, PathBuf};
 
 /// Renders 16 samples per pixel into `out` and returns the files' paths.
 pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell/cornell.toml");
     let job = JobRequest { spp: Some(16), ..JobRequest::new(scene) }.open()?;
-    let results = job.render(&RenderOptions::default(), &Unobserved)?;
+    let results = job.render(&RenderOptions::default(), &NullObserver)?;
     let front = results.camera("front").expect("the job's camera");
 
     // Planes are rows of samples from the top left.
@@ -25,7 +25,7 @@ pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
         println!("raw: {} bits, black {} DN", frame.raw.bits, frame.raw.black_level_dn);
     }
 
-    results.save(out, ExistingFiles::Replace, &Unobserved)
+    results.save(out, ExistingFiles::Replace, &NullObserver)
 }
 
 fn main() -> Result<(), Error> {

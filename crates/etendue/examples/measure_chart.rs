@@ -9,7 +9,7 @@ use etendue::chart::design::{Dots, GridSize};
 use etendue::chart::{Chart, ChartRequest, make};
 use etendue::measure::{DistortionRequest, distortion};
 use etendue::report::Report;
-use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, Unobserved};
+use etendue::{Error, ExistingFiles, JobRequest, NullObserver, RenderOptions};
 use std::path::Path;
 
 /// Makes the chart, captures and measures it in `out`.
@@ -19,7 +19,7 @@ pub(crate) fn run(out: &Path) -> Result<Report, Error> {
     make(&ChartRequest::new(chart, "automotive"), &out.join("chart"), ExistingFiles::Replace)?;
 
     let job = JobRequest { spp: Some(4), ..JobRequest::new(out.join("chart/job.toml")) }.open()?;
-    job.save(&RenderOptions::default(), &out.join("photo"), ExistingFiles::Replace, &Unobserved)?;
+    job.save(&RenderOptions::default(), &out.join("photo"), ExistingFiles::Replace, &NullObserver)?;
     distortion(&DistortionRequest::new(out.join("photo/camera/picture.0000.png")))
 }
 

@@ -5,7 +5,7 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{Error, JobRequest, MemoryFiles, NullObserver, RenderOptions};
 
 /// Mean electrons of the central pixel for each pixel pitch in µm: they increase with its area.
 pub(crate) fn run(pitches_um: &[f64]) -> Result<Vec<f64>, Error> {
@@ -30,7 +30,7 @@ fn middle_electrons(scene: &str, pitch_um: f64) -> Result<f64, Error> {
         "\n[[cameras]]\nname = \"own\"\nfile = \"camera.toml\"\nposition_m = [-3, 0, 0]\nlook_at_m = [0, 0, 0]\n";
     files.add_text("job.toml", format!("{scene}{camera}"));
     let job = JobRequest { spp: Some(64), ..JobRequest::new("job.toml") }.open_in(&files)?;
-    let results = job.render(&RenderOptions::default(), &Unobserved)?;
+    let results = job.render(&RenderOptions::default(), &NullObserver)?;
     let electrons = results.cameras()[0].electrons().expect("the camera has electronics");
     Ok(f64::from(electrons.samples()[17 * 8 + 8]))
 }

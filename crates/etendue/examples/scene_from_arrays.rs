@@ -5,7 +5,7 @@
 // A program prints; the library does not.
 #![allow(clippy::print_stdout)]
 
-use etendue::{Error, JobRequest, MemoryFiles, MeshTriangles, RenderOptions, Unobserved};
+use etendue::{Error, JobRequest, MemoryFiles, MeshTriangles, NullObserver, RenderOptions};
 
 /// Vertices along each side of the sheet.
 const SIDE: u32 = 65;
@@ -71,7 +71,7 @@ pub(crate) fn run() -> Result<Vec<f32>, Error> {
     files.add_text("job.toml", JOB);
     let mesh = MeshTriangles { positions: &positions, triangles: &triangles, ..MeshTriangles::default() };
     files.add_mesh("sheet.obj", &mesh)?;
-    let results = JobRequest::new("job.toml").open_in(&files)?.render(&RenderOptions::default(), &Unobserved)?;
+    let results = JobRequest::new("job.toml").open_in(&files)?.render(&RenderOptions::default(), &NullObserver)?;
     let depth = results.cameras()[0].ground_truth().depth;
     Ok(depth.samples()[32 * 64..33 * 64].to_vec())
 }

@@ -1,15 +1,15 @@
 //! Étendue as a library: from a job file to results, and every verb of the program as a function with typed arguments and reports.
 //!
 //! ```no_run
-//! use etendue::{ExistingFiles, Job, RenderOptions, Unobserved};
+//! use etendue::{ExistingFiles, Job, RenderOptions, NullObserver};
 //!
 //! # fn main() -> Result<(), etendue::Error> {
 //! let job = Job::open("scenes/street/street.toml")?;
-//! let results = job.render(&RenderOptions::default(), &Unobserved)?;
+//! let results = job.render(&RenderOptions::default(), &NullObserver)?;
 //! let camera = &results.cameras()[0];
 //! let depth = camera.ground_truth().depth;
 //! assert_eq!(depth.width(), camera.camera().body.raster.width());
-//! results.save("out/street".as_ref(), ExistingFiles::Refuse, &Unobserved)?;
+//! results.save("out/street".as_ref(), ExistingFiles::Refuse, &NullObserver)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -37,7 +37,7 @@
 //! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. Notes and warnings for the caller go to its
 //! [`Observer`].
 
-pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, ProgressUnit, Unobserved};
+pub use etendue_core::observer::{FramePlace, ImageTile, Message, NullObserver, Observer, Progress, ProgressUnit};
 pub use etendue_import::{ImportRequest, import};
 pub use etendue_io::escape::{escaped, terminal_json, terminal_text};
 pub use etendue_io::failure::{Error, ErrorCode, ExampleContext, InputError};

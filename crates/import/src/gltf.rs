@@ -15,7 +15,7 @@ use glam::{DAffine3, DVec3};
 use super::lamps;
 use super::moving::{MovingNodes, add_moving, part_of, to_world};
 use super::naming::{UniqueNames, path_between};
-use super::without::{even_sky, whole_view};
+use super::substitutes::{even_sky, whole_view};
 use super::written::{ImportFiles, ImportedCamera, View, import_files, pose_of, size_of};
 
 pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {

@@ -9,10 +9,10 @@ mod moving;
 mod naming;
 mod pbrt;
 mod scenery;
+mod substitutes;
 pub mod syntax;
 #[cfg(feature = "usd")]
 mod usd;
-mod without;
 mod written;
 
 use std::path::{Path, PathBuf};

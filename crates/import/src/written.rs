@@ -111,7 +111,7 @@ pub(super) fn import_files(
     for line in &report {
         // A control character in a name must not end the comment.
         let plain: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        write!(head, "\n- {plain}").expect("a text grows");
+        write!(head, "\n- {plain}").expect("writing to a String succeeds");
     }
     let cameras: Vec<Table> = cameras.iter().map(ImportedCamera::to_table).collect();
     let output = Table::new().with("radiance", true);

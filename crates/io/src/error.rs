@@ -114,9 +114,9 @@ impl fmt::Display for Error {
         write!(f, ": {}", self.what)?;
         match &self.named_at {
             Some(place) if self.is_path => {
-                write!(f, " (named at {place}; a path is relative to the file that names it)")
+                write!(f, " (referenced at {place}; a path is relative to the file that names it)")
             }
-            Some(place) => write!(f, " (named at {place})"),
+            Some(place) => write!(f, " (referenced at {place})"),
             None => Ok(()),
         }
     }

@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_many_errors_the_first_are_shown_and_the_number_of_all() {
+    fn the_first_of_many_errors_are_shown_with_the_number_of_all() {
         let shown = |count: usize| {
             Error::all_coded(ErrorCode::MalformedFile, (0..count).map(|i| format!("fault {i}"))).to_string()
         };

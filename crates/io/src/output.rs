@@ -273,7 +273,7 @@ impl OutputFolder {
             return Err(Error::coded(
                 ErrorCode::OutputExists,
                 target,
-                "already exists; choose another output folder, or allow overwriting with `overwrite`",
+                "already exists; choose another folder, or allow overwriting with `overwrite`",
             ));
         }
         Ok(())

@@ -126,21 +126,21 @@ fn padded(bytes: &[u8], length: usize) -> Vec<u8> {
 }
 
 /// Encoded value; without bytes for the offset of the strip.
-struct Encoded {
+struct EncodedValue {
     kind: u16,
     count: u32,
     bytes: Option<Vec<u8>>,
 }
 
-impl Encoded {
+impl EncodedValue {
     fn stored_apart(&self) -> usize {
         self.bytes.as_ref().map_or(0, |bytes| if bytes.len() <= 4 { 0 } else { bytes.len().next_multiple_of(2) })
     }
 }
 
 impl TagValue {
-    fn encoded(&self) -> Encoded {
-        let with = |kind, count: usize, bytes| Encoded { kind, count: count as u32, bytes: Some(bytes) };
+    fn encoded(&self) -> EncodedValue {
+        let with = |kind, count: usize, bytes| EncodedValue { kind, count: count as u32, bytes: Some(bytes) };
         match self {
             Self::Byte(v) => with(1, v.len(), v.clone()),
             Self::Text(v) => with(2, v.len() + 1, [v.as_bytes(), &[0]].concat()),
@@ -152,7 +152,7 @@ impl TagValue {
             Self::SignedRational(v) => {
                 with(10, v.len(), v.iter().flat_map(|(n, d)| [n.to_le_bytes(), d.to_le_bytes()].concat()).collect())
             }
-            Self::StripOffset => Encoded { kind: 4, count: 1, bytes: None },
+            Self::StripOffset => EncodedValue { kind: 4, count: 1, bytes: None },
         }
     }
 }

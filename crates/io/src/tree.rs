@@ -30,7 +30,7 @@ const MAX_DEPTH: usize = 32;
 const MAX_VALUES: usize = 1 << 21;
 
 /// Reads a document whose root is a map.
-pub(crate) fn parse(text: &str) -> Read<TreeNode> {
+pub(crate) fn parse(text: &str) -> TreeResult<TreeNode> {
     let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if values > MAX_VALUES {
         return Err(TreeError::coded(
@@ -76,7 +76,7 @@ struct Events<'a> {
 }
 
 impl<'a> Events<'a> {
-    fn next(&mut self) -> Read<(Event<'a>, Span)> {
+    fn next(&mut self) -> TreeResult<(Event<'a>, Span)> {
         match self.parser.next_event() {
             Some(Ok(event)) => Ok(event),
             Some(Err(cause)) => {
@@ -86,7 +86,7 @@ impl<'a> Events<'a> {
         }
     }
 
-    fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<TreeNode> {
+    fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> TreeResult<TreeNode> {
         let line = span.start.line();
         if depth > MAX_DEPTH {
             return Err(TreeError::at(
@@ -110,7 +110,7 @@ impl<'a> Events<'a> {
         Ok(TreeNode { line, value })
     }
 
-    fn list(&mut self, depth: usize) -> Read<Vec<TreeNode>> {
+    fn list(&mut self, depth: usize) -> TreeResult<Vec<TreeNode>> {
         let mut nodes = Vec::new();
         loop {
             match self.next()? {
@@ -120,7 +120,7 @@ impl<'a> Events<'a> {
         }
     }
 
-    fn map(&mut self, depth: usize) -> Read<Vec<(String, TreeNode)>> {
+    fn map(&mut self, depth: usize) -> TreeResult<Vec<(String, TreeNode)>> {
         let mut entries: Vec<(String, TreeNode)> = Vec::new();
         let mut known = BTreeSet::new();
         loop {
@@ -150,14 +150,14 @@ impl TreeNode {
     }
 
     /// Value of the first of several key names.
-    pub(crate) fn any(&self, names: &[&str]) -> Read<&TreeNode> {
+    pub(crate) fn any(&self, names: &[&str]) -> TreeResult<&TreeNode> {
         names.iter().find_map(|name| self.find(name)).ok_or_else(|| {
             TreeError::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
         })
     }
 
     /// Value of a key.
-    pub(crate) fn key(&self, key: &str) -> Read<&TreeNode> {
+    pub(crate) fn key(&self, key: &str) -> TreeResult<&TreeNode> {
         self.any(&[key])
     }
 
@@ -178,21 +178,21 @@ impl TreeNode {
         }
     }
 
-    pub(crate) fn text(&self) -> Read<&str> {
+    pub(crate) fn text(&self) -> TreeResult<&str> {
         match &self.value {
             NodeValue::Scalar(text) => Ok(text),
             _ => Err(TreeError::at(self.line, "found a list or keys; expected one value")),
         }
     }
 
-    pub(crate) fn number(&self) -> Read<f64> {
+    pub(crate) fn number(&self) -> TreeResult<f64> {
         let text = self.text()?;
         let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
         number.ok_or_else(|| TreeError::at(self.line, format!("found \"{text}\"; expected a finite number")))
     }
 
     /// A number of pixels.
-    pub(crate) fn count(&self) -> Read<usize> {
+    pub(crate) fn count(&self) -> TreeResult<usize> {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
         count.ok_or_else(|| {
@@ -209,17 +209,19 @@ impl TreeNode {
     }
 
     /// All numbers of a list and of nested lists, or the single number.
-    pub(crate) fn numbers(&self) -> Read<Vec<f64>> {
+    pub(crate) fn numbers(&self) -> TreeResult<Vec<f64>> {
         let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
-        let rows: Vec<Vec<f64>> = items.iter().map(TreeNode::numbers).collect::<Read<_>>()?;
+        let rows: Vec<Vec<f64>> = items.iter().map(TreeNode::numbers).collect::<TreeResult<_>>()?;
         Ok(rows.concat())
     }
 
     /// List of exactly `N` numbers; `what` names it in messages.
-    pub(crate) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
+    pub(crate) fn exactly<const N: usize>(&self, what: &str) -> TreeResult<[f64; N]> {
         let numbers = self.numbers()?;
         let count = numbers.len();
-        numbers.try_into().map_err(|_| TreeError::at(self.line, format!("found {count} numbers; expected {N}: {what}")))
+        numbers
+            .try_into()
+            .map_err(|_| TreeError::at(self.line, format!("the number of values is {count}; expected {N}: {what}")))
     }
 }
 
@@ -238,7 +240,7 @@ pub(crate) struct TreeError {
     code: ErrorCode,
 }
 
-pub(crate) type Read<T> = Result<T, TreeError>;
+pub(crate) type TreeResult<T> = Result<T, TreeError>;
 
 impl TreeError {
     pub(crate) fn at(line: usize, what: impl Into<Problem>) -> Self {

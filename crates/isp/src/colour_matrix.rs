@@ -36,7 +36,7 @@ pub enum MatrixError {
     #[error("the rows of the colour matrix differ in length; each needs one number per channel of the camera")]
     Ragged,
     /// An entry that is not finite.
-    #[error("the colour matrix has an entry that is not finite")]
+    #[error("the colour matrix has an entry that is not finite: give finite numbers")]
     NotFinite,
 }
 

@@ -125,7 +125,7 @@ pub struct Tile {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MosaicError {
     /// No pixels, or not a rectangle.
-    #[error("a filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
+    #[error("a filter tile of {width} × {height} pixels needs {} entries (at least one), but their number is {entries}", .width * .height)]
     Shape {
         /// Columns requested.
         width: usize,

@@ -22,7 +22,7 @@
 //!
 //! A measured opto-electronic conversion function (ISO 14524): output level over exposure.
 //!
-//! Exposures (any unit) rise; the largest is the image's white (linear 1). Between points the output is linear in the logarithm of the exposure, the
+//! Exposures (any unit) increase; the largest is the image's white (linear 1). Between points the output is linear in the logarithm of the exposure, the
 //! axis of such measurements; below the first point it is proportional to the exposure. The output is relative to the camera's largest output level
 //! (255 for 8 bits).
 
@@ -115,8 +115,10 @@ pub enum ToneError {
     /// Too few points.
     #[error("a tone table of {0} points: at least two are needed")]
     Short(usize),
-    /// Inputs that do not rise, outputs that fall, or numbers that are not finite.
-    #[error("point {0} of the tone table (from 1): inputs must rise from point to point, and outputs never fall")]
+    /// Inputs that do not increase, outputs that decrease, or numbers that are not finite.
+    #[error(
+        "point {0} of the tone table (from 1): inputs must increase from point to point, and outputs must not decrease"
+    )]
     Order(usize),
     /// A table that does not cover the range.
     #[error("a tone table leads from input 0 to input 1 with outputs from 0 to 1; this one has {0}")]
@@ -181,7 +183,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Creates a table from inputs (linear) and outputs (encoded); inputs rise from 0 to 1, outputs never fall and lie within 0 … 1.
+    /// Creates a table from inputs (linear) and outputs (encoded); inputs increase from 0 to 1, outputs do not decrease and lie within 0 … 1.
     ///
     /// # Errors
     /// If they violate this.
@@ -235,7 +237,7 @@ fn by_output(points: &[Point], y: f64) -> (Option<Point>, Option<Point>) {
     (after.checked_sub(1).map(|before| points[before]), points.get(after).copied())
 }
 
-/// Checks for at least two finite points, inputs rising, outputs not falling.
+/// Checks for at least two finite points, inputs increasing, outputs not decreasing.
 fn check_order(points: &[(f64, f64)]) -> Result<(), ToneError> {
     if points.len() < 2 {
         return Err(ToneError::Short(points.len()));
@@ -255,7 +257,7 @@ pub struct Oecf {
 }
 
 impl Oecf {
-    /// Creates the function from pairs of exposure (above 0, rising) and output (0 or more, never falling), and the largest output level.
+    /// Creates the function from pairs of exposure (above 0, increasing) and output (0 or more, not decreasing), and the largest output level.
     ///
     /// # Errors
     /// If the pairs violate this or an output exceeds the largest level.

@@ -26,7 +26,6 @@ pub fn html_page(title: &str, style: &str, body: &str) -> String {
     )
 }
 
-/// Style of reports.
 pub(crate) const REPORT_STYLE: &str = include_str!("page/report.css");
 /// Maximum rows of a table on the page; JSON has all of them.
 const MAX_ROWS: usize = 500;

@@ -17,9 +17,9 @@ pub use effects::{Effects, EffectsError, EffectsParameters};
 pub use error::OpticsError;
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
-    Calibrated, CalibratedParameters, ClippingAperture, ConstantPupil, Falloff, FalloffArgument, LateralColour, Lens,
-    Pinhole, PinholeParameters, PrescriptionLens, PupilOrientation, PupilParameters, RayTransferLens, SensorPlace,
-    Telecentric, TelecentricParameters, Thick, ThickParameters, Thin, ThinParameters, TruthRay,
+    CalibratedLens, CalibratedParameters, ClippingAperture, ConstantPupil, Falloff, FalloffArgument, LateralColour,
+    Lens, Pinhole, PinholeParameters, PrescriptionLens, PupilOrientation, PupilParameters, RayTransferLens,
+    SensorPlace, Telecentric, TelecentricParameters, Thick, ThickParameters, Thin, ThinParameters, TruthRay,
 };
 pub use overlap::PRINCIPAL_NM;
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};

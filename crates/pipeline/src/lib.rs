@@ -22,8 +22,8 @@ pub use camera::{datasheet, defocus, flat, light_meter, photograph, sampling, st
 pub use compile::{
     Choices, Refinement, compile, compile_camera, compile_camera_with_remarks, compile_weather, stated_projection,
 };
-pub use plan::{Plan, raw_colour, rectified, remark};
-pub use render::observer::{Observer, Unobserved};
+pub use plan::{Plan, note, raw_colour, rectified};
+pub use render::observer::{NullObserver, Observer};
 pub use render::{
     adaptive, boxes, film, frame_view, gather, identity_coverage, light, mosaic, motion, noise_reached, pupil_depth,
     rays, truth, weather_layers,

@@ -7,7 +7,7 @@ pub mod camera_facts;
 mod camera_file;
 mod effect;
 mod memory;
-mod remark;
+mod note;
 mod scene;
 pub mod tone_curve;
 
@@ -18,7 +18,7 @@ pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport};
 pub use camera_file::open_camera;
 pub use effect::{EffectReport, EffectStatusReport, OmissionReport};
 pub use memory::{CameraMemoryReport, MemoryReport, StageReport};
-pub use remark::{NoteReport, NoteSeverity};
+pub use note::{NoteReport, NoteSeverity};
 pub use scene::{SceneReport, SkyReport};
 
 /// Report of a job's plan. Unknown values are `None`, null in JSON.
@@ -37,7 +37,8 @@ pub struct PlanReport {
     /// Memory of the whole run.
     pub memory: MemoryReport,
     /// Notes and warnings of compilation, without duplicates.
-    pub remarks: Vec<NoteReport>,
+    #[serde(rename = "remarks")]
+    pub notes: Vec<NoteReport>,
     /// Warnings that a render repeats from them, and warnings of the lights, as sentences.
     pub warnings: Vec<String>,
     /// Settings of the job file overridden by the command line, as sentences.
@@ -54,7 +55,7 @@ impl PlanReport {
             scene: SceneReport::new(plan),
             cameras: plan.cameras.iter().map(|camera| CameraReport::new(plan, camera)).collect(),
             memory: MemoryReport::new(plan),
-            remarks: NoteReport::notes_of_plan(plan),
+            notes: NoteReport::notes_of_plan(plan),
             warnings: plan.warnings(),
             notices: plan.overridden_keys.clone(),
         }

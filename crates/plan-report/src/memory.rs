@@ -38,7 +38,7 @@ pub struct StageReport {
 
 impl MemoryReport {
     pub(super) fn new(plan: &Plan) -> Self {
-        let memory = RunMemory::of_plan(plan);
+        let memory = RunMemory::from_plan(plan);
         let cameras = memory.cameras.iter().map(|(name, camera)| {
             let stages = camera.stages.iter().filter(|stage| stage.bytes > 0.0);
             CameraMemoryReport {

@@ -77,19 +77,19 @@ struct NamedArray<'py> {
 }
 
 /// Rows of `N` numbers.
-fn floats<const N: usize>(NamedArray { array, place: told }: NamedArray<'_>) -> PyResult<Vec<[f32; N]>> {
-    let array = rows(&array, N, "fiu", "numbers", &told)?;
+fn floats<const N: usize>(NamedArray { array, place }: NamedArray<'_>) -> PyResult<Vec<[f32; N]>> {
+    let array = rows(&array, N, "fiu", "numbers", &place)?;
     let bytes = bytes(&array, "float32")?;
     Ok(bytes.as_chunks::<4>().0.iter().map(|b| f32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
 }
 
 /// Rows of three indices.
-fn indices(NamedArray { array, place: told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>> {
-    let array = rows(&array, 3, "iu", "whole numbers", &told)?;
+fn indices(NamedArray { array, place }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>> {
+    let array = rows(&array, 3, "iu", "whole numbers", &place)?;
     if array.getattr("size")?.extract::<usize>()? > 0 {
         let fits_u32 = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());
         if !(fits_u32("min")? && fits_u32("max")?) {
-            return Err(PyValueError::new_err(format!("{told}: expected vertex indices from 0 to 2^32 − 1")));
+            return Err(PyValueError::new_err(format!("{place}: expected vertex indices from 0 to 2^32 − 1")));
         }
     }
     let bytes = bytes(&array, "uint32")?;

@@ -173,7 +173,7 @@ fn read_raw(
     sensor: &Sensor,
 ) -> Result<StoredRaw, String> {
     let image = read_photograph(file).map_err(|error| error.to_string())?;
-    let found = match (&image.raw, levels) {
+    let stored = match (&image.raw, levels) {
         (None, Some(levels)) => from_levels(&image, levels, number, sensor),
         (Some(_), Some(_)) => Err("camera.json next to it states its levels: omit `levels`".to_owned()),
         (Some(facts), None) => from_sidecar(&image, facts, sensor),
@@ -183,7 +183,7 @@ fn read_raw(
                 .to_owned())
         }
     };
-    found.and_then(|stored| check_size(stored, body, sensor)).map_err(|why| format!("{}: {why}", file.display()))
+    stored.and_then(|stored| check_size(stored, body, sensor)).map_err(|why| format!("{}: {why}", file.display()))
 }
 
 fn from_levels(image: &Photograph, levels: RawLevels, number: u32, sensor: &Sensor) -> Result<StoredRaw, String> {

@@ -76,7 +76,6 @@ const SHARD: &str = "shard";
 /// Origin of a stored film.
 #[derive(Clone, Copy)]
 pub(crate) struct FilmOrigin<'a> {
-    /// The plan.
     pub(crate) plan: &'a Plan,
     /// The first of the cameras that share the light.
     pub(crate) camera: &'a CameraPlan,

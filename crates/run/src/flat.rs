@@ -5,7 +5,7 @@ use crate::results::frames::{FrameProducts, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use etendue_arguments::{seed, whole};
+use etendue_arguments::{integer, seed};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::failure::{check_integer, check_number};
@@ -66,7 +66,7 @@ struct FlatArguments {
     brightness: Brightness,
     /// With --photon-transfer: frames of the stacks at half of saturation and in the dark
     #[arg(long, value_name = "N", default_value_t = 100, conflicts_with_all = ["irradiance_w_m2", "photons"])]
-    #[arg(value_parser = whole(LEVELS))]
+    #[arg(value_parser = integer(LEVELS))]
     stack: u32,
 }
 
@@ -82,7 +82,7 @@ struct Brightness {
     photons: Option<f64>,
     /// The series of EMVA 1288 instead: number of exposures up to the camera's exposure_s, at which the light just saturates, with two bright and two dark
     /// frames each; then a stack at half of saturation and one in the dark
-    #[arg(long, value_name = "LEVELS", value_parser = whole(LEVELS), allow_negative_numbers = true)]
+    #[arg(long, value_name = "LEVELS", value_parser = integer(LEVELS), allow_negative_numbers = true)]
     photon_transfer: Option<u32>,
 }
 
@@ -129,7 +129,7 @@ fn irradiance_w_m2(text: &str) -> Result<f64, String> {
 
 fn photons(text: &str) -> Result<f64, String> {
     let n = text.parse().ok().filter(|n: &f64| n.is_finite() && *n >= 0.0);
-    n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
+    n.ok_or_else(|| format!("expected 0 photons per pixel or more, not '{text}'"))
 }
 
 /// Uniform monochromatic illumination on a camera's bare sensor.
@@ -171,7 +171,9 @@ impl FlatRequest {
         check_number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
             FlatSource::Irradiance { w_m2 } => check_number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
-            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::Photons { per_pixel } => {
+                check_number("photons", per_pixel, 0.0..=f64::MAX, "photons per pixel")
+            }
             FlatSource::PhotonTransfer { levels, stack } => {
                 check_integer("photon_transfer", levels, LEVELS)?;
                 check_integer("stack", stack, LEVELS)
@@ -274,7 +276,7 @@ impl FlatRun<'_> {
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(electrons_e) = electrons.samples().iter().find(|e| **e > MAX_E) {
             let why = format!(
-                "gives {electrons_e:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light"
+                "gives {electrons_e:.1e} electrons per pixel, but at most {MAX_E:.0e} can be counted: give less light"
             );
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{key}: {why}")));
         }
@@ -303,7 +305,7 @@ impl FlatRun<'_> {
     fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let channels = self.sensor.parameters().channels.len();
         if channels > 1 {
-            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind separately");
+            let sentence = format!("the sensor has {channels} channels: measure each separately");
             self.observer.message(Message::Warning(&sentence));
         }
         let (mut columns, mut rows) = (0, 0);

@@ -19,7 +19,7 @@ use crate::job_request::JobRequest;
 use crate::job_request::RenderOptions;
 use crate::result_files::write_file;
 use clap::Args;
-use etendue_arguments::{seed, whole};
+use etendue_arguments::{integer, seed};
 use etendue_core::observer::Observer;
 use etendue_io::failure::check_integer;
 use etendue_io::failure::{Error, ErrorCode};
@@ -73,16 +73,16 @@ pub struct LaboratoryRequest {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
     pub seed: u64,
     /// Levels of uniform illumination on the bare sensor, up to slightly above saturation
-    #[arg(long, value_name = "N", default_value_t = 15, value_parser = whole(LEVELS))]
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = integer(LEVELS))]
     pub levels: u32,
     /// Frames of the stacks without light and at half of saturation
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = whole(STACK))]
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = integer(STACK))]
     pub stack: u32,
     /// Views of the checkerboard
-    #[arg(long, value_name = "N", default_value_t = 13, value_parser = whole(VIEWS))]
+    #[arg(long, value_name = "N", default_value_t = 13, value_parser = integer(VIEWS))]
     pub views: u32,
     /// Samples per pixel of the images through the lens
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole(1..=65_536))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = integer(1..=65_536))]
     pub spp: u32,
 }
 

@@ -212,7 +212,7 @@ impl Manifest {
                 format!("{}: {why}; give folders written by render `shard`", path.display()),
             )
         };
-        let text = read_text(&path).map_err(|problem| explain(problem.words))?;
+        let text = read_text(&path).map_err(|problem| explain(problem.words).with_code(problem.code))?;
         let manifest: Self = serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is not a shard manifest of this version ({error})")))?;
         match manifest.manifest_error() {

@@ -66,7 +66,7 @@ pub static BASES: Limit = Limit::new("bases", "files in a chain of \"base\" refe
 /// Sizes of folders of tiles.
 pub static TEXTURE_CACHE: Limit = Limit::new(
     "texture-cache-mib",
-    "MiB of the folder of tiles of large textures (`--cache`): the least recently used files are removed, and a job whose own tiles need more is refused",
+    "MiB of the folder of tiles of large textures (`cache`): the least recently used files are removed, and a job whose own tiles need more is refused",
     2048,
     1 << 20,
 );
@@ -105,7 +105,7 @@ impl Limit {
     pub fn remedy(&self, needed: u64) -> String {
         match needed <= self.highest {
             true => format!("or raise the limit: `limit` {}={needed}", self.name),
-            false => format!("no limit can be raised beyond {}", self.highest),
+            false => format!("as the limit cannot be raised beyond {}", self.highest),
         }
     }
 
@@ -181,6 +181,6 @@ mod tests {
         let message = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
         assert!(message.words.ends_with("has 17 MiB, but files of its kind may have at most 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{message}");
         assert_eq!([16, 40, 64].map(|max| BASES.suggested(max)), [32, 64, u64::MAX]);
-        assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
+        assert_eq!(BASES.remedy(65), "as the limit cannot be raised beyond 64");
     }
 }

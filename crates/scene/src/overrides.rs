@@ -344,6 +344,7 @@ fn note_missing_entry(list: &[Node], part: &str, place: &Place, errors: &mut Des
     let entries = if names.is_empty() { String::new() } else { format!(", or a name: {}", names.join(", ")) };
     let remedy = match list.len() {
         0 => "the list is empty; remove the override".to_owned(),
+        1 => format!("{hint}give the number 0{entries}"),
         n => format!("{hint}give a number from 0 to {}{entries}", n - 1),
     };
     errors.add(ErrorCode::UnknownName, place, format!("there is no entry \"{part}\""), remedy);

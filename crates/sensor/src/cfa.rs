@@ -24,7 +24,7 @@ pub struct Cfa {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CfaError {
     /// No pixels, or not a rectangle.
-    #[error("a colour filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
+    #[error("a colour filter tile of {width} × {height} pixels needs {} entries (at least one), but their number is {entries}", .width * .height)]
     Shape {
         /// Columns requested.
         width: usize,

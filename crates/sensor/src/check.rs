@@ -26,7 +26,9 @@ pub enum SensorError {
         high: f32,
     },
     /// A channel number in the tile without a channel.
-    #[error("the colour filter tile names channel {channel}, but there are only {channels}, counted from 0")]
+    #[error(
+        "the colour filter tile refers to channel {channel}, but the channels are numbered from 0 and their number is {channels}"
+    )]
     NoSuchChannel {
         /// The channel's number.
         channel: usize,

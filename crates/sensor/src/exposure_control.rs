@@ -65,16 +65,25 @@ impl Effect for ExposureControl {
         checks.positive("auto_exposure.exposure_limits_s", low);
         let around = |[low, high]: [f64; 2], v: f64| low <= v && v <= high && high.is_finite();
         checks.agree("auto_exposure.exposure_limits_s", around(self.exposure_s, facts.exposure_s), || {
-            format!("the limits must rise and contain the exposure of the first frame, {} s", facts.exposure_s)
+            format!(
+                "the limits must be in increasing order and contain the exposure of the first frame, {} s",
+                facts.exposure_s
+            )
         });
         checks.agree(
             "auto_exposure.exposure_limits_s",
             facts.frame_period_s.is_none_or(|period| high <= period),
-            || "the longest exposure is longer than \"frame_period_s\"".to_owned(),
+            || {
+                "the longest exposure is longer than \"frame_period_s\": shorten it, or give a longer frame period"
+                    .to_owned()
+            },
         );
         checks.positive("auto_exposure.gain_limits", self.analogue_gain[0]);
         checks.agree("auto_exposure.gain_limits", around(self.analogue_gain, facts.analogue_gain), || {
-            format!("the limits must rise and contain the gain of the first frame, {}", facts.analogue_gain)
+            format!(
+                "the limits must be in increasing order and contain the gain of the first frame, {}",
+                facts.analogue_gain
+            )
         });
     }
 

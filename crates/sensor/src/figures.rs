@@ -19,7 +19,7 @@
 //! Each capture is used up to its switch. There the signal-to-noise ratio falls from μ_k/√(μ_k + σ_k²), with μ_k the electrons of this capture, to
 //! that of the next one. Fixed patterns are excluded.
 //!
-//! Temporal fluctuation of a pixel's number under constant light: shot noise of light and dark current, read noise and quantisation (EMVA 1288,
+//! Temporal fluctuation of the digital number of a pixel under constant light: shot noise of light and dark current, read noise and quantisation (EMVA 1288,
 //! equation 10), in the electrons of the described exposure. Excluded: fixed patterns, blinking pixels and the sensor's memory of earlier frames.
 
 use etendue_core::maths::f64::{log2, log10};
@@ -130,8 +130,8 @@ struct CaptureNoise {
 }
 
 impl Sensor {
-    /// The noise of a frame as described. Under exposure control that of the longest exposure and the largest gain: the lowest relative to the light,
-    /// without saturation.
+    /// Returns the temporal noise of a frame at the exposure and gain of the description. Under exposure control it is that of the longest exposure and
+    /// the largest gain, the lowest relative to the light, and signals have no upper limit.
     #[must_use]
     pub fn temporal_noise(&self) -> TemporalNoise {
         let p = self.parameters();

@@ -121,7 +121,7 @@ impl Layout {
         let mut checks = Checks::default();
         let (w, h) = (cfa.width(), cfa.height());
         checks.agree("cfa", width.is_multiple_of(w) && height.is_multiple_of(h), || {
-            format!("a tile of {w} × {h} pixels does not tile a sensor of {width} × {height}: give multiples of it")
+            format!("{width} × {height} pixels of the sensor are no multiple of the {w} × {h} pixels of the tile: change the size")
         });
         let (n, m) = self.steps();
         let key = if self.skipping.is_some() { "skipping" } else { "binning" };
@@ -139,21 +139,31 @@ impl Layout {
         }
         let (w, h) = (w * n, h * m);
         let is_divisible = |columns: usize, rows: usize| columns.is_multiple_of(w) && rows.is_multiple_of(h);
-        let multiples =
-            || format!("columns must be multiples of {w} and rows of {h} (the colour tile times the {key})");
-        checks.agree(key, is_divisible(width, height), multiples);
+        let tile = match (n, m) {
+            (1, 1) => "the colour filter tile".to_owned(),
+            _ => format!("the colour filter tile times the {key}"),
+        };
+        let multiples = format!("expected multiples of {w} columns and {h} rows, the size of {tile}");
+        checks.agree(key, is_divisible(width, height), || {
+            format!("the sensor has {width} columns and {height} rows; {multiples}")
+        });
         let dark = self.optical_black;
-        checks.agree("optical_black", is_divisible(dark.columns, dark.rows), multiples);
+        checks.agree("optical_black", is_divisible(dark.columns, dark.rows), || {
+            format!("found {} columns and {} rows; {multiples}", dark.columns, dark.rows)
+        });
         if let Some(r) = self.region {
             checks.agree(
                 "roi_px",
                 is_divisible(r.x, r.y) && is_divisible(r.width, r.height) && r.width > 0 && r.height > 0,
-                multiples,
+                || {
+                    let Region { x, y, width, height } = r;
+                    format!("found {width} × {height} pixels from column {x}, row {y}; {multiples}")
+                },
             );
             let ends_inside =
                 |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
             checks.agree("roi_px", ends_inside(r.x, r.width, width) && ends_inside(r.y, r.height, height), || {
-                format!("it ends beyond the image of {width} × {height} pixels")
+                format!("it ends beyond the image of {width} × {height} pixels: move it or make it smaller")
             });
             checks.agree("roi_px", dark == OpticalBlack::default(), || {
                 "a region excludes the optical black: remove one of the two".to_owned()

@@ -88,7 +88,7 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     if let Some(period_s) = p.exposure.frame_period_s {
         let sum_s = max_exposure_s(p);
         checks.agree("hdr.captures", sum_s <= period_s, || {
-            format!("the exposures of a photodiode follow each other and take {sum_s} s in total, more than frame_period_s, {period_s} s")
+            format!("the exposures of a photodiode follow each other and take {sum_s} s in total, more than frame_period_s, {period_s} s: shorten them, or give a longer frame period")
         });
     }
 }
@@ -106,7 +106,9 @@ fn max_exposure_s(p: &SensorParameters) -> f64 {
 fn check_bits(p: &SensorParameters, checks: &mut Checks) {
     let hdr = &p.hdr;
     let Some(bits) = hdr.bits else {
-        checks.agree("hdr.merged_bits", hdr.captures.is_empty(), || "several captures need \"merged_bits\"".to_owned());
+        checks.agree("hdr.merged_bits", hdr.captures.is_empty(), || {
+            "several captures need \"merged_bits\": give it".to_owned()
+        });
         return;
     };
     checks
@@ -116,7 +118,7 @@ fn check_bits(p: &SensorParameters, checks: &mut Checks) {
     let more_sensitive = (1..=hdr.captures.len()).find(|k| hdr.scale(*k) < hdr.scale(*k - 1));
     checks.agree("hdr.captures", more_sensitive.is_none(), || {
         let number = more_sensitive.unwrap_or(1) - 1;
-        format!("entry {number} (from 0) is more sensitive than the one before it: list them by falling sensitivity")
+        format!("entry {number} (from 0) is more sensitive than the one before it: list them by decreasing sensitivity")
     });
     check_ranges(p, checks);
     if checks.errors.is_empty() {

@@ -186,7 +186,8 @@ static CATALOGUE: LazyLock<Vec<CatalogueGlass>> =
 fn row(line: &'static str) -> CatalogueGlass {
     let mut fields = line.split(',');
     let [maker, name] = [(); 2].map(|()| fields.next().expect("maker and name"));
-    let mut number = || fields.next().and_then(|f| f.parse().ok()).expect("a table of the crate has six numbers a row");
+    let mut number =
+        || fields.next().and_then(|f| f.parse().ok()).expect("a table of the crate has six numbers per row");
     let dispersion = Dispersion::Sellmeier { b: [(); 3].map(|()| number()), c_um2: [(); 3].map(|()| number()) };
     CatalogueGlass { maker, name, dispersion }
 }

@@ -33,10 +33,10 @@ impl Spectrum {
         Self { values: boxed(values), covered_nm: (MIN_NM, MAX_NM) }
     }
 
-    /// Creates a spectrum from points (wavelength in nm, value), wavelengths rising; linear between points.
+    /// Creates a spectrum from points (wavelength in nm, value), wavelengths increasing; linear between points.
     ///
     /// # Errors
-    /// If there are no points, a single one in a table that is zero outside, a number is not finite, wavelengths do not rise, or the table does not
+    /// If there are no points, a single one in a table that is zero outside, a number is not finite, wavelengths do not increase, or the table does not
     /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Extrapolation) -> Result<Self, SpectrumError> {
         table::check(points, TablePlace::Point)?;
@@ -175,7 +175,7 @@ pub(crate) fn node_below(nm: f32) -> (usize, f32) {
 }
 
 fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
-    values.try_into().expect("one value a node")
+    values.try_into().expect("one value per node")
 }
 
 /// The spectra of an embedded table: `C` columns, the first the wavelength in nm.

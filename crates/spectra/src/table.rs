@@ -34,13 +34,13 @@ impl core::fmt::Display for TablePlace {
 pub enum SpectrumError {
     /// A line without the expected numbers.
     #[error(
-        "line {line}: found `{found}`, expected {columns} numbers separated by commas, the first a wavelength in nm"
+        "line {line}: found `{text}`, expected {columns} numbers separated by commas, the first a wavelength in nm"
     )]
     Malformed {
         /// The line, counted from 1.
         line: usize,
         /// The line's text.
-        found: String,
+        text: String,
         /// Expected count of numbers.
         columns: usize,
     },
@@ -63,7 +63,7 @@ pub enum SpectrumError {
         place: TablePlace,
     },
     /// A wavelength is not longer than the one before.
-    #[error("{place}: wavelength {nm} nm follows {before} nm: sort the table by rising wavelength, each once")]
+    #[error("{place}: wavelength {nm} nm follows {before} nm: sort the table by increasing wavelength, each once")]
     NotRising {
         /// Location.
         place: TablePlace,
@@ -73,7 +73,9 @@ pub enum SpectrumError {
         before: f64,
     },
     /// The table does not reach into the legal range.
-    #[error("the table covers {low} to {high} nm, nothing of 300 to 1100 nm: are its wavelengths in nanometres?")]
+    #[error(
+        "the table covers {low} to {high} nm, which does not overlap 300 to 1100 nm: give wavelengths in nanometres"
+    )]
     OutOfRange {
         /// First wavelength, nm.
         low: f64,
@@ -136,7 +138,7 @@ fn is_header(line: &str) -> bool {
 fn numbers<const C: usize>(line: usize, text: &str) -> Result<[f64; C], SpectrumError> {
     let parsed: Option<Vec<f64>> = text.split(',').map(|field| field.trim().parse().ok()).collect();
     let array = parsed.and_then(|values| values.try_into().ok());
-    array.ok_or_else(|| SpectrumError::Malformed { line, found: text.to_owned(), columns: C })
+    array.ok_or_else(|| SpectrumError::Malformed { line, text: text.to_owned(), columns: C })
 }
 
 /// A node's value: the piecewise linear function itself or, if a table point lies closer than 1 nm, the mean of the function with a triangular weight
@@ -215,7 +217,7 @@ mod tests {
         assert!(error("400,1\n450,1e39\n").starts_with("line 2:"), "too large for storage");
         assert!(error("400,1\n400,2\n").starts_with("line 2: wavelength 400 nm follows 400 nm"));
         assert!(error("").starts_with("the table has no points"));
-        assert!(error("0.4,1\n0.7,1\n").contains("are its wavelengths in nanometres?"));
+        assert!(error("0.4,1\n0.7,1\n").contains("does not overlap 300 to 1100 nm"));
         let points = [(400.0, 1.0), (300.0, 1.0)];
         let message = Spectrum::from_points(&points, Extrapolation::Zero).expect_err("a fault").to_string();
         assert!(message.starts_with("point 1: wavelength 300 nm follows 400 nm"));

@@ -36,7 +36,7 @@ static EMISSION: LazyLock<Nodes> = LazyLock::new(|| {
 
 fn nodes(spectra: [&Spectrum; 3]) -> Nodes {
     let list: Vec<_> = (0..NODES).map(|i| spectra.map(|s| s.nodes()[i])).collect();
-    list.try_into().expect("one entry a node")
+    list.try_into().expect("one entry per node")
 }
 
 /// The basis reflectances of red, green and blue.

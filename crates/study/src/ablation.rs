@@ -2,10 +2,10 @@
 
 use crate::Clock;
 use crate::change::{FrameChange, header};
+use crate::configuration::{SAMPLE_KEYS, is_of};
 use crate::edge::EdgeChart;
 use crate::frame_render::{FrameRenderer, SECOND_SAMPLES_RATIO};
 use crate::study::StudyRequest;
-use crate::way::{SAMPLE_KEYS, is_of};
 use etendue::{EffectGroup, Error, Observer, Progress, ProgressUnit};
 use serde::Serialize;
 
@@ -44,7 +44,8 @@ pub struct Ablation {
     /// Effects that were left out, in the order of the light.
     pub dropped: Vec<DroppedEffect>,
     /// Effects that were not left out.
-    pub kept: Vec<RetainedEffect>,
+    #[serde(rename = "kept")]
+    pub retained: Vec<RetainedEffect>,
 }
 
 /// Renders a frame of a job without each effect that a key leaves out according to its plan. Runs on the caller's thread pool.
@@ -67,7 +68,7 @@ pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observ
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
             Some(None) => {
-                retained.push(RetainedEffect { effect: effect.name, reason: "no key leaves it out".to_owned() });
+                retained.push(RetainedEffect { effect: effect.name, reason: "no key disables it".to_owned() });
             }
             None => {}
         }
@@ -100,7 +101,7 @@ pub fn ablation(request: &StudyRequest, clock: &dyn Clock, observer: &dyn Observ
         cpu_s,
         camera: renderer.camera,
         dropped: dropped_effects,
-        kept: retained,
+        retained,
     })
 }
 
@@ -119,13 +120,10 @@ pub fn ablation_table(ablation: &Ablation) -> String {
     for effect in &ablation.dropped {
         let _ = writeln!(out, "{:<30} {}", effect.effect, effect.change.row());
     }
-    if !ablation.kept.is_empty() {
-        let names: Vec<_> = ablation.kept.iter().map(|effect| effect.effect).collect();
-        let _ = writeln!(
-            out,
-            "\nnot left out (no key does this, or the job does not accept the change): {}",
-            names.join(", ")
-        );
+    if !ablation.retained.is_empty() {
+        let names: Vec<_> = ablation.retained.iter().map(|effect| effect.effect).collect();
+        let _ =
+            writeln!(out, "\nnot left out (always on, or the job does not accept the change): {}", names.join(", "));
     }
     out
 }

@@ -3,7 +3,7 @@
 use crate::Clock;
 use crate::pilot::{Pilots, seed};
 use crate::plan::{PilotPlan, TILE_PX};
-use crate::stint::WorkTimer;
+use crate::work_timer::WorkTimer;
 use etendue::{Error, Job, Observer, Simd};
 
 /// Tiles of the first measurement, and the minimum of any.

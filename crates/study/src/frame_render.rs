@@ -1,9 +1,9 @@
 //! A frame rendered twice, with different random numbers and different numbers of samples.
 
 use crate::Clock;
+use crate::configuration::{SAMPLE_KEYS, without_keys};
 use crate::pilot::seed;
 use crate::study::StudyRequest;
-use crate::way::{SAMPLE_KEYS, without_keys};
 use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions, Word as _};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
 use etendue_core::{Plane, StoredCube};
@@ -29,7 +29,6 @@ pub(crate) struct FrameRenderer<'a> {
     observer: &'a dyn Observer,
     /// The unchanged job.
     pub(crate) job: Job,
-    /// The camera.
     pub(crate) camera: String,
     /// The job's samples per pixel.
     pub(crate) job_spp: f64,

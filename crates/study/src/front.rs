@@ -1,8 +1,8 @@
 //! The Pareto front of configurations, and three recommendations: draft, standard image and reference.
 
+use crate::configuration::Configuration;
 use crate::error::{ErrorMetrics, Estimate};
 use crate::measured::ConfigurationMeasurement;
-use crate::way::Configuration;
 use serde::Serialize;
 
 /// Maximum number of samples considered.
@@ -17,7 +17,8 @@ const FRONT_POWERS: std::ops::RangeInclusive<u32> = 2..=14;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrontPoint {
     /// Configuration.
-    pub way: Configuration,
+    #[serde(rename = "way")]
+    pub configuration: Configuration,
     /// Samples per pixel.
     pub spp: u32,
     /// Number of independent replicates.
@@ -105,7 +106,7 @@ pub(crate) struct FrameOverhead {
 pub(crate) fn point(measured: &ConfigurationMeasurement, spp: u32, frame: FrameOverhead) -> FrontPoint {
     let replicates = frame.replicates.min(spp);
     FrontPoint {
-        way: measured.way,
+        configuration: measured.configuration,
         spp,
         replicates,
         seconds: measured.seconds(f64::from(spp), frame.rest_s),
@@ -177,7 +178,7 @@ mod tests {
         let exact = |value: f64| Estimate { value, uncertainty: 0.0 };
         let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: exact(1.0) };
         ConfigurationMeasurement {
-            way: Configuration {
+            configuration: Configuration {
                 paths: PathSettings { integrator, max_bounces: 64, ..PathSettings::default() },
                 path_reuse_px: 1,
                 wavelengths: 4,
@@ -201,7 +202,7 @@ mod tests {
             [configuration(Integrator::Path, 1.0, 0.04, 0.0), configuration(Integrator::Direct, 0.25, 0.04, 1e-4)];
         let of = |error: f64| {
             recommend(&configurations, ErrorTarget { name: "draft", sensor: None, relative: Some(error) }, FRAME)
-                .map(|r| (r.point.way.paths.integrator, r.point.spp))
+                .map(|r| (r.point.configuration.paths.integrator, r.point.spp))
         };
         // 0.04/n + 1e-4 is 0.0025 at 16.7.
         assert_eq!(of(0.05), Some((Integrator::Direct, 20)));
@@ -233,7 +234,7 @@ mod tests {
                 .all(|p| p[0].seconds.value <= p[1].seconds.value
                     && p[0].error.relative.value > p[1].error.relative.value)
         );
-        assert_eq!(front.first().map(|p| p.way.paths.integrator), Some(Integrator::Direct));
-        assert_eq!(front.last().map(|p| p.way.paths.integrator), Some(Integrator::Path));
+        assert_eq!(front.first().map(|p| p.configuration.paths.integrator), Some(Integrator::Direct));
+        assert_eq!(front.last().map(|p| p.configuration.paths.integrator), Some(Integrator::Path));
     }
 }

@@ -1,8 +1,8 @@
 //! A recommendation as a job file based on the user's.
 
+use crate::configuration::{is_of, studied_keys};
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
-use crate::way::{is_of, studied_keys};
 use etendue::{Error, JobRenderSettings, JobRequest, Word as _, relative_path};
 use std::path::{Component, Path, PathBuf};
 
@@ -23,11 +23,11 @@ pub fn job_file(
     let removed = stated_keys.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
     let removed: Vec<_> = removed.map(|key| format!("{key:?}")).collect();
     let Recommendation { target, point, is_reached, .. } = recommendation;
-    let keys = point.way.keys();
+    let keys = point.configuration.keys();
     let keys = keys.iter().map(|(key, value)| format!("{key} = {value}"));
     let samples = [format!("spp = {}", point.spp), format!("replicates = {}", point.replicates)];
     let render: Vec<_> = samples.into_iter().chain(keys).collect();
-    let left_out = match point.way.left_out() {
+    let left_out = match point.configuration.left_out() {
         none if none.is_empty() => "nothing".to_owned(),
         what => what,
     };

@@ -10,6 +10,7 @@
 mod ablation;
 mod budget;
 mod change;
+mod configuration;
 mod edge;
 mod error;
 mod frame_render;
@@ -22,14 +23,14 @@ mod pilot;
 mod pixels;
 mod plan;
 mod report;
-mod stint;
 mod study;
 mod trial;
 mod variation;
-mod way;
+mod work_timer;
 
 pub use ablation::{Ablation, DroppedEffect, RetainedEffect, ablation, ablation_table};
 pub use change::FrameChange;
+pub use configuration::Configuration;
 pub use edge::Mtf50;
 pub use error::{ErrorMetrics, Estimate};
 pub use front::{ErrorTarget, FrontPoint, Recommendation};
@@ -39,7 +40,6 @@ pub use pictures::{ImageComparison, pictures};
 pub use report::{plot, table};
 pub use study::{Study, StudyRequest, study};
 pub use variation::{VariationResult, VariationStudy, variation_table, variations};
-pub use way::Configuration;
 
 /// A monotonic clock.
 pub trait Clock: Sync {

@@ -1,9 +1,9 @@
 //! Results of pilots of one configuration: noise and time of a sample, and distance of its mean from the exact one.
 
+use crate::configuration::Configuration;
 use crate::error::{ErrorMetrics, Estimate};
 use crate::pilot::Pilot;
 use crate::pixels::SampledPixels;
-use crate::way::Configuration;
 use etendue_core::maths::f64::{hypot, ln, pow};
 use etendue_stats::{Moments, upper_median};
 use serde::Serialize;
@@ -90,7 +90,8 @@ pub enum Role {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ConfigurationMeasurement {
     /// The configuration.
-    pub way: Configuration,
+    #[serde(rename = "way")]
+    pub configuration: Configuration,
     /// Its role in the study.
     pub role: Role,
     /// Time of reading files, compiling the scene and building its acceleration structures, s.
@@ -168,6 +169,16 @@ impl ConfigurationMeasurement {
         let fixed = Estimate { value: self.load_s + self.frame_s + rest_s, uncertainty: 0.0 };
         self.sample_s.times(spp).plus(fixed)
     }
+}
+
+/// Upper bound of two omissions together (Minkowski): both are missing light, so that they seldom cancel.
+pub(crate) fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
+    let (first, second) = (a.value.max(0.0).sqrt(), b.value.max(0.0).sqrt());
+    if first * second == 0.0 {
+        return a.plus(*b);
+    }
+    let uncertainty = hypot(a.uncertainty * (1.0 + second / first), b.uncertainty * (1.0 + first / second));
+    Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Images of approximations: the exact form, the approximation, and their difference side by side.
 
+use crate::configuration::Configuration;
 use crate::measured::{ConfigurationMeasurement, Role};
 use crate::study::{Study, StudyRequest};
-use crate::way::Configuration;
 use etendue::{Error, Job, Observer, RenderOptions, display_jpeg};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
@@ -31,7 +31,9 @@ pub struct ImageComparison {
 /// # Errors
 /// The observer cancels, or light is not finite.
 pub fn pictures(study: &Study, request: &StudyRequest, observer: &dyn Observer) -> Result<Vec<ImageComparison>, Error> {
-    let Some(exact) = study.ways.iter().find(|measured| measured.way.is_exact()) else { return Ok(Vec::new()) };
+    let Some(exact) = study.configurations.iter().find(|measured| measured.configuration.is_exact()) else {
+        return Ok(Vec::new());
+    };
     let affordable = MAX_IMAGE_TIME_FRACTION * request.budget_s / exact.sample_s.value;
     let spp = affordable.clamp(1.0, MAX_SPP) as u64;
     let image = |configuration: &Configuration| -> Result<Option<Plane<Display>>, Error> {
@@ -39,11 +41,11 @@ pub fn pictures(study: &Study, request: &StudyRequest, observer: &dyn Observer) 
         (request_of.spp, request_of.noise) = (Some(spp), None);
         developed_image(&request_of.open()?, request, observer)
     };
-    let Some(reference) = image(&exact.way)? else { return Ok(Vec::new()) };
+    let Some(reference) = image(&exact.configuration)? else { return Ok(Vec::new()) };
     let mut compared = Vec::new();
-    for measured in study.ways.iter().filter(|measured| is_shown(measured)) {
-        let Some(own) = image(&measured.way)? else { continue };
-        let file = format!("{}.jpg", file_stem(&measured.way));
+    for measured in study.configurations.iter().filter(|measured| is_shown(measured)) {
+        let Some(own) = image(&measured.configuration)? else { continue };
+        let file = format!("{}.jpg", file_stem(&measured.configuration));
         compared.push(ImageComparison { file, jpeg: display_jpeg(&side_by_side(&reference, &own), QUALITY)? });
     }
     Ok(compared)
@@ -61,7 +63,7 @@ fn developed_image(
 
 /// Returns true for approximations that are not the exact form.
 fn is_shown(measured: &ConfigurationMeasurement) -> bool {
-    matches!(measured.role, Role::Approximation | Role::Stated) && !measured.way.is_exact()
+    matches!(measured.role, Role::Approximation | Role::Stated) && !measured.configuration.is_exact()
 }
 
 fn file_stem(configuration: &Configuration) -> String {

@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::plan::PilotPlan;
-use crate::stint::WorkTimer;
+use crate::work_timer::WorkTimer;
 use etendue::{Error, Job, LightSampling, Observer, SampledPixel, Simd};
 
 /// Planes of one configuration with one number of samples, and the time of each.

@@ -57,7 +57,7 @@ pub fn table(study: &Study) -> String {
         out,
         "camera {}: {} of the tiles evaluated in {}; light is measured as {}\n",
         study.camera,
-        if study.share >= 1.0 { "all".to_owned() } else { format!("{:.1} %", 100.0 * study.share) },
+        if study.pixel_fraction >= 1.0 { "all".to_owned() } else { format!("{:.1} %", 100.0 * study.pixel_fraction) },
         time_text(study.took_s),
         study.signal
     );
@@ -72,7 +72,7 @@ pub fn table(study: &Study) -> String {
         out,
         "as in the job: {} samples, {}, {} in {}\n",
         own.spp,
-        own.way.label(),
+        own.configuration.label(),
         error_text(&own.error),
         time_text(own.seconds.value)
     );
@@ -93,7 +93,7 @@ fn configurations(study: &Study, out: &mut String) {
          {:<54} {:>8} {:>14} {:>16} {:>14}",
         "configuration", "time", "noise", "of 8 × 8 px", "bias"
     );
-    for measured in &study.ways {
+    for measured in &study.configurations {
         let noise = measured
             .variance
             .map(|law| law.at(f64::from(spp) / f64::from(replicates)).times(1.0 / f64::from(replicates)).root());
@@ -102,14 +102,14 @@ fn configurations(study: &Study, out: &mut String) {
         let _ = writeln!(
             out,
             "{:<54} {:>8} {:>14} {:>16} {:>14}",
-            measured.way.label(),
+            measured.configuration.label(),
             time_text(measured.seconds(f64::from(spp), study.rest_s).value),
             main_metric_text(&noise),
             percent(noise.patch),
             bias.unwrap_or_else(|| "–".to_owned()),
         );
     }
-    biases(&study.ways, out);
+    biases(&study.configurations, out);
 }
 
 /// Text of the deciding metric.
@@ -121,7 +121,7 @@ fn main_metric_text(error: &ErrorMetrics<Estimate>) -> String {
 fn biases(measurements: &[ConfigurationMeasurement], out: &mut String) {
     let _ = writeln!(out, "\nbias, named:");
     for measured in measurements.iter().filter(|measured| matches!(measured.role, Role::Approximation | Role::Stated)) {
-        let (left_out, Some(bias)) = (measured.way.left_out(), &measured.bias) else { continue };
+        let (left_out, Some(bias)) = (measured.configuration.left_out(), &measured.bias) else { continue };
         if left_out.is_empty() {
             continue;
         }
@@ -134,7 +134,7 @@ fn biases(measurements: &[ConfigurationMeasurement], out: &mut String) {
         let _ = writeln!(
             out,
             "  {}, against {}: {biases}{sure}\n    it omits {left_out}",
-            measured.way.label(),
+            measured.configuration.label(),
             bias.against.label()
         );
     }
@@ -153,7 +153,7 @@ fn points(front: &[FrontPoint], out: &mut String) {
             "{:>8} {error:>22}  {} samples, {}",
             time_text(point.seconds.value),
             point.spp,
-            point.way.label()
+            point.configuration.label()
         );
     }
     out.push('\n');
@@ -166,7 +166,7 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
         "{}: {} samples, {}: {} in {}{}",
         target.name,
         point.spp,
-        point.way.label(),
+        point.configuration.label(),
         error_text(&point.error),
         time_text(point.seconds.value),
         if *is_reached { "" } else { "; the target is not reached" }
@@ -192,13 +192,13 @@ pub fn plot(study: &Study) -> String {
     let label = if has_sensor { "error relative to the sensor's noise (rms)" } else { "error of the light (rms)" };
     let place = |point: &FrontPoint| (point.seconds.value, point.error.main_metric().value);
     let mut series = Vec::new();
-    let on_front = study.front.iter().map(|p| p.way);
-    let mut named: Vec<_> = on_front.chain([study.as_stated.way]).collect();
+    let on_front = study.front.iter().map(|p| p.configuration);
+    let mut named: Vec<_> = on_front.chain([study.as_stated.configuration]).collect();
     named.dedup();
-    named.sort_by_key(|configuration| study.ways.iter().position(|m| m.way == *configuration));
+    named.sort_by_key(|configuration| study.configurations.iter().position(|m| m.configuration == *configuration));
     named.dedup();
     for configuration in named {
-        let Some(measured) = study.ways.iter().find(|m| m.way == configuration) else { continue };
+        let Some(measured) = study.configurations.iter().find(|m| m.configuration == configuration) else { continue };
         let replicates = f64::from(study.as_stated.replicates);
         let curve = (2..=14).map(|power| f64::from(1_u32 << power)).filter(|spp| *spp >= replicates).map(|spp| {
             let error = measured.error(spp, replicates).main_metric().root().value;

@@ -2,22 +2,21 @@
 
 use crate::Clock;
 use crate::budget::affordable_tiles;
+use crate::configuration::{Configuration, EXACT_BOUNCES};
 use crate::error::{ErrorMetrics, Estimate};
 use crate::front::{FrameOverhead, FrontPoint, Recommendation, front, point, recommend, targets};
-use crate::measured::{Bias, ConfigurationMeasurement, Role, SampledPilot, Times, bias, variance};
+use crate::measured::{Bias, ConfigurationMeasurement, Role, SampledPilot, Times, bias, in_series, variance};
 use crate::pilot::{Pilot, Pilots};
 use crate::pixels::SampledPixels;
 use crate::plan::pixel_fraction;
-use crate::stint::WorkTimer;
 use crate::trial::TrialContext;
-use crate::way::{Configuration, EXACT_BOUNCES};
+use crate::work_timer::WorkTimer;
 use clap::Args;
 use etendue::{
     Accelerator, Error, ErrorCode, ExistingFiles, Integrator, Job, JobRequest, LightSignal, Observer, PathSettings,
     Progress, ProgressUnit, RenderOptions, Simd, Word as _,
 };
 use etendue_core::LightSampling;
-use etendue_core::maths::f64::hypot;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -69,13 +68,15 @@ pub struct Study {
     /// Quantity of its signal: `electrons`, `irradiance` or `radiance`.
     pub signal: &'static str,
     /// Fraction of the frame's pixels that were sampled.
-    pub share: f64,
+    #[serde(rename = "share")]
+    pub pixel_fraction: f64,
     /// Time of a frame excluding loading and light, s: sensor, processing, ground truth, files.
     pub rest_s: f64,
     /// The unchanged job.
     pub as_stated: FrontPoint,
     /// All configurations of the study, the job's own first.
-    pub ways: Vec<ConfigurationMeasurement>,
+    #[serde(rename = "ways")]
+    pub configurations: Vec<ConfigurationMeasurement>,
     /// Pareto front, shortest first.
     pub front: Vec<FrontPoint>,
     /// Settings for a draft, a standard image and a reference.
@@ -135,10 +136,14 @@ pub fn study(
         targets(has_sensor).into_iter().filter_map(|target| recommend(&eligible, target, frame)).collect();
     let trial = TrialContext { budget_s: request.budget_s, job: &job, pilots: &bench.pilots };
     for recommendation in &mut recommendations {
-        let configuration = recommendation.point.way;
-        let measured = bench.measured.iter().find(|m| m.way == configuration).expect("recommended of these");
+        let configuration = recommendation.point.configuration;
+        let measured = bench.measured.iter().find(|m| m.configuration == configuration).expect("recommended of these");
         // The job's own configuration is first; the exact form serves only as the control here.
-        let control = bench.measured.iter().find(|m| m.way != configuration).expect("several ways are looked at");
+        let control = bench
+            .measured
+            .iter()
+            .find(|m| m.configuration != configuration)
+            .expect("several configurations are measured");
         trial.run(recommendation, measured, control, rest_s)?;
     }
     Ok(Study {
@@ -147,7 +152,7 @@ pub fn study(
             LightSignal::Irradiance => "irradiance",
             LightSignal::Radiance => "radiance",
         },
-        share: pixel_fraction(
+        pixel_fraction: pixel_fraction(
             &job,
             &camera,
             bench.pilots_by_configuration.first().map_or(0, |(_, pilot)| pilot.pixels.len()),
@@ -158,19 +163,9 @@ pub fn study(
         recommendations,
         took_s: clock.seconds() - from_s,
         slowed: bench.clock_s * clock.threads() as f64 / bench.processor_s.max(1e-9),
-        ways: bench.measured,
+        configurations: bench.measured,
         camera,
     })
-}
-
-/// Upper bound of two omissions together (Minkowski): both are missing light, so that they seldom cancel.
-fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
-    let (first, second) = (a.value.max(0.0).sqrt(), b.value.max(0.0).sqrt());
-    if first * second == 0.0 {
-        return a.plus(*b);
-    }
-    let uncertainty = hypot(a.uncertainty * (1.0 + second / first), b.uncertainty * (1.0 + first / second));
-    Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
 /// A study in progress.
@@ -224,7 +219,8 @@ impl StudyRun<'_> {
             Some(if job_configuration.paths.caustics || job_configuration.paths.regularize { path } else { bare })
         };
         self.measure(job_configuration, Role::Stated, against)?;
-        let own = self.measured.iter().position(|measured| measured.way == job_configuration).expect("looked at");
+        let own =
+            self.measured.iter().position(|measured| measured.configuration == job_configuration).expect("looked at");
         let own = self.measured.remove(own);
         self.measured.insert(0, own);
         for configuration in self.choices_without_bias(job_configuration)? {
@@ -283,7 +279,7 @@ impl StudyRun<'_> {
         against: Option<Configuration>,
     ) -> Result<(), Error> {
         if self.measure(configuration, Role::Choice, against)?.is_some() {
-            let bias = self.measured.iter().find(|m| m.way == from).map(|m| m.bias_squares);
+            let bias = self.measured.iter().find(|m| m.configuration == from).map(|m| m.bias_squares);
             let alternative = self.measured.last_mut().expect("just looked at");
             alternative.bias_squares = bias.unwrap_or(alternative.bias_squares);
         }
@@ -297,7 +293,7 @@ impl StudyRun<'_> {
         role: Role,
         against: Option<Configuration>,
     ) -> Result<Option<Pilot>, Error> {
-        if self.measured.iter().any(|measured| measured.way == configuration) {
+        if self.measured.iter().any(|measured| measured.configuration == configuration) {
             return Ok(None);
         }
         let (done, total) = (self.measured.len(), (TYPICAL_CONFIGURATIONS as usize).max(self.measured.len() + 1));
@@ -338,7 +334,7 @@ impl StudyRun<'_> {
         let bias_squares = self.total_bias(bias.as_ref(), &variance.map(|_| Estimate::default()));
         let Times { frame_s, sample_s } = times;
         self.measured.push(ConfigurationMeasurement {
-            way: configuration,
+            configuration,
             role,
             load_s,
             frame_s,
@@ -353,7 +349,7 @@ impl StudyRun<'_> {
     /// Upper bound of the total bias: a bias plus that of the configuration it is compared with.
     fn total_bias(&self, own: Option<&Bias>, none: &ErrorMetrics<Estimate>) -> ErrorMetrics<Estimate> {
         let Some(own) = own else { return *none };
-        let reference = self.measured.iter().find(|measured| measured.way == own.against);
+        let reference = self.measured.iter().find(|measured| measured.configuration == own.against);
         let own = own.squares.map(|square| Estimate { value: square.value.max(0.0), ..*square });
         match reference {
             Some(reference) => own.with(&reference.bias_squares, in_series),
@@ -363,12 +359,12 @@ impl StudyRun<'_> {
 
     /// Time of one frame of the job excluding loading and light, s.
     fn rest_s(&self, scratch: &Path) -> Result<f64, Error> {
-        let request = self.measured[0].way.request(&self.request.job, self.pilots.camera);
+        let request = self.measured[0].configuration.request(&self.request.job, self.pilots.camera);
         let job = JobRequest { spp: Some(1), noise: None, ..request }.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let clock = self.pilots.clock;
         let timer = WorkTimer::start(clock);
-        let save_result = job.save(&options, scratch, ExistingFiles::Refuse, &etendue::Unobserved);
+        let save_result = job.save(&options, scratch, ExistingFiles::Refuse, &etendue::NullObserver);
         let (clock_s, processor_s) = (timer.clock_s(), timer.processor_s());
         if scratch.exists() {
             std::fs::remove_dir_all(scratch)
@@ -383,12 +379,12 @@ impl StudyRun<'_> {
 
     /// Combines the best unbiased choices with the configurations that targets require.
     fn combine(&mut self, spp: u32, frame: FrameOverhead) -> Result<(), Error> {
-        let job_configuration = self.measured[0].way;
+        let job_configuration = self.measured[0].configuration;
         let best = |of: fn(&Configuration, &Configuration) -> Configuration| {
-            let similar = self.measured.iter().filter(|m| of(&job_configuration, &m.way) == m.way);
+            let similar = self.measured.iter().filter(|m| of(&job_configuration, &m.configuration) == m.configuration);
             let cost = |m: &ConfigurationMeasurement| cost(m, &self.measured[0], spp, frame);
             let best = similar.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-            best.filter(|m| cost(m) < MAX_RELATIVE_COST).map_or(job_configuration, |m| m.way)
+            best.filter(|m| cost(m) < MAX_RELATIVE_COST).map_or(job_configuration, |m| m.configuration)
         };
         let wavelengths = best(|own, other| Configuration { wavelengths: other.wavelengths, ..*own }).wavelengths;
         // Paths either share their tails or branch, not both.
@@ -408,15 +404,19 @@ impl StudyRun<'_> {
         let called: Vec<_> = targets(has_sensor)
             .into_iter()
             .filter_map(|target| recommend(&self.eligible(spp, frame), target, frame))
-            .map(|recommendation| recommendation.point.way)
+            .map(|recommendation| recommendation.point.configuration)
             .collect();
         for configuration in called {
             let traces = configuration.paths.integrator == Integrator::Path;
             let (path_reuse_px, branches) = if traces { (shared.path_reuse_px, shared.paths.branches) } else { (1, 1) };
             let paths = PathSettings { branches, light_sampling, ..configuration.paths };
             let combined = Configuration { paths, path_reuse_px, wavelengths, accelerator };
-            let base =
-                self.measured.iter().find(|m| m.way == configuration).and_then(|m| m.bias.as_ref()).map(|b| b.against);
+            let base = self
+                .measured
+                .iter()
+                .find(|m| m.configuration == configuration)
+                .and_then(|m| m.bias.as_ref())
+                .map(|b| b.against);
             self.measure_alternative(combined, configuration, base)?;
         }
         Ok(())
@@ -424,9 +424,10 @@ impl StudyRun<'_> {
 
     /// Configurations that may be recommended: of the choices derived from the job's own configuration those that gain both per pixel and per patch.
     fn eligible(&self, spp: u32, frame: FrameOverhead) -> Vec<ConfigurationMeasurement> {
-        let job_configuration = self.measured[0].way;
-        let is_of_own =
-            |m: &ConfigurationMeasurement| m.role == Role::Choice && m.way.paths.has_mean_of(&job_configuration.paths);
+        let job_configuration = self.measured[0].configuration;
+        let is_of_own = |m: &ConfigurationMeasurement| {
+            m.role == Role::Choice && m.configuration.paths.has_mean_of(&job_configuration.paths)
+        };
         let gains = |m: &&ConfigurationMeasurement| !is_of_own(m) || cost(m, &self.measured[0], spp, frame) < 1.0;
         self.measured.iter().filter(gains).cloned().collect()
     }

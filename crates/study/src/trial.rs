@@ -94,7 +94,7 @@ impl TrialContext<'_> {
         };
         let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
         let [job, other] =
-            [measured, control].map(|configuration| configuration.way.request(self.job.request(), camera).open());
+            [measured, control].map(|measurement| measurement.configuration.request(self.job.request(), camera).open());
         let (job, other) = (job?, other?);
         let own = job.camera_plan(camera)?.settings.seed;
         let (mut planes, mut pixels) = (Vec::new(), Vec::new());

@@ -2,10 +2,10 @@
 
 use crate::Clock;
 use crate::change::{FrameChange, header};
+use crate::configuration::{SAMPLE_KEYS, is_of};
 use crate::edge::EdgeChart;
 use crate::frame_render::{FrameRenderer, SECOND_SAMPLES_RATIO};
 use crate::study::StudyRequest;
-use crate::way::{SAMPLE_KEYS, is_of};
 use etendue::{Error, ErrorCode, Job, JobRequest, Observer, Progress, ProgressUnit};
 use serde::Serialize;
 use std::fmt::Write as _;

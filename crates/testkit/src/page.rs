@@ -10,7 +10,7 @@ pub struct Row {
     /// Expected result, and the reason.
     pub expected: String,
     /// Actual result.
-    pub found: String,
+    pub actual: String,
     /// True if the result is as expected.
     pub holds: bool,
 }
@@ -20,7 +20,7 @@ impl Row {
     #[must_use]
     pub fn at_most(extreme: &str, expected: &str, actual: f64, bound: f64) -> Self {
         let (extreme, expected) = (extreme.to_owned(), expected.to_owned());
-        Self { extreme, expected, found: figure(actual), holds: actual <= bound }
+        Self { extreme, expected, actual: figure(actual), holds: actual <= bound }
     }
 }
 
@@ -61,8 +61,8 @@ pub fn check(area: &str, introduction: &str, rows: &[Row]) {
     let failed: Vec<_> = rows.iter().filter(|row| !row.holds).collect();
     assert!(failed.is_empty(), "{area}: {failed:#?}");
     let mut section = format!("## {area}\n\n{introduction}\n\n| extreme | expected | found |\n| --- | --- | --- |\n");
-    for Row { extreme, expected, found, .. } in rows {
-        let _ = writeln!(section, "| {extreme} | {expected} | {found} |");
+    for Row { extreme, expected, actual, .. } in rows {
+        let _ = writeln!(section, "| {extreme} | {expected} | {actual} |");
     }
     let _only = PAGE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/evidence/extremes.md"));

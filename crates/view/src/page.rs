@@ -39,7 +39,10 @@ impl Page {
             if existing == ExistingFiles::Refuse && path.symlink_metadata().is_ok() {
                 return Err(Error::coded(
                     ErrorCode::OutputExists,
-                    format!("{}: already exists; choose another name, or allow it with `overwrite`", path.display()),
+                    format!(
+                        "{}: already exists; choose another name, or allow overwriting with `overwrite`",
+                        path.display()
+                    ),
                 ));
             }
             return Ok(Self::File(path.to_path_buf(), existing, String::new()));

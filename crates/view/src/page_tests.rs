@@ -2,7 +2,7 @@
 
 use crate::pack::tests::unpacked;
 use crate::{ViewRequest, view};
-use etendue::{Error, ExistingFiles, Unobserved};
+use etendue::{Error, ExistingFiles, NullObserver};
 use etendue_core::quantity::{Identity, Length, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
@@ -20,7 +20,7 @@ fn radiance(gain: f32) -> SpectralCube<Radiance> {
     let bands = Bands::new(400.0, 100.0, 3).expect("three bands");
     let plane = |band: usize| (0..PIXELS).map(|i| gain * (0.001 + (i * (band + 1)) as f32)).collect();
     let planes = (0..3).map(|band| Plane::from_samples(SIZE.0, SIZE.1, plane(band)).expect("pixels")).collect();
-    SpectralCube::from_planes(bands, planes).expect("a plane a band")
+    SpectralCube::from_planes(bands, planes).expect("one plane per band")
 }
 
 fn lengths() -> Vec<f32> {
@@ -109,10 +109,10 @@ fn request(folder: &Path) -> ViewRequest {
 fn the_page_has_the_numbers_of_the_files() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = result(&place.path().join("a"), 1.0);
-    let page = view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect("a page");
+    let page = view(&request(&folder), None, ExistingFiles::Refuse, &NullObserver).expect("a page");
     assert_eq!(page, folder.join("view/index.html"));
     let one = place.path().join("one.html");
-    view(&request(&folder), Some(&one), ExistingFiles::Refuse, &Unobserved).expect("a page");
+    view(&request(&folder), Some(&one), ExistingFiles::Refuse, &NullObserver).expect("a page");
     for page in [page, one] {
         let facts = facts(&page);
         let depth = planes(&page, layer(&facts, 0, "depth")).remove(0);
@@ -151,7 +151,7 @@ fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     let place = tempfile::tempdir().expect("temporary folder");
     let folder = result(&place.path().join("a"), 1.0);
     let bytes = || {
-        view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect("a page");
+        view(&request(&folder), None, ExistingFiles::Refuse, &NullObserver).expect("a page");
         contents(&folder.join("view"))
     };
     let first = bytes();
@@ -160,7 +160,7 @@ fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     fs::remove_file(folder.join("front/picture.0003.png")).expect("removed");
     assert_eq!(bytes().len(), 5, "the chunk of a layer that is gone goes");
     fs::write(folder.join("view/index.html"), "a page of mine").expect("written");
-    let message = view(&request(&folder), None, ExistingFiles::Refuse, &Unobserved).expect_err("refused").to_string();
+    let message = view(&request(&folder), None, ExistingFiles::Refuse, &NullObserver).expect_err("refused").to_string();
     assert!(message.contains("already exists") && message.contains("`overwrite`"), "{message}");
     assert_eq!(fs::read_to_string(folder.join("view/index.html")).expect("kept"), "a page of mine");
 }
@@ -180,7 +180,7 @@ fn layers_that_are_too_large_are_reduced_equally_in_both_results() {
     let (a, b) = (write("a", 1.0), write("b", 2.0));
     let request = ViewRequest { beside: Some(b), max_mb: 1, ..ViewRequest::new(a) };
     let page =
-        view(&request, Some(&place.path().join("page.html")), ExistingFiles::Refuse, &Unobserved).expect("a page");
+        view(&request, Some(&place.path().join("page.html")), ExistingFiles::Refuse, &NullObserver).expect("a page");
     let facts = facts(&page);
     assert_eq!(facts["results"], serde_json::json!(["a", "b"]));
     for result in [0, 1] {
@@ -198,7 +198,7 @@ fn what_cannot_be_shown_is_refused_and_leaves_nothing() {
     let folder = result(&place.path().join("a"), 1.0);
     let page = place.path().join("page");
     let refused = |request: &ViewRequest| {
-        let message = view(request, Some(&page), ExistingFiles::Refuse, &Unobserved).expect_err("refused");
+        let message = view(request, Some(&page), ExistingFiles::Refuse, &NullObserver).expect_err("refused");
         assert!(matches!(message, Error::Input(_)), "{message}");
         assert!(!page.exists(), "nothing is left");
         message.to_string()

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::found::ResultFile;
+use crate::result_files::ResultFile;
 
 /// A file of the first result, of the second, or of both.
 pub(crate) struct FilePair {

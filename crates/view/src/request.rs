@@ -3,7 +3,7 @@
 use std::{ops::Range, path::PathBuf};
 
 use clap::Args;
-use etendue_arguments::{frames, whole};
+use etendue_arguments::{frames, integer};
 
 /// A result to view.
 #[derive(Args, Clone, Debug, Eq, PartialEq)]
@@ -18,7 +18,7 @@ pub struct ViewRequest {
     #[arg(long, value_name = "A..B", value_parser = frames)]
     pub frames: Option<Range<u32>>,
     /// Maximum size of the numbers of one layer, MB; larger layers are downsampled by a whole factor
-    #[arg(long, value_name = "MB", default_value_t = ViewRequest::MAX_MB, value_parser = whole(1..=1000))]
+    #[arg(long, value_name = "MB", default_value_t = ViewRequest::MAX_MB, value_parser = integer(1..=1000))]
     pub max_mb: u32,
 }
 

@@ -7,13 +7,13 @@ use etendue::{Error, ErrorCode, ExistingFiles, Message, Observer, Progress, Prog
 use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
 use serde_json::{Map, Value, json};
 
-use crate::found::{ResultFile, find};
 use crate::layer::{Layer, NamedPlane, Role, Samples};
 use crate::pack::{self, packed};
 use crate::page::{Page, is_ours};
 use crate::pairs::{FilePair, paired};
 use crate::read::{self, FileLayers, SideCar};
 use crate::request::ViewRequest;
+use crate::result_files::{ResultFile, find};
 
 /// Writes the page of a result: into the folder `page`, as the single file `page` if that ends in `.html`, or into the folder
 /// `view` of the result, where it replaces an earlier page. Returns the file to open. Only one file of each result is in memory

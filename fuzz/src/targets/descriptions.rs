@@ -2,7 +2,7 @@
 
 use super::seeds::{repository, stored, write};
 use super::target::{TREE, Target, result_text};
-use etendue::{ExistingFiles, JobRequest, TextureMemory, Unobserved};
+use etendue::{ExistingFiles, JobRequest, NullObserver, TextureMemory};
 use etendue_scene::limits::DESCRIPTION;
 use etendue_scene::{Description, Overrides, Problem, load_camera, load_datasheet, load_variations, load_weather};
 use std::path::Path;
@@ -157,7 +157,7 @@ pub(super) const DATASHEET: Target = Target {
     read: |file| match load_datasheet(file, &text) {
         Ok(_) => {
             let out = file.with_file_name("camera");
-            result_text(etendue::datasheet(file, &out, ExistingFiles::Replace, &Unobserved))
+            result_text(etendue::datasheet(file, &out, ExistingFiles::Replace, &NullObserver))
         }
         refused => result_text(refused),
     },

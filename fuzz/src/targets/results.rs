@@ -3,7 +3,7 @@
 use super::seeds::{repository, stored, write};
 use super::target::{RECORDS, TREE, Target, result_text};
 use etendue::measure::{DistortionRequest, SfrRequest, distortion, sfr};
-use etendue::{ExistingFiles, Job, RenderOptions, ShardRequest, ShardSpec, Simd, Unobserved, merge};
+use etendue::{ExistingFiles, Job, NullObserver, RenderOptions, ShardRequest, ShardSpec, Simd, merge};
 use etendue_io::emva_descriptor::read_emva_descriptor;
 use etendue_io::inspect::inspect;
 use etendue_io::photograph::read_photograph;
@@ -117,7 +117,7 @@ fn shard(folder: &Path) -> [Vec<u8>; 2] {
     write(folder, "job.toml", JOB);
     let job = Job::open(folder.join("job.toml")).expect("the job is legal");
     let all_frames = ShardRequest::all_films(ShardSpec { index: 0, count: 1 }, 0..1);
-    job.save_shard(&all_frames, RenderOptions::default().simd, folder, ExistingFiles::Replace, &Unobserved)
+    job.save_shard(&all_frames, RenderOptions::default().simd, folder, ExistingFiles::Replace, &NullObserver)
         .expect("a shard");
     ["front.film.exr", "shard.json"].map(|name| fs::read(folder.join(name)).expect("of the shard"))
 }
@@ -125,7 +125,8 @@ fn shard(folder: &Path) -> [Vec<u8>; 2] {
 fn merged(file: &Path) -> String {
     let folder = file.parent().expect("a folder");
     let out = folder.join("out");
-    let text = result_text(merge(&[folder.to_owned()], None, Simd::Scalar, &out, ExistingFiles::Replace, &Unobserved));
+    let text =
+        result_text(merge(&[folder.to_owned()], None, Simd::Scalar, &out, ExistingFiles::Replace, &NullObserver));
     let _ = fs::remove_dir_all(&out);
     text
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 pub(super) fn imported(file: &Path) -> String {
     let out_folder = file.with_file_name("made");
     let request = etendue::ImportRequest { file: file.to_path_buf(), ..Default::default() };
-    result_text(etendue::import(&request, &out_folder, etendue::ExistingFiles::Replace, &etendue::Unobserved))
+    result_text(etendue::import(&request, &out_folder, etendue::ExistingFiles::Replace, &etendue::NullObserver))
 }
 
 const PBRT_WORDS: &[&str] = &[

@@ -5,6 +5,7 @@ mod circles;
 mod counts;
 mod dependencies;
 mod links;
+mod names;
 mod sensor_scale;
 mod tidy;
 

@@ -68,7 +68,7 @@ fn view(name: &str, index: usize) -> View {
     let max_electrons = electrons.iter().copied().fold(0.0, f32::max);
     let raster = &shot.camera().body.raster;
     let samples = electrons.iter().map(|e| [e / max_electrons; 3]).collect();
-    let image = Plane::from_samples(raster.width(), raster.height(), samples).expect("one sample a pixel");
+    let image = Plane::from_samples(raster.width(), raster.height(), samples).expect("one sample per pixel");
     View { shot, picture: image }
 }
 

@@ -2,7 +2,7 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
-use etendue_pipeline::Unobserved;
+use etendue_pipeline::NullObserver;
 use etendue_pipeline::photograph::{Light, capture};
 use etendue_pipeline::render::{FrameCapture as Picture, LightRequest, light};
 use etendue_pipeline::truth::ground_truth;
@@ -71,7 +71,7 @@ const BAR: &str = "shape = { type = \"quad\", size_m = [1, 0.02] }\nkeys = [{ ti
 
 pub(crate) fn electrons(shot: &Shot, frame: u32) -> Plane<MeanElectrons> {
     let request = LightRequest { frame_capture: Picture { frame, capture: 0 }, ..LightRequest::default() };
-    let film = light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels");
+    let film = light(&shot.plan, shot.camera(), request, &NullObserver).expect("nobody cancels");
     Light::from_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics")
 }
 

@@ -1,7 +1,7 @@
 //! Rows and captures in time: what a shutter makes of lights that change.
 
 use etendue_core::maths::f64::sin;
-use etendue_pipeline::Unobserved;
+use etendue_pipeline::NullObserver;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::render::{FrameCapture as Picture, LightRequest, light};
 use etendue_tests::{Job, Shot};
@@ -59,7 +59,7 @@ fn job(rows: u32, modulation: &str, sensor: &str, more: &str) -> Job {
 /// Electrons of each row of a frame, the first capture's.
 fn rows(shot: &Shot, frame: u32) -> Vec<f64> {
     let request = LightRequest { frame_capture: Picture { frame, capture: 0 }, ..LightRequest::default() };
-    let film = light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels");
+    let film = light(&shot.plan, shot.camera(), request, &NullObserver).expect("nobody cancels");
     let electrons = Light::from_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics");
     (0..electrons.height()).map(|y| f64::from(electrons.at(0, y))).collect()
 }
@@ -129,7 +129,7 @@ fn exposures_that_follow_each_other_see_different_light() {
     let captures = |shot: &Shot| {
         let film = |capture| {
             let request = LightRequest { frame_capture: Picture { frame: 0, capture }, ..LightRequest::default() };
-            light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels")
+            light(&shot.plan, shot.camera(), request, &NullObserver).expect("nobody cancels")
         };
         Light::from_captures(shot.camera(), vec![film(0), film(1)], None).expect("finite")
     };

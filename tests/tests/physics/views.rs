@@ -127,11 +127,11 @@ fn stored_distances_are_those_that_the_lens_sees() {
         let bands = camera.settings.bands.expect("a cube");
         let radiance = etendue_core::SpectralCube::new(projection.width(), projection.height(), bands);
         let stored = StoredRadianceImage { projection, radiance: &radiance, distance: Some(&depth.distance) };
-        let seen = stored.resample(&camera.body, [0, 0]).expect("covered").distance.expect("stored");
+        let resampled = stored.resample(&camera.body, [0, 0]).expect("covered").distance.expect("stored");
         let direct = etendue_pipeline::truth::ground_truth(&plan, camera, 0, Simd::Auto).distance;
         for y in 1..HEIGHT - 1 {
             for x in 1..WIDTH - 1 {
-                let d = seen.at(x, y);
+                let d = resampled.at(x, y);
                 if direct.at(x, y).is_nan() {
                     assert!(d.is_nan(), "{lens} ({x}, {y}): {d}");
                     continue;

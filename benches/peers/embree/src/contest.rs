@@ -3,7 +3,7 @@
 use crate::embree::{DEFAULT, Embree, HIGH, Mode, ROBUST, ROBUST_HIGH, Scene};
 use crate::flush;
 use etendue_bench_rays::clock::timed;
-use etendue_bench_rays::questions::Questions;
+use etendue_bench_rays::questions::RayQueries;
 use etendue_bench_rays::runs::Runs;
 use etendue_bench_rays::table::Table;
 use etendue_core::TimeInterval;
@@ -28,7 +28,7 @@ pub struct Contest {
     /// A world of the mesh alone, in the render frame.
     pub world: World,
     /// What is asked.
-    pub questions: Vec<Questions>,
+    pub questions: Vec<RayQueries>,
 }
 
 /// Rates of one kind of ray.
@@ -39,8 +39,8 @@ struct Rates {
 }
 
 /// Whether some kind of ray counts for the mean: shadow rays to the sky are shown only.
-fn counts(asked: &Questions) -> bool {
-    asked.name != "shadow, sky"
+fn counts(queries: &RayQueries) -> bool {
+    queries.name != "shadow, sky"
 }
 
 impl Contest {
@@ -59,9 +59,9 @@ pub fn rates(embree: &Embree, contests: &[Contest]) -> Table {
     let mut logs = [0.0; 2];
     let mut count = 0;
     for contest in contests {
-        for (asked, rates) in contest.questions.iter().zip(contest_rates(embree, contest)) {
-            table.row(row(contest.name, asked, &rates));
-            if counts(asked) {
+        for (queries, rates) in contest.questions.iter().zip(contest_rates(embree, contest)) {
+            table.row(row(contest.name, queries, &rates));
+            if counts(queries) {
                 logs[0] += rates.ratio(0).ln();
                 logs[1] += rates.ratio(1).ln();
                 count += 1;
@@ -86,44 +86,44 @@ fn contest_rates(embree: &Embree, contest: &Contest) -> Vec<Rates> {
     let ours = contest.world.render_space(DVec3::ZERO);
     let scalar = contest.world.render_space_with(DVec3::ZERO, TimeInterval::default(), Simd::Scalar);
     let theirs: Vec<Scene<'_>> = MODES.iter().map(|(_, mode)| embree.scene(contest.mesh(), *mode)).collect();
-    let new = |_: &Questions| Rates {
+    let new = |_: &RayQueries| Rates {
         ours: Runs::default(),
         scalar: Runs::default(),
         theirs: vec![Runs::default(); theirs.len()],
     };
     let mut rates: Vec<Rates> = contest.questions.iter().map(new).collect();
     for turn in 0..TURNS {
-        for (asked, rates) in contest.questions.iter().zip(&mut rates) {
-            rates.ours.add(our_rate(asked, &ours));
-            theirs.iter().zip(&mut rates.theirs).for_each(|(scene, runs)| runs.add(their_rate(asked, scene)));
+        for (queries, rates) in contest.questions.iter().zip(&mut rates) {
+            rates.ours.add(our_rate(queries, &ours));
+            theirs.iter().zip(&mut rates.theirs).for_each(|(scene, runs)| runs.add(their_rate(queries, scene)));
             if turn % 4 == 0 {
-                rates.scalar.add(our_rate(asked, &scalar));
+                rates.scalar.add(our_rate(queries, &scalar));
             }
         }
     }
     rates
 }
 
-fn our_rate(asked: &Questions, view: &RenderSpace<'_>) -> f64 {
-    let (_, seconds) = timed(|| black_box(asked.ask(view)));
-    asked.rays.len() as f64 / seconds / 1e6
+fn our_rate(queries: &RayQueries, view: &RenderSpace<'_>) -> f64 {
+    let (_, seconds) = timed(|| black_box(queries.count_hits(view)));
+    queries.rays.len() as f64 / seconds / 1e6
 }
 
-fn their_rate(asked: &Questions, scene: &Scene<'_>) -> f64 {
-    let (_, seconds) = flush::to_zero(|| timed(|| black_box(ask(asked, scene))));
-    asked.rays.len() as f64 / seconds / 1e6
+fn their_rate(queries: &RayQueries, scene: &Scene<'_>) -> f64 {
+    let (_, seconds) = flush::to_zero(|| timed(|| black_box(count_hits(queries, scene))));
+    queries.rays.len() as f64 / seconds / 1e6
 }
 
 /// Asks Embree all of them; the number of rays that met something.
-fn ask(asked: &Questions, scene: &Scene<'_>) -> usize {
-    match asked.any_hit {
-        true => asked.rays.iter().filter(|ray| scene.occluded(ray)).count(),
-        false => asked.rays.iter().filter(|ray| scene.closest(ray).is_some()).count(),
+fn count_hits(queries: &RayQueries, scene: &Scene<'_>) -> usize {
+    match queries.any_hit {
+        true => queries.rays.iter().filter(|ray| scene.occluded(ray)).count(),
+        false => queries.rays.iter().filter(|ray| scene.closest(ray).is_some()).count(),
     }
 }
 
-fn row(name: &str, asked: &Questions, rates: &Rates) -> Vec<String> {
-    let mut cells = vec![format!("{name}: {}", asked.name), format!("{:.0}", asked.rays.len() as f64 / 1e3)];
+fn row(name: &str, queries: &RayQueries, rates: &Rates) -> Vec<String> {
+    let mut cells = vec![format!("{name}: {}", queries.name), format!("{:.0}", queries.rays.len() as f64 / 1e3)];
     let rate = |runs: &Runs| format!("{:.2}", runs.median());
     cells.push(rate(&rates.ours));
     (0..2).for_each(|mode| cells.extend([rate(&rates.theirs[mode]), format!("{:.3}", rates.ratio(mode))]));
@@ -141,19 +141,25 @@ pub fn agreement(embree: &Embree, contests: &[Contest]) -> Table {
     for contest in contests {
         let ours = contest.world.render_space(DVec3::ZERO);
         for (mode, scene) in MODES.map(|(name, mode)| (name, embree.scene(contest.mesh(), mode))).iter().take(2) {
-            for asked in &contest.questions {
-                table.row(disagreement(contest.name, mode, asked, &ours, scene));
+            for queries in &contest.questions {
+                table.row(disagreement(contest.name, mode, queries, &ours, scene));
             }
         }
     }
     table
 }
 
-fn disagreement(name: &str, mode: &str, asked: &Questions, ours: &RenderSpace<'_>, theirs: &Scene<'_>) -> Vec<String> {
-    let (mut met, mut triangle, mut distance) = (0, 0, 0);
-    for ray in &asked.rays {
-        if asked.any_hit {
-            met += usize::from(ours.occluded(ray) != theirs.occluded(ray));
+fn disagreement(
+    name: &str,
+    mode: &str,
+    queries: &RayQueries,
+    ours: &RenderSpace<'_>,
+    theirs: &Scene<'_>,
+) -> Vec<String> {
+    let (mut hits, mut triangle, mut distance) = (0, 0, 0);
+    for ray in &queries.rays {
+        if queries.any_hit {
+            hits += usize::from(ours.occluded(ray) != theirs.occluded(ray));
             continue;
         }
         match (ours.closest(ray), theirs.closest(ray)) {
@@ -162,10 +168,10 @@ fn disagreement(name: &str, mode: &str, asked: &Questions, ours: &RenderSpace<'_
                 distance += usize::from((a.t - b.t).abs() > AGREES * a.t);
             }
             (None, None) => {}
-            _ => met += 1,
+            _ => hits += 1,
         }
     }
-    let share = |count: usize| format!("{:.1e}", count as f64 / asked.rays.len() as f64);
-    let closest = |count| if asked.any_hit { String::new() } else { share(count) };
-    vec![format!("{name}: {}", asked.name), mode.to_owned(), share(met), closest(triangle), closest(distance)]
+    let fraction = |count: usize| format!("{:.1e}", count as f64 / queries.rays.len() as f64);
+    let closest = |count| if queries.any_hit { String::new() } else { fraction(count) };
+    vec![format!("{name}: {}", queries.name), mode.to_owned(), fraction(hits), closest(triangle), closest(distance)]
 }

@@ -136,10 +136,10 @@ impl Embree {
         unsafe {
             let geometry =
                 self.call::<unsafe extern "C" fn(Handle, c_int) -> Handle>(b"rtcNewGeometry")(self.device, TRIANGLES);
-            let share = self.call::<Share>(b"rtcSetSharedGeometryBuffer");
+            let set_buffer = self.call::<Share>(b"rtcSetSharedGeometryBuffer");
             let (points, triangles) = (mesh.positions(), mesh.triangles());
-            share(geometry, VERTEX_BUFFER, 0, FLOAT3, points.as_ptr().cast(), 0, 12, points.len());
-            share(geometry, INDEX_BUFFER, 0, UINT3, triangles.as_ptr().cast(), 0, 12, triangles.len());
+            set_buffer(geometry, VERTEX_BUFFER, 0, FLOAT3, points.as_ptr().cast(), 0, 12, points.len());
+            set_buffer(geometry, INDEX_BUFFER, 0, UINT3, triangles.as_ptr().cast(), 0, 12, triangles.len());
             self.call::<unsafe extern "C" fn(Handle, c_int)>(b"rtcSetGeometryBuildQuality")(geometry, quality);
             self.call::<unsafe extern "C" fn(Handle)>(b"rtcCommitGeometry")(geometry);
             geometry

@@ -21,7 +21,7 @@ pub struct Added {
     /// At most while it ran.
     pub peak: isize,
     /// When it was done, its answer included.
-    pub kept: isize,
+    pub held: isize,
 }
 
 impl Meter {
@@ -37,12 +37,12 @@ impl Meter {
     }
 
     /// What `work` answers, and what it added. Nothing else may allocate at the same time.
-    pub fn of<R>(&self, work: impl FnOnce() -> R) -> (R, Added) {
+    pub fn measure<R>(&self, work: impl FnOnce() -> R) -> (R, Added) {
         let before = self.held.load(Ordering::Relaxed);
         self.most.store(before, Ordering::Relaxed);
         let answer = work();
         let (most, held) = (self.most.load(Ordering::Relaxed), self.held.load(Ordering::Relaxed));
-        (answer, Added { peak: most - before, kept: held - before })
+        (answer, Added { peak: most - before, held: held - before })
     }
 }
 

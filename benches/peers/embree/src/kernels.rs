@@ -16,13 +16,13 @@ pub fn line(library: &str, isa: Option<&str>) -> String {
     let program = std::env::current_exe().expect("this program has a file");
     let output = Command::new(program).args([CHILD, library]).args(isa).output().expect("this program runs again");
     let text = String::from_utf8_lossy(&output.stdout);
-    let told = |start: &str, end: &str| {
-        let mut found = text.lines().filter_map(|line| line.trim().strip_prefix(start));
-        let name = found.find(|name| name.ends_with(end)).unwrap_or("unknown");
+    let kernel = |start: &str, end: &str| {
+        let mut names = text.lines().filter_map(|line| line.trim().strip_prefix(start));
+        let name = names.find(|name| name.ends_with(end)).unwrap_or("unknown");
         name.trim_end_matches(" ...").to_owned()
     };
-    let ray = |end: &str| told("intersector1  = ", end);
-    let builder = told("building BVH8<triangle4> using ", " ...");
+    let ray = |end: &str| kernel("intersector1  = ", end);
+    let builder = kernel("building BVH8<triangle4> using ", " ...");
     format!("Embree's kernels: {}; robust {}; builder {builder}", ray("Moeller"), ray("Pluecker"))
 }
 

@@ -107,7 +107,7 @@ impl Order {
 fn street(file: &Path) -> Result<Contest, String> {
     let unreadable = |error| format!("{}: {error}", file.display());
     let ContestFile { corners, primary, sun } = ContestFile::read(file).map_err(unreadable)?;
-    let world = flat::world(flat::of_corners(corners));
+    let world = flat::world(flat::mesh_from_corners(corners));
     let questions = questions::about(primary, sun, &world.render_space(DVec3::ZERO));
     Ok(Contest { name: "street", world, questions })
 }

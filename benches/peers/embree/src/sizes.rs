@@ -95,9 +95,9 @@ impl Row {
             micros(robust),
             bytes(ours.memory.peak),
             bytes(theirs.memory.peak),
-            bytes(ours.memory.kept),
-            bytes(theirs.memory.kept),
-            bytes(robust.memory.kept),
+            bytes(ours.memory.held),
+            bytes(theirs.memory.held),
+            bytes(robust.memory.held),
         ]
     }
 
@@ -115,14 +115,14 @@ impl Row {
 fn our_build(mesh: &Mesh) -> (World, Build) {
     let build = || {
         let mesh = mesh.clone();
-        pool(1).install(|| OURS.of(|| timed(|| flat::world(mesh))))
+        pool(1).install(|| OURS.measure(|| timed(|| flat::world(mesh))))
     };
     let ((world, first_s), memory) = build();
     (world, Build { seconds: median(mesh, first_s, || build().0.1), memory })
 }
 
 fn their_build<'a>(mesh: &Mesh, build: impl Fn() -> Scene<'a>) -> (Scene<'a>, Build) {
-    let ((scene, first_s), memory) = EMBREES.of(|| timed(&build));
+    let ((scene, first_s), memory) = EMBREES.measure(|| timed(&build));
     (scene, Build { seconds: median(mesh, first_s, || timed(&build).1), memory })
 }
 
@@ -139,7 +139,7 @@ fn their_ns(rays: &[Ray], scene: &Scene<'_>) -> f64 {
 }
 
 /// Nanoseconds of processor time a ray.
-fn ns(rays: &[Ray], met: impl Fn(&Ray) -> bool) -> f64 {
-    let (_, seconds) = timed(|| black_box(rays.iter().filter(|ray| met(ray)).count()));
+fn ns(rays: &[Ray], hits: impl Fn(&Ray) -> bool) -> f64 {
+    let (_, seconds) = timed(|| black_box(rays.iter().filter(|ray| hits(ray)).count()));
     seconds / rays.len() as f64 * 1e9
 }

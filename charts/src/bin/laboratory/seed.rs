@@ -2,7 +2,7 @@
 
 use crate::declared::declared;
 use etendue::characterise::{CharacteriseRequest, characterise};
-use etendue::{Error, ExistingFiles, LaboratoryRequest, Unobserved, laboratory, write_file};
+use etendue::{Error, ExistingFiles, LaboratoryRequest, NullObserver, laboratory, write_file};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -53,9 +53,9 @@ impl SeededLaboratory<'_> {
         if place.exists() {
             std::fs::remove_dir_all(place).map_err(Error::run)?;
         }
-        laboratory(request, place, ExistingFiles::Refuse, &Unobserved)?;
+        laboratory(request, place, ExistingFiles::Refuse, &NullObserver)?;
         let file = place.join("found.toml");
-        characterise(&CharacteriseRequest::new(place), &Unobserved)?.save(&file, ExistingFiles::Refuse)?;
+        characterise(&CharacteriseRequest::new(place), &NullObserver)?.save(&file, ExistingFiles::Refuse)?;
         let text = std::fs::read_to_string(file.with_extension("json")).map_err(Error::run)?;
         let report: Value = serde_json::from_str(&text).map_err(Error::run)?;
         let value_and_uncertainty = |value: &Value| json!([value["value"], value["standard_uncertainty"]]);

@@ -68,7 +68,7 @@ impl GridSize {
             Some(n) if !(min_columns..=MAX_GRID).contains(&n) => {
                 Err(ChartError::option(option, n, format!("expected {min_columns} … {MAX_GRID}")))
             }
-            given => Ok(given),
+            count => Ok(count),
         };
         let (given_columns, given_rows) = (checked("columns", self.columns)?, checked("rows", self.rows)?);
         let pitch_mm = match (self.pitch_mm, given_columns, given_rows) {

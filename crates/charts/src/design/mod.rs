@@ -57,9 +57,9 @@ macro_rules! charts {
             ///
             /// # Errors
             /// If a size or number is not valid for the chart.
-            pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
+            pub fn draw(&self, footprint: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
                 match self {
-                    $(Self::$Design(chart) => chart.draw(seen, seed),)*
+                    $(Self::$Design(chart) => chart.draw(footprint, seed),)*
                 }
             }
         }

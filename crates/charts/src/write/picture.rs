@@ -61,7 +61,7 @@ pub fn chart_image(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartE
         });
     }
     let encoded = linear.into_iter().map(|rgb| rgb.map(|v| encode(v as f32))).collect();
-    Ok(Plane::from_samples(width, height, encoded).expect("one sample a pixel"))
+    Ok(Plane::from_samples(width, height, encoded).expect("one sample per pixel"))
 }
 
 /// Calls `take` with each pixel that a convex outline (px) touches, and the fraction of it that it covers.

@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::memory;
 use clap::Args;
 use etendue::{Error, FilmMemory, Job, JobRequest, Message, TextureMemory};
-use etendue_arguments::whole;
+use etendue_arguments::integer;
 use std::path::PathBuf;
 
 /// A job file and its overrides on the command line.
@@ -19,18 +19,18 @@ pub struct JobArgs {
     #[arg(long, value_name = "DIR", requires = "sandboxed")]
     pub allow_outside: Vec<PathBuf>,
     /// Memory of textures. If they need more, large ones are stored as tiles on disk and read on demand. The result does not depend on it
-    #[arg(id = "texture_memory_mb", long = "texture-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "512")]
+    #[arg(id = "texture_memory_mb", long = "texture-memory", value_name = "MB", value_parser = integer(1..=1 << 20), default_value = "512")]
     pub texture_memory: u32,
     /// Folder of these tiles, reused by later runs [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Memory of the bands of one film: means and variances, 8 bytes per pixel and band. Larger films are stored in a scratch file on disk; files,
     /// effects and electrons are then computed from it some rows or one band at a time. The result does not depend on it
-    #[arg(id = "film_memory_mb", long = "film-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "2048")]
+    #[arg(id = "film_memory_mb", long = "film-memory", value_name = "MB", value_parser = integer(1..=1 << 20), default_value = "2048")]
     pub film_memory: u32,
     /// Memory limit of the run, without the program itself; a run with a higher estimate is refused before its first sample. 0: no check [default:
     /// the free memory of the process, its control group and the machine]
-    #[arg(id = "memory_mb", long = "memory", value_name = "MB", value_parser = whole(0..=1 << 24))]
+    #[arg(id = "memory_mb", long = "memory", value_name = "MB", value_parser = integer(0..=1 << 24))]
     pub memory: Option<u32>,
     /// Folder of these scratch files, which are removed at the end of the run [default: that of --cache]
     #[arg(long, value_name = "DIR")]

@@ -6,7 +6,7 @@ use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
 use etendue::{Error, ExistingFiles};
-use etendue_arguments::whole;
+use etendue_arguments::integer;
 use etendue_dataset::{DatasetRequest, dataset};
 
 /// `etendue dataset`
@@ -22,7 +22,7 @@ pub struct Dataset {
     #[arg(long, conflicts_with = "overwrite")]
     pub resume: bool,
     /// Worker threads [default: one per processor]. The result does not depend on it
-    #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = integer(1..=1024))]
     pub threads: Option<u32>,
 }
 

@@ -7,7 +7,7 @@ use crate::display::{Display, DisplayObserver};
 use crate::machine;
 use clap::Args;
 use etendue::{Error, ExistingFiles, JobRequest, RenderOptions, ShardRequest, ShardSpec};
-use etendue_arguments::whole;
+use etendue_arguments::integer;
 
 /// `etendue render`
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ pub struct Render {
     #[arg(long, value_name = "HOST:PORT")]
     pub display: Option<String>,
     /// Worker threads [default: one per processor]. The result does not depend on it
-    #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = integer(1..=1024))]
     pub threads: Option<u32>,
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
     #[arg(long, value_name = "I/N")]

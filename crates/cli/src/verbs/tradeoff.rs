@@ -6,7 +6,7 @@ use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
 use etendue::{Error, ErrorCode, ExistingFiles, Observer, OutputFolder};
-use etendue_arguments::whole;
+use etendue_arguments::integer;
 use etendue_study::{
     Clock, DroppedEffect, StudyRequest, VariationResult, ablation, ablation_table, job_file, pictures, plot, study,
     table, variation_table, variations,
@@ -24,7 +24,7 @@ pub struct Tradeoff {
     #[command(flatten)]
     pub request: StudyRequest,
     /// Worker threads [default: one per processor]. Times refer to this number
-    #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = integer(1..=1024))]
     pub threads: Option<u32>,
     /// Instead omit the effects of the plan one by one, and report the change and the saving of each
     #[arg(long)]
@@ -143,7 +143,7 @@ impl Tradeoff {
         let names = names.iter().map(|name| (*name).to_owned()).chain(images);
         for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == ExistingFiles::Refuse {
-                let problem = "already exists; give another folder, or `overwrite`";
+                let problem = "already exists; choose another folder, or allow overwriting with `overwrite`";
                 return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
             if path.canonicalize().ok() == self.job.request.job.canonicalize().ok() {

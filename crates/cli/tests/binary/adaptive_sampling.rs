@@ -53,7 +53,7 @@ fn the_limit_is_reached_and_reported() {
     let output = text(&place.path().join("out"));
     let run = etendue(["render", &job, "-o", &output, "--noise", "0.2"]).ok();
     assert!(run.err.contains("--noise 0.2 overrides") && run.err.contains("spp"), "{}", run.err);
-    assert!(run.err.contains("samples a pixel (") && run.err.contains("of the sensor's noise"), "{}", run.err);
+    assert!(run.err.contains("samples per pixel (") && run.err.contains("of the sensor's noise"), "{}", run.err);
     assert!(!run.err.contains("still noisier"), "{}", run.err);
     let file = read_exr(&Path::new(&output).join("front/sampling.exr")).expect("layers");
     let (light, sensor) = (floats(&file, "monte_carlo_variance"), floats(&file, "sensor_variance"));

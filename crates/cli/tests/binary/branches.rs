@@ -30,18 +30,14 @@ fn the_plan_reports_branches_and_refuses_what_they_exclude() {
     let output = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
     assert!(output.err.contains("overrides") && output.err.contains("branches"), "{}", output.err);
     assert!(
-        output.out.contains("tails of the paths of 4 pixels") && !output.out.contains("lights are sampled"),
+        output.out.contains("blocks of 4 pixels share path tails") && !output.out.contains("lights are sampled"),
         "{}",
         output.out
     );
     let sharing = job(place.path(), "path_reuse_px = 2\n");
     let output = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
     assert!(output.err.contains("overrides") && output.err.contains("path_reuse_px"), "{}", output.err);
-    assert!(
-        !output.out.contains("tails of the paths") && output.out.contains("4 lights are sampled"),
-        "{}",
-        output.out
-    );
+    assert!(!output.out.contains("share path tails") && output.out.contains("4 lights are sampled"), "{}", output.out);
     etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
     etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
 }

@@ -118,7 +118,7 @@ fn concurrent_runs_leave_all_files_or_none() -> Row {
 
 /// A row of asserted results.
 fn row(extreme: &str, expected: &str, actual: &str) -> Row {
-    Row { extreme: extreme.to_owned(), expected: expected.to_owned(), found: actual.to_owned(), holds: true }
+    Row { extreme: extreme.to_owned(), expected: expected.to_owned(), actual: actual.to_owned(), holds: true }
 }
 
 #[test]

@@ -71,15 +71,19 @@ fn run_page(folder: &str, name: &str) {
     }
 }
 
-/// Numbers of a text: digits with an optional fraction, without those that belong to a word.
-fn numbers(text: &str) -> HashSet<&str> {
+/// Numbers of a text in their order: digits with an optional fraction, without those that belong to a word.
+pub(crate) fn numbers_in_order(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !(c.is_alphanumeric() || "._-".contains(c)));
     let numbers = words.flat_map(|word| word.split("..")).map(|word| word.trim_matches(|c| ".-_".contains(c)));
-    numbers.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()) && word.parse::<f64>().is_ok()).collect()
+    numbers.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()) && word.parse::<f64>().is_ok())
+}
+
+pub(crate) fn numbers(text: &str) -> HashSet<&str> {
+    numbers_in_order(text).collect()
 }
 
 /// Text between two marks, wherever they occur, and the rest of the text.
-fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
+pub(crate) fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
     let (mut inside, mut outside) = (Vec::new(), String::new());
     let mut rest = text;
     while let Some((before, after)) = rest.split_once(from) {
@@ -92,7 +96,7 @@ fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
 }
 
 /// Evaluates a check of a page, `VALUE = EXPRESSION`, with awk, and compares it at the value's digits.
-fn check(text: &str) -> Result<&str, String> {
+pub(crate) fn check(text: &str) -> Result<&str, String> {
     let (value, expression) =
         text.trim().split_once(" = ").ok_or_else(|| format!("{text}: expected VALUE = EXPRESSION"))?;
     let digits = value.split_once('.').map_or(0, |(_, fraction)| fraction.len());

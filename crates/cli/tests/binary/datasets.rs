@@ -245,7 +245,7 @@ fn bad_variations_are_refused_where_they_stand() {
         (vary(exposure, "type = \"gamma\""), &["variations.toml:4:8", "gamma", "log_uniform"]),
         (
             vary(exposure, "type = \"choice\"\nvalues = [1, 2]\nweights = [1]"),
-            &["variations.toml:6:", "1 weights for 2 choices"],
+            &["variations.toml:6:", "the numbers of weights (1) and choices (2) differ"],
         ),
         (
             vary(exposure, "type = \"normal\"\nmean = 1\nstandard_deviation = 1\nmin = 2"),

@@ -95,7 +95,7 @@ fn contradictions_are_refused_with_both_numbers() {
         ("noise_dn = 0.69", "noise_dn = 0.95", &["temporal_dark_noise_dn", "0.95 DN", "0.688 DN"]),
         ("bits = 12", "bits = 10", &["saturation_capacity_e", "3750.0 DN", "largest number of 10 bits is 1023 DN"]),
         ("measured_at_nm = 525\n", "", &["saturation_capacity_p", "measured_at_nm"]),
-        ("[525, 62]", "[465, 62]", &["quantum_efficiency_percent", "465 nm comes after 465 nm"]),
+        ("[525, 62]", "[465, 62]", &["quantum_efficiency_percent", "465 nm follows 465 nm"]),
     ];
     for (old, new, phrases) in cases {
         let sheet = DataSheetJob::with(&[(old, new)]);

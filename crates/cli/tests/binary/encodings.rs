@@ -119,7 +119,7 @@ fn tables_and_words_that_are_no_encoding_are_refused() {
     sfr(&image, &["--encoding", "gamma"]).refused(&["--encoding", "linear, srgb or a table"]);
     sfr(&image, &["--encoding", "none.csv"]).refused(&["none.csv"]);
     let falling = images.write("falling.csv", b"0, 0\n0.5, 0.9\n1, 0.8\n");
-    sfr(&image, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs never fall"]);
+    sfr(&image, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs must not decrease"]);
     let wide = images.write("wide.csv", b"0, 0, 1\n1, 1, 1\n");
     sfr(&image, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
 }

@@ -66,7 +66,7 @@ fn every_error_has_its_stored_text() {
     let table: Value = serde_json::from_str(&table).expect("JSON");
     let cases = table["cases"].as_array().expect("a list");
     assert!(cases.len() > 140, "{}", cases.len());
-    let mut made = String::new();
+    let mut current = String::new();
     for case in cases {
         let folder = tempfile::tempdir().expect("a temporary folder");
         prepare(&table, case, folder.path());
@@ -74,15 +74,15 @@ fn every_error_has_its_stored_text() {
         let ran = etendue_in(folder.path(), words);
         let name = case["name"].as_str().expect("a name");
         let place = folder.path().to_str().expect("UTF-8");
-        writeln!(made, "## {name} (exit status {})\n{}", ran.status, ran.err.replace(place, "FOLDER"))
+        writeln!(current, "## {name} (exit status {})\n{}", ran.status, ran.err.replace(place, "FOLDER"))
             .expect("a string");
     }
     let path = tests().join("binary/error_texts.txt");
     if bless() {
-        fs::write(&path, &made).expect("written");
+        fs::write(&path, &current).expect("written");
     }
     let stored = fs::read_to_string(&path).expect("the stored texts");
-    let differing = stored.split("## ").zip(made.split("## ")).filter(|(stored, made)| stored != made);
-    let differing: Vec<String> = differing.map(|(stored, made)| format!("stored: {stored}now: {made}")).collect();
-    assert!(stored == made, "{}\nstore them with ETENDUE_BLESS=1", differing.join("\n"));
+    let differing = stored.split("## ").zip(current.split("## ")).filter(|(stored, current)| stored != current);
+    let differing: Vec<String> = differing.map(|(stored, current)| format!("stored: {stored}now: {current}")).collect();
+    assert!(stored == current, "{}\nstore them with ETENDUE_BLESS=1", differing.join("\n"));
 }

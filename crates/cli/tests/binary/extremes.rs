@@ -21,7 +21,7 @@ fn ended(status: i32, extreme: &str, expected: &str, output: &CommandOutput, fol
     Row {
         extreme: extreme.to_owned(),
         expected: format!("status {status}: {expected}"),
-        found: table_text(errors.first().unwrap_or(&output.err.as_str()), folders),
+        actual: table_text(errors.first().unwrap_or(&output.err.as_str()), folders),
         holds: output.status == status && output.out.is_empty() && !errors.is_empty(),
     }
 }

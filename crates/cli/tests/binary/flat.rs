@@ -92,7 +92,7 @@ fn light_is_given_by_its_photons_too() {
     let (_, same) = flat(WEB, &[&SMALL[..], &["--irradiance-w-m2", &number("irradiance_w_m2").to_string()]].concat());
     assert_eq!(files["web/raw.0000.png"], same["web/raw.0000.png"]);
     flat(WEB, &["--photons", "1", "--irradiance-w-m2", "1"]).0.refused(&["--photons", "--irradiance-w-m2"]);
-    flat(WEB, &["--photons", "-1"]).0.refused(&["expected 0 photons a pixel or more"]);
+    flat(WEB, &["--photons", "-1"]).0.refused(&["expected 0 photons per pixel or more"]);
     flat("scenes/cameras/automotive.toml", &["--photons", "5", "--set", "sensor.exposure_s=0"]).0.refused(&[
         "--photons 5",
         "exposure_s",
@@ -229,5 +229,5 @@ fn what_cannot_be_measured_is_refused() {
         output.says(&[phrase]);
     }
     let (output, _) = flat(WEB, &[&SMALL[..], &["--photon-transfer", "3", "--stack", "3"]].concat());
-    output.ok().says(&["warning", "3 kinds of pixel"]);
+    output.ok().says(&["warning", "3 channels"]);
 }

@@ -53,11 +53,9 @@ fn unused_files_need_not_exist() {
         "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
     job.replace_first("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
     let plan = etendue(["plan", &job.job()]).ok().out;
-    for phrase in [
-        "mesh that no object uses: spare",
-        "material that no object uses: rest",
-        "texture that no used material has: big",
-    ] {
+    for phrase in
+        ["mesh used by no object: spare", "material used by no object: rest", "texture used by no material in use: big"]
+    {
         assert!(plan.contains(phrase), "{plan}");
     }
     job.replace_first("small.toml", "texture = \"checker\"", "texture = \"big\"");

@@ -235,7 +235,7 @@ fn alpha_of_pbrt_is_opacity() {
     };
     let sun = "LightSource \"distant\" \"float illuminance\" 300 \"point3 from\" [ 0 3 4 ] \"point3 to\" [ 0 0 0 ] ";
     for (alpha, illuminance, phrase) in
-        [("0.25", 180.0, "written: 2 objects"), ("0", 240.0, "a shape of alpha 0 is left out")]
+        [("0.25", 180.0, "written: objects 2"), ("0", 240.0, "a shape of alpha 0 is left out")]
     {
         let place = tempfile::tempdir().expect("a temporary folder");
         let (imported, out) = (place.path().join("made"), place.path().join("out"));

@@ -55,7 +55,7 @@ impl RunKind {
         Row {
             extreme: format!("{}, killed, then begun again with `{}`", self.name, self.repeat_arguments),
             expected: "complete files, final bytes equal".to_owned(),
-            found: format!("after each of {} kills", count.killed),
+            actual: format!("after each of {} kills", count.killed),
             holds: count.killed == kills && count.completed > 0,
         }
     }

@@ -112,10 +112,13 @@ fn unusable_distortion_exports_are_reported_with_their_line() {
     for (keys, phrases) in [
         ("file = \"d.txt\", radius_mm = [1, 2]", &["job.toml", "\"radius_mm\" has no effect here"][..]),
         ("angle_deg = [10, 20]", &["job.toml", "\"radius_mm\" is missing"]),
-        ("angle_deg = [10, 20], radius_mm = [1, 2, 3]", &["job.toml", "2 angles and 3 radii"]),
+        (
+            "angle_deg = [10, 20], radius_mm = [1, 2, 3]",
+            &["job.toml", "the numbers of angles (2) and radii (3) differ"],
+        ),
         ("angle_deg = [10, 20], radius_mm = [1, 2], focal_length_mm = 6", &["\"focal_length_mm\" has no effect here"]),
-        ("angle_deg = [10, 20], radius_mm = [2, 1]", &["job.toml", "radii that rise"]),
-        ("angle_deg = [20, 10], radius_mm = [1, 2]", &["job.toml", "angles that rise"]),
+        ("angle_deg = [10, 20], radius_mm = [2, 1]", &["job.toml", "radii that increase"]),
+        ("angle_deg = [20, 10], radius_mm = [1, 2]", &["job.toml", "angles that increase"]),
     ] {
         plan(folder.path(), &job("", SENSOR, &calibrated(keys), 2)).refused(phrases);
     }

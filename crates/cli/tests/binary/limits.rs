@@ -27,7 +27,7 @@ fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
     job.write("checker.png", png_head(50_000, 40_000));
     job.render(&[]).refused(&[
         "checker.png: decompresses to 1908 MiB; at most 1024 MiB are allowed for a file of its size",
-        "or raise the limit: --limit picture-mib=1908 (named at ",
+        "or raise the limit: --limit picture-mib=1908 (referenced at ",
         "small.toml:6",
     ]);
     // With the limit raised the file is read, and found to be damaged.
@@ -84,7 +84,8 @@ fn limits_that_are_none_are_refused() {
 fn their_page_lists_them() {
     let page = fs::read_to_string(root().join("docs/limits.md")).expect("the page");
     for limit in etendue_scene::limits::ALL {
-        let row = format!("| `{}` | {} | {} | {} |", limit.name, limit.default, limit.highest, limit.meaning);
+        let meaning = limit.meaning.replace("`cache`", "`--cache`");
+        let row = format!("| `{}` | {} | {} | {meaning} |", limit.name, limit.default, limit.highest);
         assert!(page.contains(&row), "docs/limits.md lacks:\n{row}");
     }
     let rows = page.lines().filter(|line| line.starts_with("| `")).count();

@@ -16,6 +16,8 @@ mod box_formats;
 mod branches;
 mod browser;
 mod bytes;
+#[cfg(unix)]
+mod captions;
 mod characterise;
 mod charts;
 mod compared;

@@ -128,10 +128,11 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
     assert!(state(&out).is_empty() && out.join("front/radiance.exr").exists());
 }
 
-/// Seconds and options reported by a timed run: "10.02 s of light (--time 10): …; --set … gives the same bytes".
+/// Seconds and options reported by a timed run: "10.02 s of rendering (--time 10): …; --set … gives the same bytes".
 fn time_and_options(run: &CommandOutput) -> (f64, Vec<String>) {
-    let line = run.err.lines().find(|line| line.contains("s of light (--time")).expect("a note of the time");
-    let (seconds, options) = line.strip_prefix("note: ").and_then(|line| line.split_once(" s of light")).expect("both");
+    let line = run.err.lines().find(|line| line.contains("s of rendering (--time")).expect("a note of the time");
+    let (seconds, options) =
+        line.strip_prefix("note: ").and_then(|line| line.split_once(" s of rendering")).expect("both");
     let options = options.rsplit_once("; ").expect("options").1.strip_suffix(" gives the same bytes").expect("an end");
     let (replicates, passes) = options.split_once(" --set ").expect("replicates and passes");
     let replicates = replicates.strip_prefix("--set ").expect("replicates").to_owned();

@@ -80,7 +80,7 @@ fn the_plan_says_whose_light_a_camera_sees_and_why_not() {
     let apart = |name: &str, why: &str| {
         let camera_block = block(&plan, name);
         assert!(
-            camera_block.contains("its own: camera")
+            camera_block.contains("separate: camera")
                 && camera_block.contains(why)
                 && camera_block.contains("million paths"),
             "{camera_block}"

@@ -242,5 +242,5 @@ sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 150 }
     let job = text(&place.path().join("job.toml"));
     rendered(&job, &["--spp", "1"]);
     write("m.obj", &format!("{mesh}usemtl unseen\nf 3 2 1\n"));
-    etendue(["plan", &job]).refused(&["lost.png: no such image file", "named at", "m.obj"]);
+    etendue(["plan", &job]).refused(&["lost.png: no such image file", "referenced at", "m.obj"]);
 }

@@ -363,7 +363,7 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
             "or form a cycle",
         ),
         (&deep, "more than 64 levels deep"),
-        ("def Sphere \"B}lb\" {}\n", "line 2: the name of a prim contains braces"),
+        ("def Sphere \"B}lb\" {}\n", "line 2: the name of a prim contains unbalanced braces"),
         (
             "class \"a\" (inherits = </b>) {}\nclass \"b\" (specializes = </a>) {}\ndef \"c\" (inherits = </a>) {}\n",
             "inherits from itself",

@@ -113,12 +113,15 @@ fn animations_that_are_none() {
     assert_refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
     assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",
-        &["times_s[2]", "the time 0.2 s follows 0.3 s", "rising"],
+        &["times_s[2]", "the time 0.2 s follows 0.3 s", "increasing"],
     );
-    assert_refused("files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1]", &["2 times for 3 files", "give 3 times"]);
+    assert_refused(
+        "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1]",
+        &["the number of times is 2; each of the 3 files needs one", "give 3 times"],
+    );
     assert_refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1, 0.2], repeat = \"loop\"",
-        &["3 times for a loop of 3 files", "give 4 times"],
+        &["the number of times is 3; a loop of 3 files", "give 4 times"],
     );
     assert_refused(
         "files = \"sheet-%d.obj\", count = 3, rate_hz = 5, repeat = \"bounce\"",

@@ -6,7 +6,7 @@ use super::{KeyedTrack, Track, TrackState, bounds::max_stretch, span::Span};
 
 /// Transform and its time derivative.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moving {
+pub(crate) struct MovingTransform {
     pub(crate) at: DAffine3,
     /// Derivative of the matrix, 1/s.
     pub(crate) turning: DMat3,
@@ -14,7 +14,7 @@ pub(crate) struct Moving {
     pub(crate) velocity: DVec3,
 }
 
-impl Moving {
+impl MovingTransform {
     /// Returns a constant transform.
     pub(crate) fn constant(at: DAffine3) -> Self {
         Self { at, turning: DMat3::ZERO, velocity: DVec3::ZERO }
@@ -68,12 +68,12 @@ impl Track {
     }
 
     /// Returns the transform at `time_s` and its rate of change there, for the span that contains `within_s`: velocities may jump at a key.
-    pub(crate) fn moving_at(&self, time_s: f64, within_s: f64) -> Moving {
+    pub(crate) fn moving_at(&self, time_s: f64, within_s: f64) -> MovingTransform {
         match &self.0 {
-            TrackState::Static(transform) => Moving::constant(*transform),
+            TrackState::Static(transform) => MovingTransform::constant(*transform),
             TrackState::Moving(keyed) => match keyed.span_at(within_s) {
                 Some(span) => keyed.moving_in(span, time_s),
-                None => Moving::constant(keyed.at(time_s)),
+                None => MovingTransform::constant(keyed.at(time_s)),
             },
         }
     }
@@ -113,19 +113,19 @@ impl KeyedTrack {
         Some((&self.spans[span], (self.part(span, start_s), self.part(span, end_s)), length_s))
     }
 
-    fn moving_in(&self, span: usize, time_s: f64) -> Moving {
+    fn moving_in(&self, span: usize, time_s: f64) -> MovingTransform {
         let length_s = self.times_s[span + 1] - self.times_s[span];
         let (span, u) = (&self.spans[span], self.part(span, time_s));
         let pose = span.at(u);
         let (rotation, scale) = (DMat3::from_quat(pose.rotation), DMat3::from_diagonal(pose.scale));
         let turning = rotation * cross(span.turn.velocity(u)) * scale;
         let growing = rotation * DMat3::from_diagonal(span.scale.slope(u));
-        let keyed = Moving {
+        let keyed = MovingTransform {
             at: pose.transform(),
             turning: (turning + growing) * (1.0 / length_s),
             velocity: span.position.slope(u) / length_s,
         };
-        keyed.carrying(&Moving::constant(self.first))
+        keyed.carrying(&MovingTransform::constant(self.first))
     }
 }
 

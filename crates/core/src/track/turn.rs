@@ -38,9 +38,9 @@ impl Turn {
 
     /// Returns the rotation from `start` to `end` with the angular velocities `leaves` and `arrives`, rad per unit of u in the turning frame.
     pub(super) fn smooth(start: DQuat, end: DQuat, leaves: DVec3, arrives: DVec3) -> Self {
-        let way = vector_between(start, end);
-        if leaves == way && arrives == way {
-            return Self::Even { start, vector: way };
+        let rotation = vector_between(start, end);
+        if leaves == rotation && arrives == rotation {
+            return Self::Even { start, vector: rotation };
         }
         let (first, last) = (leaves / 3.0, arrives / 3.0);
         let rest = exp(-first) * start.conjugate() * end * exp(-last);

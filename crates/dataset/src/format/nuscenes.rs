@@ -27,9 +27,9 @@ use crate::{draw::Split, picture::SampleImage, set::Set};
 pub(super) struct NuScenes;
 
 /// Rows of a table from a sample.
-type RowsOf = fn(&Set, &SampleRecord) -> Vec<Value>;
+type TableRowsFn = fn(&Set, &SampleRecord) -> Vec<Value>;
 
-const TABLES: [(&str, RowsOf); 7] = [
+const TABLES: [(&str, TableRowsFn); 7] = [
     ("scene", scenes),
     ("sample", samples),
     ("sample_data", sample_data),
@@ -63,7 +63,13 @@ impl FormatWriter for NuScenes {
     }
 }
 
-fn write_rows(set: &Set, records: &Records, split: Split, rows_of: RowsOf, file: &mut impl Write) -> io::Result<()> {
+fn write_rows(
+    set: &Set,
+    records: &Records,
+    split: Split,
+    rows_of: TableRowsFn,
+    file: &mut impl Write,
+) -> io::Result<()> {
     file.write_all(b"[")?;
     let mut is_first = true;
     for record in records.each() {

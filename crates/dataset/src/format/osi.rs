@@ -303,7 +303,6 @@ mod wire_type {
 struct ProtobufMessage(Vec<u8>);
 
 impl ProtobufMessage {
-    /// The bytes.
     fn bytes(&self) -> &[u8] {
         &self.0
     }

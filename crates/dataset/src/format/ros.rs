@@ -18,7 +18,6 @@ const NS: u64 = 1_000_000_000;
 /// Time, ns, and coordinate frame of a message.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MessageHeader<'a> {
-    /// Time, ns.
     pub(super) time_ns: u64,
     /// Name of the coordinate frame.
     pub(super) frame: &'a str,

@@ -1,10 +1,10 @@
 //! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each, in order.
 //!
 //! Each image has four members with one stem: the image, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16
-//! bits), `.depth.npy` (32-bit floats, m; +∞ for sky, NaN where there is none). A sample is first a part in `webdataset/parts`; a complete shard replaces its
-//! parts, others keep them for a resumed run.
+//! bits), `.depth.npy` (32-bit floats, m; +∞ for sky, NaN where there is none). Each sample is first written as a part, an archive in `webdataset/parts`. At the
+//! end of a run the parts are joined to shards. The parts of complete shards are then removed; those of incomplete shards stay for a resumed run.
 //!
-//! Archives of files in memory: POSIX ustar (IEEE 1003.1-1988), without owners and times, so that the same files give the same bytes.
+//! Archives are POSIX ustar (IEEE 1003.1-1988) without owners and times, so that equal files give equal bytes.
 
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ impl WebDataset {
         Ok(shards)
     }
 
-    /// A shard with unreadable records has no parts.
+    /// Layout of a shard, by its records up to the first that cannot be read.
     fn shard_layout(&self, records: &Records, shard: u32) -> ShardLayout {
         let (mut starts, mut lengths) = (BTreeMap::new(), BTreeMap::new());
         for sample in records.numbers().iter().filter(|sample| **sample / self.shard_samples == shard) {
@@ -87,7 +87,7 @@ fn parts(folder: &OutputFolder, samples: &[u32]) -> Vec<PathBuf> {
 }
 
 impl FormatWriter for WebDataset {
-    /// A complete shard has no parts: its samples must be rendered again together.
+    /// Refuses to replace some samples of a complete shard: its parts are removed, so that all its samples must be rendered again.
     fn check_replaced(&self, records: &Records, samples: &Range<u32>, folder: &OutputFolder) -> Result<(), Error> {
         let shard = |sample: u32| sample / self.shard_samples;
         let lost = |sample: &&u32| !samples.contains(sample) && !folder.path().join(part(**sample)).exists();
@@ -106,7 +106,7 @@ impl FormatWriter for WebDataset {
         ).with_code(ErrorCode::OtherRun))
     }
 
-    /// A part is a section of the shard that has replaced it.
+    /// Returns true if the part of a sample, by length and digest, is a section of the complete shard that has replaced it.
     fn has_file(&self, name: &str, record: &SampleRecord, records: &Records, root: &Path) -> bool {
         let Some(digest) = record.files.get(name).filter(|_| name == part(record.sample)) else { return false };
         let shard = record.sample / self.shard_samples;

@@ -1,6 +1,6 @@
 //! Flow, disparity and boxes, from a job to files.
 
-use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, NullObserver, RenderOptions};
 use etendue_io::correspondence::decode_flo;
 use etendue_io::exr::{ExrSamples, read_exr};
 use std::path::Path;
@@ -47,8 +47,8 @@ fn all_requested_annotations_are_written_and_right() {
     assert!(job.summary().contains("optical flow, scene flow, disparity, boxes"), "{}", job.summary());
     let folder = tempfile::tempdir().expect("a folder");
     let options = RenderOptions { frames: 0..2, ..RenderOptions::default() };
-    let results = job.render(&options, &Unobserved).expect("rendered");
-    results.save(folder.path(), ExistingFiles::Refuse, &Unobserved).expect("saved");
+    let results = job.render(&options, &NullObserver).expect("rendered");
+    results.save(folder.path(), ExistingFiles::Refuse, &NullObserver).expect("saved");
     let named = job.file_names(&(0..2));
     assert!(named.iter().all(|name| folder.path().join(name).is_file()), "{named:?}");
     let at = |file: &str| folder.path().join("left").join(file);

@@ -2,8 +2,8 @@
 //! kept, and a resumed run ends as an uninterrupted one.
 
 use etendue::{
-    Error, ExistingFiles, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions,
-    Unobserved,
+    Error, ExistingFiles, Job, JobRequest, MemoryFiles, Message, NullObserver, Observer, OutputFolder, Progress,
+    RenderOptions,
 };
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -80,7 +80,7 @@ fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
 fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     let place = tempfile::tempdir().expect("a folder");
     let undisturbed = place.path().join("whole");
-    job(false).save(&options(), &undisturbed, ExistingFiles::Refuse, &Unobserved).expect("rendered");
+    job(false).save(&options(), &undisturbed, ExistingFiles::Refuse, &NullObserver).expect("rendered");
     let expected = files(&undisturbed);
     // In the first frame: nothing remains, not even the folder.
     let out = place.path().join("out");
@@ -95,7 +95,7 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
         "{:?}",
         stored.keys()
     );
-    job(false).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
+    job(false).save(&options(), &out, ExistingFiles::Resume, &NullObserver).expect("rendered");
     assert!(files(&out) == expected);
 }
 
@@ -103,11 +103,11 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
 fn a_panic_between_passes_leaves_the_light_of_the_last() {
     let place = tempfile::tempdir().expect("a folder");
     let (undisturbed, out) = (place.path().join("whole"), place.path().join("out"));
-    job(true).save(&options(), &undisturbed, ExistingFiles::Refuse, &Unobserved).expect("rendered");
+    job(true).save(&options(), &undisturbed, ExistingFiles::Refuse, &NullObserver).expect("rendered");
     // The second pass of the first frame.
     let message = panicked(&job(true), &out, 6);
     assert!(message.contains("saved the light of the last complete pass; to continue, use `resume`"), "{message}");
-    job(true).save(&options(), &out, ExistingFiles::Resume, &Unobserved).expect("rendered");
+    job(true).save(&options(), &out, ExistingFiles::Resume, &NullObserver).expect("rendered");
     assert!(files(&out) == files(&undisturbed));
 }
 
@@ -117,10 +117,10 @@ fn jobs_of_one_process_take_turns_in_a_folder() {
     let place = tempfile::tempdir().expect("a folder");
     panicked(&job(false), place.path(), 2);
     let folder = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("free");
-    let error = job(false).save(&options(), place.path(), ExistingFiles::Replace, &Unobserved).expect_err("held");
+    let error = job(false).save(&options(), place.path(), ExistingFiles::Replace, &NullObserver).expect_err("held");
     assert!(error.to_string().contains("another run of this process is writing into this folder"), "{error}");
     drop(folder);
-    job(false).save(&options(), place.path(), ExistingFiles::Refuse, &Unobserved).expect("free");
+    job(false).save(&options(), place.path(), ExistingFiles::Refuse, &NullObserver).expect("free");
 }
 
 #[test]

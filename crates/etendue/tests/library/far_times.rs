@@ -1,6 +1,6 @@
 //! Jobs that begin far from the time 0: they have the same light as near it, and keep the full precision of every time.
 
-use etendue::{ExistingFiles, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, MemoryFiles, NullObserver, RenderOptions};
 use etendue_io::exr::read_exr;
 use std::path::Path;
 
@@ -29,8 +29,8 @@ fn render(text: &str, out: &Path) -> Result<(), String> {
     files.add_text("job.toml", text);
     let job = JobRequest::new("job.toml").open_in(&files).map_err(|error| error.to_string())?;
     let options = RenderOptions { frames: 0..3, ..RenderOptions::default() };
-    let results = job.render(&options, &Unobserved).map_err(|error| error.to_string())?;
-    results.save(out, ExistingFiles::Refuse, &Unobserved).map(drop).map_err(|error| error.to_string())
+    let results = job.render(&options, &NullObserver).map_err(|error| error.to_string())?;
+    results.save(out, ExistingFiles::Refuse, &NullObserver).map(drop).map_err(|error| error.to_string())
 }
 
 /// Reads the radiance of all frames.

@@ -1,7 +1,7 @@
 //! Flicker of frames with a side-car: timing need not be stated again.
 
 use etendue::measure::{FlickerRequest, flicker};
-use etendue::{ExistingFiles, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, JobRequest, MemoryFiles, NullObserver, RenderOptions};
 use std::path::{Path, PathBuf};
 
 /// A lamp on mains of 50 Hz fills the image; rows of 250 µs, 25 frames per second.
@@ -22,7 +22,7 @@ fn frames(folder: &Path, numbers: &[u32]) -> Vec<PathBuf> {
     files.add_text("job.toml", JOB);
     let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));
     let options = RenderOptions { frames: 0..5, ..RenderOptions::default() };
-    job.save(&options, folder, ExistingFiles::Refuse, &Unobserved).expect("rendered");
+    job.save(&options, folder, ExistingFiles::Refuse, &NullObserver).expect("rendered");
     numbers.iter().map(|number| folder.join(format!("eye/raw.{number:04}.png"))).collect()
 }
 

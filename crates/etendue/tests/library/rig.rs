@@ -1,6 +1,6 @@
 //! Calibration files of a rig, read by independent formulas and compared with the program's projection.
 
-use etendue::{ExistingFiles, Job, Unobserved};
+use etendue::{ExistingFiles, Job, NullObserver};
 use etendue_core::maths::f64::{atan2, cos, sin};
 use glam::{DMat3, DVec2, DVec3};
 use serde_json::Value;
@@ -22,7 +22,7 @@ fn job() -> Job {
 }
 
 fn written(job: &Job, folder: &Path) -> impl Fn(&str) -> String {
-    job.save_calibration_files(&(0..3), folder, ExistingFiles::Refuse, &Unobserved).expect("written");
+    job.save_calibration_files(&(0..3), folder, ExistingFiles::Refuse, &NullObserver).expect("written");
     let root = folder.join("calibration");
     move |name| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
@@ -299,7 +299,7 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
 fn the_files_that_they_read_are_those_that_the_program_writes() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
     let written =
-        job.save_calibration_files(&(0..3), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
+        job.save_calibration_files(&(0..3), folder.path(), ExistingFiles::Refuse, &NullObserver).expect("written");
     assert_eq!(written.len(), 11);
     for path in written {
         let name = path.strip_prefix(folder.path()).expect("within");

@@ -1,6 +1,6 @@
 //! `sensor.scale`: the same field of view, mean level and clipping with fewer, larger pixels.
 
-use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, RenderOptions, Unobserved};
+use etendue::{ExistingFiles, Job, JobRequest, MemoryFiles, NullObserver, RenderOptions};
 use etendue_core::Shutter;
 use etendue_core::maths::f64::pow;
 use etendue_pipeline::plan::CameraBody;
@@ -50,7 +50,7 @@ fn body<'j>(job: &'j Job, camera: &str) -> &'j CameraBody {
 /// Returns the mean level, DN, and the fraction of clipped pixels of the first frame.
 fn levels(job: &Job) -> [f64; 2] {
     let folder = tempfile::tempdir().expect("a folder");
-    job.save(&RenderOptions::default(), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("rendered");
+    job.save(&RenderOptions::default(), folder.path(), ExistingFiles::Refuse, &NullObserver).expect("rendered");
     let text = std::fs::read_to_string(folder.path().join("eye/camera.json")).expect("a side-car");
     let sidecar: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let levels = &sidecar["frames"][0]["levels"];
@@ -198,7 +198,7 @@ fn calibrations_project_points_to_scaled_coordinates() {
     }
     let folders = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
     let [before, after] = [(&full, &folders[0]), (&half, &folders[1])].map(|(job, folder)| {
-        job.save_calibration_files(&(0..1), folder.path(), ExistingFiles::Refuse, &Unobserved).expect("written");
+        job.save_calibration_files(&(0..1), folder.path(), ExistingFiles::Refuse, &NullObserver).expect("written");
         std::fs::read_to_string(folder.path().join("calibration/ros/five.yaml")).expect("a calibration")
     });
     let [before, after] = [before, after].map(|text| matrix(&text));

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use etendue_io::Error;
 use etendue_scene::record::material::{
-    Coated, Conductor, Dielectric, Diffuse, Factor, Material, Metal, Mix, NormalMap, Surface, ThinSheet,
+    CoatedDiffuse, Conductor, Dielectric, Diffuse, Factor, Material, Metal, Mix, NormalMap, Surface, ThinSheet,
 };
 use etendue_scene::record::{Colour, Reflectance};
 use etendue_scene::{record::material::factor::FactorTexture, record::material::surface::Distribution};
@@ -94,7 +94,7 @@ impl<'a> Importer<'a> {
                 let reflectance = self.reflectance(element, "reflectance", 0.5, &|v| v)?;
                 Surface::Diffuse(Diffuse::new(reflectance)).into()
             }
-            "plastic" | "roughplastic" => Surface::Coated(self.plastic(element)?).into(),
+            "plastic" | "roughplastic" => Surface::CoatedDiffuse(self.plastic(element)?).into(),
             "conductor" | "roughconductor" => Surface::Conductor(self.conductor(element)?).into(),
             "dielectric" | "roughdielectric" => {
                 let rough = if kind == "dielectric" { None } else { Some(self.alpha(element)?) };
@@ -142,7 +142,11 @@ impl<'a> Importer<'a> {
         match self.within(element, "bsdf")?[..] {
             [inner] => self.convert(inner, depth + 1),
             ref others => {
-                let message = format!("{} surfaces in a \"{}\"; expected one <bsdf>", others.len(), element.kind());
+                let message = format!(
+                    "the number of surfaces in a \"{}\" is {}; expected one <bsdf>",
+                    element.kind(),
+                    others.len()
+                );
                 Err(element.error(message))
             }
         }
@@ -177,7 +181,9 @@ impl<'a> Importer<'a> {
         let weight = self.factor(element, "weight", 0.5)?;
         let parts = self.within(element, "bsdf")?;
         let [a, b] = parts[..] else {
-            return Err(element.error(format!("{} surfaces in a \"blendbsdf\"; expected two", parts.len())));
+            return Err(
+                element.error(format!("the number of surfaces in a \"blendbsdf\" is {}; expected two", parts.len()))
+            );
         };
         let constant = |weight: f64| Some(Factor::Number(weight.into()));
         let [first, second] = [self.part(a, depth)?, self.part(b, depth)?];
@@ -341,8 +347,12 @@ impl<'a> Importer<'a> {
         }
         let base = self.reflectance(element, "base_color", 0.5, &|v| v)?;
         let index = self.coat_index(stated);
-        let coated =
-            || Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base.clone(), alpha.clone()) });
+        let coated = || {
+            Surface::CoatedDiffuse(CoatedDiffuse {
+                index: Some(index.into()),
+                ..CoatedDiffuse::new(base.clone(), alpha.clone())
+            })
+        };
         if matches!(&metallic, Factor::Number(m) if m.value == 0.0) {
             return Ok(coated());
         }

@@ -5,7 +5,7 @@ use std::{collections::HashMap, rc::Rc};
 
 use etendue_io::Error;
 use etendue_scene::record::Transform;
-use etendue_scene::record::medium::{Everywhere, MediumShape};
+use etendue_scene::record::medium::{MediumShape, UnboundedRegion};
 
 use super::{access::all, camera, transform::TextureUsage};
 use crate::scenery::{Graphics, KnownTexture, SceneBuilder};
@@ -169,7 +169,7 @@ impl<'a> Importer<'a> {
                 self.scenery
                     .report
                     .note("the medium of a camera fills the whole scene and adds to the media of shapes in it");
-                self.scenery.fill(&name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
+                self.scenery.fill(&name, MediumShape::Everywhere(UnboundedRegion::default()), Transform::default());
             }
             self.note_unused(sensor);
         }
@@ -204,7 +204,7 @@ impl<'a> Importer<'a> {
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
         let [objects, materials, textures, lights, media] = counts;
         report.note(format!(
-            "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+            "written: objects {objects}, materials {materials}, textures {textures}, lights {lights}, media {media}"
         ));
         let mut result = import_files(file, &scene, &self.cameras, report.lines());
         result.files.extend(files);

@@ -2,7 +2,7 @@
 
 use etendue_io::Error;
 use etendue_scene::asset::COAT_INDICES;
-use etendue_scene::record::material::{Coated, Factor};
+use etendue_scene::record::material::{CoatedDiffuse, Factor};
 
 use super::access::{find, flag, number_of};
 use super::importer::Importer;
@@ -71,7 +71,7 @@ impl<'a> Importer<'a> {
         index
     }
 
-    pub(super) fn plastic(&mut self, element: &'a MitsubaElement) -> Result<Coated, Error> {
+    pub(super) fn plastic(&mut self, element: &'a MitsubaElement) -> Result<CoatedDiffuse, Error> {
         let stated = Self::ratio(element, "polypropylene")?;
         let index = self.coat_index(stated);
         let is_rough = element.kind() == "roughplastic";
@@ -92,6 +92,6 @@ impl<'a> Importer<'a> {
             true => self.reflectance(element, "diffuse_reflectance", 0.5, &|a| a)?,
             false => self.reflectance(element, "diffuse_reflectance", 0.5, &|a| linear_base(a, inner))?,
         };
-        Ok(Coated { index: Some(index.into()), ..Coated::new(base, alpha) })
+        Ok(CoatedDiffuse { index: Some(index.into()), ..CoatedDiffuse::new(base, alpha) })
     }
 }

@@ -96,8 +96,9 @@ fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
     if let Ok(rows) = <[f64; 9]>::try_from(&numbers[..]) {
         return Ok(DAffine3::from_mat3(DMat3::from_cols_array(&rows).transpose()));
     }
-    let rows = <[f64; 16]>::try_from(&numbers[..])
-        .map_err(|_| step.error(format!("{} numbers in a <matrix>; expected 9 or 16", numbers.len())))?;
+    let rows = <[f64; 16]>::try_from(&numbers[..]).map_err(|_| {
+        step.error(format!("the number of values in a <matrix> is {}; expected 9 or 16", numbers.len()))
+    })?;
     match rows[12..] == [0.0, 0.0, 0.0, 1.0] {
         true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&rows).transpose())),
         false => Err(step.error("the matrix is not affine; expected 0, 0, 0, 1 as its last row")),
@@ -107,7 +108,6 @@ fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
 /// Use of a texture.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum TextureUsage {
-    /// Colours.
     Colours,
     /// One number per texel, which Mitsuba computes from the colour.
     Numbers,

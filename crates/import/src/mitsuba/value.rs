@@ -33,7 +33,9 @@ fn paired(nm: Vec<f64>, values: Vec<f64>) -> Result<MitsubaValue<'static>, Strin
     let points: Vec<(f64, f64)> = nm.iter().copied().zip(values.iter().copied()).collect();
     match nm.len() == values.len() && nm.len() >= 2 && points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
         true => Ok(MitsubaValue::Table(points)),
-        false => Err("expected two or more pairs of wavelength and value, in order of rising wavelength".to_owned()),
+        false => {
+            Err("expected two or more pairs of wavelength and value, in order of increasing wavelength".to_owned())
+        }
     }
 }
 
@@ -87,7 +89,9 @@ impl<'a> Importer<'a> {
             ("rgb", _, Some(value)) => match numbers_of(value).map_err(located)?[..] {
                 [one] => Ok(MitsubaValue::Rgb([one; 3])),
                 [r, g, b] => Ok(MitsubaValue::Rgb([r, g, b])),
-                ref others => Err(located(format!("{} numbers in an rgb; expected three", others.len()))),
+                ref others => {
+                    Err(located(format!("the number of values in an rgb is {}; expected three", others.len())))
+                }
             },
             ("spectrum", "", Some(value)) => stated_spectrum(value).map_err(located),
             ("spectrum", "", None) => match element.attribute("filename") {

@@ -9,7 +9,7 @@ use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     let count = numbers.len();
-    numbers.try_into().map_err(|_| format!("\"{name}\": {count} numbers in an rgb; expected three"))
+    numbers.try_into().map_err(|_| format!("\"{name}\": the number of values in an rgb is {count}; expected three"))
 }
 
 /// Distance beyond its ends at which a spectrum is 0, nm.
@@ -21,7 +21,7 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
     match numbers.len().is_multiple_of(2) && !pairs.is_empty() && rising {
         true => Ok(pairs),
-        false => Err(format!("\"{name}\": expected pairs of wavelength and value, in order of rising wavelength")),
+        false => Err(format!("\"{name}\": expected pairs of wavelength and value, in order of increasing wavelength")),
     }
 }
 

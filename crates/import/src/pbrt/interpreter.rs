@@ -256,7 +256,7 @@ impl Interpreter {
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
         let [objects, materials, textures, lights, media] = counts;
         report.note(format!(
-            "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+            "written: objects {objects}, materials {materials}, textures {textures}, lights {lights}, media {media}"
         ));
         let mut result = import_files(file, &scene, &[camera.camera], report.lines());
         result.files.extend(files);

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use etendue_core::maths::f64 as maths;
-use etendue_scene::record::medium::{Everywhere, MediumShape};
+use etendue_scene::record::medium::{MediumShape, UnboundedRegion};
 use etendue_scene::record::{Emission, Environment, Level, Transform};
 use etendue_spectra::Spectrum;
 use glam::DVec3;
@@ -188,7 +188,7 @@ impl SceneBuilder {
             self.report.note(format!(
                 "the medium \"{name}\" of the camera fills the whole scene and adds to the media of shapes in it"
             ));
-            self.fill(name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
+            self.fill(name, MediumShape::Everywhere(UnboundedRegion::default()), Transform::default());
         }
     }
 }

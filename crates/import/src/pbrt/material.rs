@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use etendue_scene::record::material::{
-    Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
+    CoatedDiffuse, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
 use etendue_scene::{asset::COAT_INDICES, record::Colour};
 use etendue_spectra::{Extrapolation, Spectrum, metal};
@@ -72,7 +72,7 @@ impl SceneBuilder {
     fn surface_of(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<Surface>, String> {
         Ok(Some(match kind {
             "diffuse" => Surface::Diffuse(Diffuse::new(self.reflectance(parameters, "reflectance", 0.5)?)),
-            "coateddiffuse" => Surface::Coated(self.coated(parameters)?),
+            "coateddiffuse" => Surface::CoatedDiffuse(self.coated(parameters)?),
             "conductor" => Surface::Conductor(self.conductor(parameters, "")?),
             "coatedconductor" => {
                 self.report.note("the coat of a \"coatedconductor\" is not used: only its metal is");
@@ -170,7 +170,7 @@ impl SceneBuilder {
         Ok(legal)
     }
 
-    fn coated(&mut self, parameters: Parameters<'_>) -> Result<Coated, String> {
+    fn coated(&mut self, parameters: Parameters<'_>) -> Result<CoatedDiffuse, String> {
         if parameters.numbers("albedo")?.is_some_and(|a| a.iter().any(|v| *v != 0.0)) {
             self.report.note("scattering in a coat (\"albedo\") is not used");
         }
@@ -188,7 +188,7 @@ impl SceneBuilder {
             self.report.note(format!("the refractive index {stated} of a coat is limited to {index}"));
         }
         let alpha = self.alpha(parameters, "")?;
-        Ok(Coated { index: Some(index.into()), ..Coated::new(reflectance, alpha) })
+        Ok(CoatedDiffuse { index: Some(index.into()), ..CoatedDiffuse::new(reflectance, alpha) })
     }
 
     fn conductor(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Conductor, String> {
@@ -249,7 +249,9 @@ impl SceneBuilder {
 
     fn mix(&mut self, parameters: Parameters<'_>) -> Result<Surface, String> {
         let names = parameters.texts("materials")?.ok_or("the mix has no \"materials\"")?;
-        let [a, b] = names else { return Err(format!("{} materials in a mix; expected two", names.len())) };
+        let [a, b] = names else {
+            return Err(format!("the number of materials in a mix is {}; expected two", names.len()));
+        };
         let [a, b] = [a, b].map(|name| {
             let own = self.named_material(name);
             self.known_material(if &*own == INTERFACE { "" } else { &own })

@@ -47,8 +47,8 @@ impl SceneBuilder {
     /// State of a shape with its "alpha"; `None` if alpha makes it invisible.
     fn with_alpha(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<Option<Graphics>, String> {
         let opacity = match self.factor(parameters, "alpha", 1.0, |alpha| alpha)? {
-            Factor::Number(share) if share.value >= 1.0 => None,
-            Factor::Number(share) if share.value <= 0.0 => {
+            Factor::Number(alpha) if alpha.value >= 1.0 => None,
+            Factor::Number(alpha) if alpha.value <= 0.0 => {
                 // pbrt's scenes hide lights in this way: an invisible shape still emits light.
                 self.report.note(match graphics.area_light {
                     Some(_) => {

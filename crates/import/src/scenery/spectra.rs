@@ -27,7 +27,7 @@ impl SceneBuilder {
     /// Writes a file of a spectrum next to the scene; returns its path.
     pub(crate) fn spectrum_file(&mut self, points: &[(f64, f64)]) -> String {
         let mut text = "wavelength_nm,value\n".to_owned();
-        points.iter().for_each(|(nm, value)| writeln!(text, "{nm},{value}").expect("a text grows"));
+        points.iter().for_each(|(nm, value)| writeln!(text, "{nm},{value}").expect("writing to a String succeeds"));
         let name = self.file_names.take("spectrum", "spectrum");
         self.add_file(format!("spectra/{name}.csv"), text.into_bytes())
     }

@@ -125,7 +125,7 @@ impl SceneBuilder {
         let mut text = "wavelength_nm,n,k\n".to_owned();
         for nm in (60_u16..=166).map(|i| 5 * i) {
             let at = f32::from(nm);
-            writeln!(text, "{nm},{},{}", n(at).max(1e-3), k(at).max(0.0)).expect("a text grows");
+            writeln!(text, "{nm},{},{}", n(at).max(1e-3), k(at).max(0.0)).expect("writing to a String succeeds");
         }
         let name = self.file_names.take("metal", "metal");
         let path = self.add_file(format!("spectra/{name}.csv"), text.into_bytes());

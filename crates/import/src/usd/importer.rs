@@ -8,8 +8,8 @@ use super::access::{Paths, text};
 use super::binding::{Bindings, BoundMaterial, binds_collections, bound};
 use super::transform::transform_of;
 use crate::scenery::{KnownTexture, SceneBuilder};
+use crate::substitutes::{even_sky, whole_view};
 use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
-use crate::without::{even_sky, whole_view};
 use crate::written::{ImportFiles, ImportedCamera, import_files};
 
 /// Maximum visited prims, counting those of each instance.
@@ -24,16 +24,17 @@ pub(super) struct Importer<'a> {
     root: DAffine3,
     /// Converted materials, by path.
     pub(super) materials: HashMap<String, BoundMaterial>,
-    /// Texture transforms of the current material's images that are black outside.
+    /// Texture transforms of those images of the current material that are black outside u, v = 0 … 1.
     pub(super) black_outside: Vec<[[f64; 2]; 2]>,
     /// Converted images, by all their parameters.
     pub(super) textures: HashMap<String, KnownTexture>,
-    /// Written files of packages, by their names there.
+    /// Names of the files written from a package, by their names in the package.
     pub(super) unpacked: HashMap<String, String>,
     pub(super) cameras: Vec<ImportedCamera>,
-    /// Bounding box of all shapes, in our world.
+    /// Bounding box of all shapes, in the world of the written scene.
     low: DVec3,
     high: DVec3,
+    /// True if a surface or light emits.
     pub(super) shines: bool,
     visits: usize,
 }
@@ -51,7 +52,7 @@ pub(super) struct TraversalState<'a> {
 }
 
 impl TraversalState<'_> {
-    /// Returns true if it is visible in an image.
+    /// Returns true if the prim is visible and its purpose is rendering.
     pub(super) fn is_drawn(&self) -> bool {
         self.is_visible && matches!(self.purpose, "" | "default" | "render")
     }
@@ -113,7 +114,7 @@ impl<'a> Importer<'a> {
         }
         let counts = [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len()];
         let [objects, materials, textures, lights] = counts;
-        report.note(format!("written: {objects} objects, {materials} materials, {textures} textures, {lights} lights"));
+        report.note(format!("written: objects {objects}, materials {materials}, textures {textures}, lights {lights}"));
         let mut result = import_files(file, &self.scenery.scene, &self.cameras, self.scenery.report.lines());
         result.files.extend(self.scenery.files);
         Ok(result)
@@ -137,7 +138,7 @@ impl<'a> Importer<'a> {
         state.bindings = self.bindings(prim, &about.bindings);
         match prim.kind.as_str() {
             "PointInstancer" => return self.instancer(prim, &state),
-            // Read where they are used.
+            // Converted with the prims that refer to them.
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
             "Camera" => self.camera(prim, &state)?,
             "" | "Xform" | "Scope" | "SkelRoot" => {}
@@ -149,7 +150,7 @@ impl<'a> Importer<'a> {
         prim.children.iter().try_for_each(|child| self.prim(child, &state))
     }
 
-    /// Bindings of a prim, within those of its parent.
+    /// Material bindings of a prim, with those inherited from its parent.
     pub(super) fn bindings(&mut self, prim: &'a UsdPrim, about: &Bindings<'a>) -> Bindings<'a> {
         if binds_collections(prim) {
             self.scenery.report.note("material bindings of collections are not used");
@@ -174,13 +175,13 @@ impl<'a> Importer<'a> {
         prim.name().into()
     }
 
-    /// Extends the bounding box to a position of the file's world.
+    /// Extends the bounding box to a position in metres in the axes of the file.
     pub(super) fn extend_bounds(&mut self, place: DVec3) {
         let ours = self.scenery.to_ours * place;
         (self.low, self.high) = (self.low.min(ours), self.high.max(ours));
     }
 
-    /// Notes properties that change over time, and unused ones.
+    /// Reports attributes and relationships that are not used, and attributes that are animated.
     pub(super) fn note_unused(&mut self, prim: &UsdPrim) {
         let time = self.stage.start_time;
         self.scenery.report.at(prim.path.clone());
@@ -204,7 +205,7 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Returns true for attributes and relationships that do not affect an image, and for those used through their targets.
+/// Returns true for attributes and relationships that need no report: they do not affect an image, or other code evaluates them.
 fn is_aside(name: &str) -> bool {
     matches!(name, "extent" | "doubleSided" | "extentsHint" | "visibility" | "purpose" | "xformOpOrder")
         || matches!(name, "proxyPrim" | "familyName")

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use etendue_scene::record::material::{
-    Channel, Coated, Conductor, Diffuse, Factor, Green, Material, Mix, NormalMap, Sides, Surface, ThinSheet,
+    Channel, CoatedDiffuse, Conductor, Diffuse, Factor, Green, Material, Mix, NormalMap, Sides, Surface, ThinSheet,
 };
 use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEmission};
 use etendue_scene::{asset::COAT_INDICES, record::material::factor::FactorTexture};
@@ -142,7 +142,7 @@ impl<'a> Importer<'a> {
             return Surface::Diffuse(Diffuse::new(base));
         }
         let index = self.index_within(name, index, COAT_INDICES);
-        Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base, alpha.clone()) })
+        Surface::CoatedDiffuse(CoatedDiffuse { index: Some(index.into()), ..CoatedDiffuse::new(base, alpha.clone()) })
     }
 
     /// Nearest index within a range.

@@ -244,7 +244,6 @@ impl<'a, const N: usize> Primvar<'a, N> {
         self.indices.as_ref().map_or(element, |indices| indices[element])
     }
 
-    /// A value.
     pub(super) fn value(&self, index: usize) -> [f64; N] {
         self.values[index]
     }

@@ -8,7 +8,6 @@ const MAX_STEPS: usize = 32;
 
 /// Source of an input.
 pub(super) enum NodeInput<'a> {
-    /// A value.
     Value(&'a UsdValue),
     /// The output of a shader, `r` or `rgb`.
     Shader(&'a UsdPrim, String),

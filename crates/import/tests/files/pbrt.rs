@@ -60,10 +60,10 @@ fn faults_have_their_line() {
         "\nSurfaceIntegrator \"path\"",
         "a.pbrt:2: unknown directive `SurfaceIntegrator`: pbrt-v4 does not have it",
     );
-    refused("Translate 1 2", "a.pbrt:1: `Translate` has 2 numbers; expected 3");
+    refused("Translate 1 2", "a.pbrt:1: `Translate`: expected 3 numbers, found 2");
     refused("Translate 1 2 x", "a.pbrt:1: expected a number, found `x`");
     refused("Scale 1 2 inf", "a.pbrt:1: `inf` is not finite");
-    refused("Transform [ 1 2 3", "a.pbrt:1: `Transform` has 3 numbers; expected 16");
+    refused("Transform [ 1 2 3", "a.pbrt:1: `Transform`: expected 16 numbers, found 3");
     refused("Shape sphere", "a.pbrt:1: `Shape` expects a quoted string here");
     refused("Shape", "a.pbrt:1: the file ends within `Shape`: it may be truncated");
     refused("Shape \"sphere", "a.pbrt:1: a quoted string is not closed on its line");

@@ -9,7 +9,7 @@ use etendue_projection::model::{
 };
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, opencv::wrong};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [
@@ -36,12 +36,12 @@ const TWO_FOCALS: [(&str, usize); 10] = [
 /// Its two parameters are the image size.
 const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> TreeResult<ReaderResult> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let cameras: Vec<CameraLine<'_>> = lines
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
         .map(|(number, line)| CameraLine::read(number, line))
-        .collect::<Read<_>>()?;
+        .collect::<TreeResult<_>>()?;
     let line = chosen(&cameras, camera)?;
     let (model, matrix) = line.camera()?;
     let calibration = Calibration::new(model, matrix, line.size_px).map_err(camera_error(line.number))?;
@@ -56,7 +56,7 @@ struct CameraLine<'a> {
     parameters: Vec<f64>,
 }
 
-fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> Read<&'b CameraLine<'a>> {
+fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> TreeResult<&'b CameraLine<'a>> {
     let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
     match (cameras, camera) {
         ([], _) => Err(TreeError::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
@@ -77,7 +77,7 @@ fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> Read<&
 }
 
 impl<'a> CameraLine<'a> {
-    fn read(number: usize, text: &'a str) -> Read<Self> {
+    fn read(number: usize, text: &'a str) -> TreeResult<Self> {
         let mut words = text.split_whitespace();
         let mut word = |what: &str| {
             words.next().ok_or_else(|| {
@@ -89,11 +89,11 @@ impl<'a> CameraLine<'a> {
         };
         let (id, model) = (word("the id")?, word("the model")?);
         let size_px = [count(number, word("the width")?)?, count(number, word("the height")?)?];
-        let parameters = words.map(|word| finite(number, word)).collect::<Read<_>>()?;
+        let parameters = words.map(|word| finite(number, word)).collect::<TreeResult<_>>()?;
         Ok(Self { number, id, model, size_px, parameters })
     }
 
-    fn camera(&self) -> Read<(Model, CameraMatrix)> {
+    fn camera(&self) -> TreeResult<(Model, CameraMatrix)> {
         let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
         let Some((_, count)) = all.clone().find(|(name, _)| *name == self.model) else {
             let known = all.map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
@@ -104,7 +104,8 @@ impl<'a> CameraLine<'a> {
             ));
         };
         if self.parameters.len() != *count {
-            let what = format!("found {} parameters; the model {} has {count}", self.parameters.len(), self.model);
+            let what =
+                format!("the number of parameters is {}; the model {} has {count}", self.parameters.len(), self.model);
             return Err(TreeError::at(self.number, what));
         }
         let (matrix, k) = self.matrix();
@@ -158,12 +159,12 @@ fn thin_prism(k: &[f64], terms: DistortionTerms) -> Result<Model, ModelError> {
     ThinPrismFisheye::new(fisheye(k)?, terms).map(Model::ThinPrismFisheye)
 }
 
-fn count(line: usize, word: &str) -> Read<usize> {
+fn count(line: usize, word: &str) -> TreeResult<usize> {
     let count = word.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
     count.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected a number of pixels of at least 1")))
 }
 
-fn finite(line: usize, word: &str) -> Read<f64> {
+fn finite(line: usize, word: &str) -> TreeResult<f64> {
     let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
     number.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected a finite number")))
 }

@@ -20,7 +20,7 @@ use etendue_projection::model::{FTheta, FThetaSense};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::Affine};
 
 use super::yaml::{self, TreeNode};
-use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, opencv::wrong, passed_over};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",
@@ -39,7 +39,7 @@ const NCORE: [&str; 6] =
     ["resolution", "principal_point", "reference_poly", "max_angle", "linear_cde", "external_distortion_parameters"];
 const POLYNOMIALS: [&str; 2] = ["pixeldist_to_angle_poly", "angle_to_pixeldist_poly"];
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> TreeResult<ReaderResult> {
     let root = yaml::parse(text)?;
     if let Some(rig) = root.find("rig") {
         let (name, properties) = sensor(rig, camera)?;
@@ -50,7 +50,7 @@ pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
 }
 
 /// Camera of a rig: the named one, or the only f-theta camera.
-fn sensor<'a>(rig: &'a TreeNode, camera: Option<&str>) -> Read<(String, &'a TreeNode)> {
+fn sensor<'a>(rig: &'a TreeNode, camera: Option<&str>) -> TreeResult<(String, &'a TreeNode)> {
     let sensors = rig.key("sensors")?.items().unwrap_or_default();
     let cameras = sensors.iter().filter_map(|sensor| {
         let (name, properties) = (sensor.find("name")?.text().ok()?, sensor.find("properties")?);
@@ -92,7 +92,7 @@ struct Numbers {
     linear: [f64; 3],
 }
 
-fn drive_works(node: &TreeNode) -> Read<ReaderResult> {
+fn drive_works(node: &TreeNode) -> TreeResult<ReaderResult> {
     let model = node.key("Model")?;
     if !is_f_theta(node) {
         return Err(TreeError::coded(ErrorCode::UnsupportedFile, model.line, "expected the model \"ftheta\""));
@@ -114,7 +114,7 @@ fn drive_works(node: &TreeNode) -> Read<ReaderResult> {
     reader_result(numbers, passed_over(&node.others(&DRIVE_WORKS)))
 }
 
-fn ncore(node: &TreeNode) -> Read<ReaderResult> {
+fn ncore(node: &TreeNode) -> TreeResult<ReaderResult> {
     if let Some(external) = node.find("external_distortion_parameters")
         && external.text().ok().is_none_or(|text| !matches!(text, "" | "null"))
     {
@@ -142,7 +142,7 @@ fn ncore(node: &TreeNode) -> Read<ReaderResult> {
     reader_result(numbers, passed_over(&node.others(&[&NCORE[..], &[read]].concat())))
 }
 
-fn sense(node: &TreeNode) -> Read<FThetaSense> {
+fn sense(node: &TreeNode) -> TreeResult<FThetaSense> {
     match node.text()? {
         "pixeldistance-to-angle" | "PIXELDIST_TO_ANGLE" => Ok(FThetaSense::RadiusToAngle),
         "angle-to-pixeldistance" | "ANGLE_TO_PIXELDIST" => Ok(FThetaSense::AngleToRadius),
@@ -158,7 +158,7 @@ fn sense(node: &TreeNode) -> Read<FThetaSense> {
 }
 
 /// Numbers of a list, or of one text.
-fn words(node: &TreeNode) -> Read<Vec<f64>> {
+fn words(node: &TreeNode) -> TreeResult<Vec<f64>> {
     let Ok(text) = node.text() else { return node.numbers() };
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
@@ -169,7 +169,7 @@ fn words(node: &TreeNode) -> Read<Vec<f64>> {
     text.split_whitespace().map(number).collect()
 }
 
-fn reader_result(numbers: Numbers, notes: Vec<String>) -> Read<ReaderResult> {
+fn reader_result(numbers: Numbers, notes: Vec<String>) -> TreeResult<ReaderResult> {
     let Numbers { line, size_px, centre_px: [cx, cy], sense, polynomial, greatest_angle_rad, linear } = numbers;
     let [c, d, e] = if linear == [0.0; 3] { [1.0, 0.0, 0.0] } else { linear };
     if c <= 0.0 {

@@ -12,11 +12,11 @@ use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::{fisheye, unified, wrong};
 use super::yaml::{self, TreeNode, list};
-use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, passed_over};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, passed_over};
 
 const KNOWN: [&str; 5] = ["camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "resolution"];
 
-pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
+pub(super) fn read(text: &str, camera: Option<&str>) -> TreeResult<ReaderResult> {
     let root = yaml::parse(text)?;
     let (name, node) = chosen(&root, camera)?;
     let resolution = node.key("resolution")?;
@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, camera: Option<&str>) -> Read<ReaderResult> {
     Ok(ReaderResult { name: name.to_owned(), calibration, notes: passed_over(&node.others(&KNOWN)) })
 }
 
-fn chosen<'a>(root: &'a TreeNode, camera: Option<&str>) -> Read<(&'a str, &'a TreeNode)> {
+fn chosen<'a>(root: &'a TreeNode, camera: Option<&str>) -> TreeResult<(&'a str, &'a TreeNode)> {
     let names = root.keys();
     match (root.entries(), camera) {
         (entries, Some(requested)) => {
@@ -55,7 +55,7 @@ fn chosen<'a>(root: &'a TreeNode, camera: Option<&str>) -> Read<(&'a str, &'a Tr
 }
 
 /// The model, and fx, fy, cx, cy.
-fn model(node: &TreeNode) -> Read<(Model, [f64; 4])> {
+fn model(node: &TreeNode) -> TreeResult<(Model, [f64; 4])> {
     let camera = node.key("camera_model")?;
     let intrinsics = node.key("intrinsics")?;
     match camera.text()? {
@@ -84,7 +84,7 @@ fn model(node: &TreeNode) -> Read<(Model, [f64; 4])> {
     }
 }
 
-fn pinhole(node: &TreeNode) -> Read<Model> {
+fn pinhole(node: &TreeNode) -> TreeResult<Model> {
     let name = node.key("distortion_model")?;
     match name.text()? {
         "radtan" => {
@@ -106,7 +106,7 @@ fn pinhole(node: &TreeNode) -> Read<Model> {
     }
 }
 
-fn omni(node: &TreeNode, xi: f64) -> Read<Model> {
+fn omni(node: &TreeNode, xi: f64) -> TreeResult<Model> {
     let name = node.key("distortion_model")?;
     let k = match name.text()? {
         "radtan" => node.key("distortion_coeffs")?.exactly("k1, k2, p1, p2")?,
@@ -117,7 +117,7 @@ fn omni(node: &TreeNode, xi: f64) -> Read<Model> {
 }
 
 /// Refuses any distortion except `none`, and coefficients of `none`.
-fn no_distortion(node: &TreeNode) -> Read<()> {
+fn no_distortion(node: &TreeNode) -> TreeResult<()> {
     let name = node.key("distortion_model")?;
     let stated = name.text()?;
     if stated != "none" {

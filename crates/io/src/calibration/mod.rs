@@ -16,7 +16,7 @@
 mod colmap;
 pub mod export;
 mod f_theta;
-mod found;
+mod fields;
 mod kalibr;
 mod ocam;
 mod opencv;
@@ -27,9 +27,9 @@ use etendue_projection::Calibration;
 
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{Read, TreeError, passed_over};
+use crate::tree::{TreeError, TreeResult, passed_over};
 use crate::{Error, ErrorCode, tree as yaml};
-use found::{ReaderResult, camera_error};
+use fields::{ReaderResult, camera_error};
 
 pub use etendue_scene::asset::CalibrationFormat;
 

@@ -12,7 +12,7 @@
 
 use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
-use super::{Read, ReaderResult, TreeError, camera_error, opencv::wrong};
+use super::{ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong};
 
 const LINES: [&str; 5] = [
     "the direct polynomial: count a0 a1 …",
@@ -22,7 +22,7 @@ const LINES: [&str; 5] = [
     "the image size: height width",
 ];
 
-pub(super) fn read(text: &str) -> Read<ReaderResult> {
+pub(super) fn read(text: &str) -> TreeResult<ReaderResult> {
     let rows = rows(text)?;
     let direct = counted(&rows[0])?;
     let inverse = counted(&rows[1])?;
@@ -43,7 +43,7 @@ struct OcamRow {
 }
 
 /// The five lines of numbers.
-fn rows(text: &str) -> Read<[OcamRow; 5]> {
+fn rows(text: &str) -> TreeResult<[OcamRow; 5]> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
     if lines.len() > LINES.len() {
@@ -53,20 +53,20 @@ fn rows(text: &str) -> Read<[OcamRow; 5]> {
         Some((line, text)) => row(*line, what, text),
         None => Err(TreeError::at(0, format!("ends before {what}; expected five lines of numbers"))),
     });
-    let rows: Vec<OcamRow> = rows.collect::<Read<_>>()?;
+    let rows: Vec<OcamRow> = rows.collect::<TreeResult<_>>()?;
     rows.try_into().map_err(|_| TreeError::at(0, "expected five lines of numbers"))
 }
 
-fn row(line: usize, what: &'static str, text: &str) -> Read<OcamRow> {
+fn row(line: usize, what: &'static str, text: &str) -> TreeResult<OcamRow> {
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
         number.ok_or_else(|| TreeError::at(line, format!("found \"{word}\"; expected {what}")))
     };
-    Ok(OcamRow { line, what, numbers: text.split_whitespace().map(number).collect::<Read<_>>()? })
+    Ok(OcamRow { line, what, numbers: text.split_whitespace().map(number).collect::<TreeResult<_>>()? })
 }
 
 /// Numbers after their count.
-fn counted(row: &OcamRow) -> Read<&[f64]> {
+fn counted(row: &OcamRow) -> TreeResult<&[f64]> {
     match &row.numbers[..] {
         [count, rest @ ..] if *count == rest.len() as f64 => Ok(rest),
         [count, rest @ ..] => Err(TreeError::at(
@@ -77,13 +77,13 @@ fn counted(row: &OcamRow) -> Read<&[f64]> {
     }
 }
 
-fn exactly<const N: usize>(row: &OcamRow) -> Read<[f64; N]> {
+fn exactly<const N: usize>(row: &OcamRow) -> TreeResult<[f64; N]> {
     let count = row.numbers.len();
-    let error = || TreeError::at(row.line, format!("found {count} numbers; expected {N}: {}", row.what));
+    let error = || TreeError::at(row.line, format!("the number of values is {count}; expected {N}: {}", row.what));
     row.numbers.clone().try_into().map_err(|_| error())
 }
 
-fn size(row: &OcamRow) -> Read<[usize; 2]> {
+fn size(row: &OcamRow) -> TreeResult<[usize; 2]> {
     let [height, width] = exactly(row)?;
     let pixels = |x: f64| (1.0..=1e6).contains(&x) && x.fract() == 0.0;
     if !(pixels(height) && pixels(width)) {

@@ -18,21 +18,21 @@ use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified}
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
 use super::yaml::{self, TreeNode};
-use super::{ErrorCode, Read, ReaderResult, TreeError, camera_error, found, passed_over};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, fields, passed_over};
 
 const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
 const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
 const REST: [&str; 5] = ["image_width", "image_height", "image_size", "fisheye_model", "xi"];
 
 /// Reads a camera; `fisheye` if the caller knows it to be one.
-pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<ReaderResult> {
+pub(super) fn read_opencv(text: &str, fisheye: bool) -> TreeResult<ReaderResult> {
     let root = yaml::parse(text)?;
-    let size_px = found::size(&root)?;
+    let size_px = fields::size(&root)?;
     let node = root.any(&MATRIX)?;
-    let camera_matrix = found::camera(node)?;
+    let camera_matrix = fields::camera(node)?;
     let says_fisheye = root.find("fisheye_model").map(TreeNode::number).transpose()?.is_some_and(|flag| flag != 0.0);
     let distortion = root.any(&DISTORTION)?;
-    let k = found::numbers(distortion)?;
+    let k = fields::numbers(distortion)?;
     let model = match root.find("xi") {
         Some(xi) => omnidir(xi, distortion.line, &k),
         None if fisheye || says_fisheye => self::fisheye(distortion.line, &k),
@@ -43,7 +43,7 @@ pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<ReaderResult> {
     Ok(ReaderResult { name: String::new(), calibration, notes: passed_over(&root.others(&known)) })
 }
 
-fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<Model> {
+fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> TreeResult<Model> {
     if matrix.skew != 0.0 {
         let what = format!("the skew is {} px, which OpenCV's perspective functions ignore; expected 0", matrix.skew);
         return Err(TreeError::at(at, what));
@@ -51,16 +51,17 @@ fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<
     Perspective::from_opencv(k).map(Model::Perspective).map_err(wrong(line))
 }
 
-pub(super) fn fisheye(line: usize, k: &[f64]) -> Read<Model> {
-    let k =
-        k.try_into().map_err(|_| TreeError::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
+pub(super) fn fisheye(line: usize, k: &[f64]) -> TreeResult<Model> {
+    let k = k
+        .try_into()
+        .map_err(|_| TreeError::at(line, format!("the number of values is {}; expected k1, k2, k3, k4", k.len())))?;
     KannalaBrandt::new(k).map(Model::KannalaBrandt).map_err(wrong(line))
 }
 
-fn omnidir(xi: &TreeNode, line: usize, k: &[f64]) -> Read<Model> {
-    let [xi_value] = found::numbers(xi)?[..] else { return Err(TreeError::at(xi.line, "expected xi as one number")) };
+fn omnidir(xi: &TreeNode, line: usize, k: &[f64]) -> TreeResult<Model> {
+    let [xi_value] = fields::numbers(xi)?[..] else { return Err(TreeError::at(xi.line, "expected xi as one number")) };
     let &[k1, k2, p1, p2] = k else {
-        return Err(TreeError::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
+        return Err(TreeError::at(line, format!("the number of values is {}; expected k1, k2, p1, p2", k.len())));
     };
     unified(xi_value, [k1, k2, p1, p2]).map_err(wrong(xi.line))
 }
@@ -77,11 +78,11 @@ pub(super) fn wrong(line: usize) -> impl Fn(ModelError) -> TreeError {
 const KNOWN: [&str; 6] =
     ["image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients"];
 
-pub(super) fn read_ros(text: &str) -> Read<ReaderResult> {
+pub(super) fn read_ros(text: &str) -> TreeResult<ReaderResult> {
     let root = yaml::parse(text)?;
     let size_px = [root.key("image_width")?.count()?, root.key("image_height")?.count()?];
     let node = root.key("camera_matrix")?;
-    let camera_matrix = found::camera(node)?;
+    let camera_matrix = fields::camera(node)?;
     if camera_matrix.skew != 0.0 {
         return Err(TreeError::coded(
             ErrorCode::UnsupportedFile,
@@ -95,8 +96,8 @@ pub(super) fn read_ros(text: &str) -> Read<ReaderResult> {
     Ok(ReaderResult { name, calibration, notes: passed_over(&root.others(&KNOWN)) })
 }
 
-fn model(name: &TreeNode, coefficients: &TreeNode) -> Read<Model> {
-    let k = found::numbers(coefficients)?;
+fn model(name: &TreeNode, coefficients: &TreeNode) -> TreeResult<Model> {
+    let k = fields::numbers(coefficients)?;
     let counts: &[usize] = match name.text()? {
         "plumb_bob" => &[4, 5],
         "rational_polynomial" => &[8, 12, 14],
@@ -112,7 +113,7 @@ fn model(name: &TreeNode, coefficients: &TreeNode) -> Read<Model> {
     };
     if !counts.contains(&k.len()) {
         let counts = counts.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
-        let what = format!("found {} numbers; {} has {counts}", k.len(), name.text()?);
+        let what = format!("the number of values is {}; {} has {counts}", k.len(), name.text()?);
         return Err(TreeError::at(coefficients.line, what));
     }
     Perspective::from_opencv(&k).map(Model::Perspective).map_err(wrong(coefficients.line))

@@ -167,7 +167,11 @@ pub fn encode_pfm(width: usize, samples: &[f32]) -> Result<Vec<u8>, EncodeError>
         return Err(EncodeError::Empty { width, height });
     }
     if width * height != samples.len() {
-        return Err(EncodeError::Size { name: "PFM".to_owned(), found: samples.len(), expected: width * (height + 1) });
+        return Err(EncodeError::Size {
+            name: "PFM".to_owned(),
+            actual: samples.len(),
+            expected: width * (height + 1),
+        });
     }
     let mut bytes = format!("Pf\n{width} {height}\n-1.0\n").into_bytes();
     let stored = |v: &f32| if v.is_nan() { f32::INFINITY } else { *v };

@@ -149,12 +149,12 @@ pub enum EncodeError {
     #[error("an image without channels cannot be stored; expected at least one plane")]
     NoChannels,
     /// Planes of different sizes.
-    #[error("plane `{name}` has {found} samples, expected {expected}; all planes of a file must have the same size")]
+    #[error("plane `{name}` has {actual} samples, expected {expected}; all planes of a file must have the same size")]
     Size {
         /// Name of the plane.
         name: String,
         /// Number of its samples.
-        found: usize,
+        actual: usize,
         /// Number of pixels of the file.
         expected: usize,
     },

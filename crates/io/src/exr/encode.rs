@@ -106,7 +106,7 @@ impl<'a> ExrImage<'a> {
         };
         let headers = image.layer_data.infer_headers(&image.attributes);
         let head = sorted_head(&headers)?;
-        compress(headers, &rows, HeadReplaced::new(sink, head))
+        compress(headers, &rows, HeadReplacingWriter::new(sink, head))
     }
 
     fn check(&self) -> Result<(), EncodeError> {
@@ -122,7 +122,7 @@ impl<'a> ExrImage<'a> {
             channel.len().filter(|length| *length != expected).map(|length| (name.clone(), length))
         };
         match self.channels.iter().find_map(wrong) {
-            Some((name, length)) => Err(EncodeError::Size { name, found: length, expected }),
+            Some((name, length)) => Err(EncodeError::Size { name, actual: length, expected }),
             None => Ok(()),
         }
     }
@@ -220,20 +220,20 @@ fn compress(headers: Headers, image: &ImageRows<'_>, sink: impl Write + Seek) ->
 }
 
 /// Writer that replaces the first bytes by a given head and passes on the rest.
-pub(super) struct HeadReplaced<W> {
+pub(super) struct HeadReplacingWriter<W> {
     sink: W,
     head: Vec<u8>,
     position: u64,
 }
 
-impl<W: Write + Seek> HeadReplaced<W> {
+impl<W: Write + Seek> HeadReplacingWriter<W> {
     /// `head` replaces the first bytes of the same length.
     pub(super) fn new(sink: W, head: Vec<u8>) -> Self {
         Self { sink, head, position: 0 }
     }
 }
 
-impl<W: Write> Write for HeadReplaced<W> {
+impl<W: Write> Write for HeadReplacingWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let rest = usize::try_from(self.position).ok().and_then(|at| self.head.get(at..)).unwrap_or_default();
         let count = match rest.len().min(bytes.len()) {
@@ -249,7 +249,7 @@ impl<W: Write> Write for HeadReplaced<W> {
     }
 }
 
-impl<W: Seek> Seek for HeadReplaced<W> {
+impl<W: Seek> Seek for HeadReplacingWriter<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.position = self.sink.seek(to)?;
         Ok(self.position)
@@ -303,7 +303,7 @@ mod tests {
         assert!(matches!(long.into_bytes(), Err(EncodeError::Text(_))));
         let mut uneven = image();
         uneven.uint("Z", vec![1; 5]);
-        assert_eq!(uneven.into_bytes(), Err(EncodeError::Size { name: "Z".to_owned(), found: 5, expected: 6 }));
+        assert_eq!(uneven.into_bytes(), Err(EncodeError::Size { name: "Z".to_owned(), actual: 5, expected: 6 }));
         assert!(matches!(ExrImage::new(0, 2, &Provenance::default()).into_bytes(), Err(EncodeError::Empty { .. })));
         assert_eq!(ExrImage::new(1, 2, &Provenance::default()).into_bytes(), Err(EncodeError::NoChannels));
     }
@@ -344,7 +344,7 @@ mod tests {
     #[test]
     fn the_head_stands_whatever_is_written_there() {
         let mut sink = Cursor::new(Vec::new());
-        let mut file = HeadReplaced::new(&mut sink, b"HEAD".to_vec());
+        let mut file = HeadReplacingWriter::new(&mut sink, b"HEAD".to_vec());
         file.write_all(b"abcdefg").expect("memory");
         file.seek(SeekFrom::Start(2)).expect("memory");
         file.write_all(b"xyz").expect("memory");

@@ -45,7 +45,7 @@ pub use read::{ExrChannel, ExrFile, ExrSamples, read_exr, read_exr_within};
 pub use spectral::{
     LengthPlanes, SpectralBands, band_weights, encode_radiance, encode_spectral, radiance_image, spectral_image,
 };
-pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
+pub use spectral_read::{CubeWithVariance, SpectralFile, SpectralImage, read_spectral, spectral_of};
 
 pub(crate) use colour_space::to_rec_709;
 pub(crate) use read::{decode_exr, decode_exr_as_stored};

@@ -217,7 +217,7 @@ mod tests {
         let relative = illuminant::by_name("D65").expect("D65");
         let daylight = observer::with_luminance(relative, 1.0).expect("visible");
         let planes = daylight.band_means(bands).into_iter().map(|v| Plane::filled(1, 1, v as f32)).collect();
-        let cube = SpectralCube::<Radiance>::from_planes(bands, planes).expect("one plane a band");
+        let cube = SpectralCube::<Radiance>::from_planes(bands, planes).expect("one plane per band");
         for channel in linear_srgb(&cube) {
             // Products of 5 nm means differ from means of products: CIE 15 tables agree to about 1e-3 at 5 nm.
             assert!((channel[0] - 1.0).abs() < 2e-3, "{}", channel[0]);

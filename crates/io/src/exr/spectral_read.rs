@@ -16,7 +16,7 @@ use crate::{Error, Provenance};
 
 /// Cube, and the variance of its band means if the file has one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct WithVariance<Q: Quantity> {
+pub struct CubeWithVariance<Q: Quantity> {
     /// Band means.
     pub cube: SpectralCube<Q>,
     /// Variance of each band mean, squared units.
@@ -27,9 +27,9 @@ pub struct WithVariance<Q: Quantity> {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpectralImage {
     /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.
-    Radiance(WithVariance<Radiance>),
+    Radiance(CubeWithVariance<Radiance>),
     /// Spectral irradiance, W·m⁻²·nm⁻¹.
-    Irradiance(WithVariance<Irradiance>),
+    Irradiance(CubeWithVariance<Irradiance>),
 }
 
 /// Spectral file: values and facts.
@@ -105,7 +105,7 @@ fn cubes<Q: Quantity<Sample = f32>>(
     file: &Path,
     exr: &ExrFile,
     notes: &mut Vec<String>,
-) -> Result<WithVariance<Q>, Error> {
+) -> Result<CubeWithVariance<Q>, Error> {
     let all: Vec<(SpectralChannel, usize)> =
         exr.channels.iter().enumerate().filter_map(|(i, c)| Some((parse_channel_name(&c.name)?, i))).collect();
     let passed = all.iter().filter(|(c, _)| matches!(c.stokes, Stokes::Emissive(1..))).count();
@@ -118,7 +118,7 @@ fn cubes<Q: Quantity<Sample = f32>>(
         return Err(Error::new(file, format!("{what}; expected emission in channels such as S0.550,000000nm")));
     };
     let variance = cube_of_same_bands(file, cube.bands(), self::cube(file, exr, &all, true)?)?;
-    Ok(WithVariance { cube, variance })
+    Ok(CubeWithVariance { cube, variance })
 }
 
 fn cube_of_same_bands(

@@ -4,7 +4,7 @@
 //! table or in the header ("Distortion focal length"), or follows from the reference heights. Of several wavelengths the table nearest to 550 nm is read.
 
 use etendue_core::maths::f64::tan;
-use etendue_scene::asset::{LensNumbers, LensTableAsset, Undistorted};
+use etendue_scene::asset::{LensNumbers, LensTableAsset, UndistortedProjection};
 
 use super::listing::{FieldUnit, Listing, ListingTable, wavelength_nm};
 use crate::Error;
@@ -25,9 +25,9 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
         return Err(listing.error(listing.tables[0].rows[0].line, problem));
     }
     let undistorted = if ["f-theta", "f*theta", "f theta"].iter().any(|words| listing.header_contains(words)) {
-        Undistorted::Angle
+        UndistortedProjection::Angle
     } else {
-        Undistorted::Tangent
+        UndistortedProjection::Tangent
     };
     let distance =
         |table: &ListingTable<'_>| wavelength_nm(&table.above).map_or(f64::INFINITY, |nm| (nm - GREEN_NM).abs());
@@ -51,10 +51,14 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
 }
 
 /// Absolute field, degrees, and real over reference height; first the axis, without distortion.
-fn points(listing: &Listing<'_>, table: &ListingTable<'_>, kind: Undistorted) -> Result<Vec<(f64, f64)>, Error> {
+fn points(
+    listing: &Listing<'_>,
+    table: &ListingTable<'_>,
+    kind: UndistortedProjection,
+) -> Result<Vec<(f64, f64)>, Error> {
     const PERCENT: f64 = 0.01;
     let mut points: Vec<(f64, f64)> = Vec::new();
-    let widest = if kind == Undistorted::Tangent { MAX_TANGENT_DEG } else { 180.0 };
+    let widest = if kind == UndistortedProjection::Tangent { MAX_TANGENT_DEG } else { 180.0 };
     for (field, row) in listing.rows_from_axis(table)? {
         let percent = row.numbers[row.numbers.len() - 1];
         let wrong = match percent {
@@ -74,10 +78,10 @@ fn points(listing: &Listing<'_>, table: &ListingTable<'_>, kind: Undistorted) ->
 }
 
 /// Focal length from the last reference height.
-fn focal_length_from_heights(table: &ListingTable<'_>, kind: Undistorted) -> Option<f64> {
+fn focal_length_from_heights(table: &ListingTable<'_>, kind: UndistortedProjection) -> Option<f64> {
     let numbers = &table.rows.last()?.numbers;
     let height = *numbers.get(ROW_COLUMNS - 2).filter(|_| numbers.len() >= ROW_COLUMNS)?;
     let angle = numbers[0].to_radians();
-    let f = height / if kind == Undistorted::Tangent { tan(angle) } else { angle };
+    let f = height / if kind == UndistortedProjection::Tangent { tan(angle) } else { angle };
     Some(f.abs()).filter(|f| f.is_finite() && *f > 0.0)
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::{Error, ErrorCode, Problem};
 
-/// Unit of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FieldUnit {
     /// Angles from the axis in front of the lens.
@@ -57,7 +56,8 @@ impl<'a> Listing<'a> {
                     let rows = &mut tables.last_mut().expect("one was begun").rows;
                     if let Some(first) = rows.first().filter(|first| first.numbers.len() != numbers.len()) {
                         let (count, before) = (numbers.len(), first.numbers.len());
-                        let message = format!("found {count} numbers; expected {before} as in the rows before");
+                        let message =
+                            format!("the number of values is {count}; expected {before} as in the rows before");
                         return Err(Error::at(file, number, message));
                     }
                     if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {

@@ -10,7 +10,7 @@
 //! Values are relative intensity.                   Values are not normalized.
 //! ```
 //!
-//! and rows of numbers, their columns with rising x. **The first row has the largest y** in both. Of Huygens listings the centre's column counts from the left
+//! and rows of numbers, their columns with increasing x. **The first row has the largest y** in both. Of Huygens listings the centre's column counts from the left
 //! and its row **from the last row** upwards, of FFT listings, which state "row" and "column", the row counts from the first. Determined from the listings in
 //! the test data of batoid (github.com/jmeyers314/batoid, `tests/testdata/LSST_hpsf_*`, `LSST_fftpsf_*`, `HSC_huygensPSF.txt`): with this rule centroids agree
 //! with those that the Huygens heads also state ("Centroid offset", +3.408 µm of y at 1.225°, +1.612 µm of x and y at 1.176° both ways) to 5 nm, those on the

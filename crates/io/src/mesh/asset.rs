@@ -144,10 +144,10 @@ impl ObjMeshBuilder {
     fn finish(self) -> MeshAsset {
         let mut mesh = self.mesh;
         let notes = [
-            (self.flat_corners, "without a usable normal use that of their face"),
-            (self.bare_corners, "without texture coordinates use u = v = 0"),
+            (self.flat_corners, "vertices without a usable normal, which use that of their face"),
+            (self.bare_corners, "vertices without texture coordinates, which use u = v = 0"),
         ];
-        mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, note)| format!("{n} vertices {note}")));
+        mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, note)| format!("{note}: {n}")));
         mesh
     }
 }

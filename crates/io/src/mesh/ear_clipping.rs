@@ -1,15 +1,12 @@
-//! Points of a plane.
+//! Triangulation of polygons by ear clipping (Meisters 1975, "Polygons have ears"): a corner that can be cut off is removed until three are left.
 //!
-//! Ear clipping (Meisters 1975, "Polygons have ears"): cuts off the first possible corner until three are left.
-//!
-//! A corner blocked by another one in its triangle waits for that one to be cut. Otherwise only the neighbours of a cut corner can change. With the corners in
-//! a tree of boxes, typical outlines take about n log n steps. Corners that coincide (bridges to holes, outlines that touch themselves) block each other where
-//! an edge of one leads into the triangle of the other.
+//! A corner can be cut off if the triangle of it and its neighbours contains no other corner. A corner that is blocked by another one is tested again when that
+//! one is removed; otherwise only the neighbours of a removed corner are. With the corners in a tree of bounding boxes, typical outlines take about n log n steps.
+//! Coinciding corners (bridges to holes, outlines that touch themselves) block each other if an edge of one leads into the triangle of the other.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::{cmp::Ordering, rc::Rc};
 
-/// A point.
 pub(super) type Point2 = [f64; 2];
 
 /// Twice the signed area of a triangle, positive counter-clockwise.
@@ -83,7 +80,7 @@ impl<'p> CornerTree<'p> {
         leaf * self.order.len() / self.leaves()
     }
 
-    /// Orders the points of leaves so that neighbours share leaves.
+    /// Orders the points of the leaves `from..to`, so that a leaf contains points close to each other: splits at the median along the longer axis.
     fn split(&mut self, from: usize, to: usize) {
         if to - from < 2 {
             return;
@@ -189,7 +186,7 @@ struct PolygonOutline<'p> {
     after: Vec<usize>,
     tree: CornerTree<'p>,
     is_left: Vec<bool>,
-    /// Corners that can be cut off; those between two coinciding corners come first: the rest of an outline that touches itself has no inside there.
+    /// Corners that can be cut off. Those between two coinciding corners are removed first, as an outline that touches itself has no inside there.
     ears: BTreeSet<(bool, usize)>,
     /// For each corner, the corners that it blocks.
     waiting: Vec<BlockedCorners>,

@@ -14,7 +14,8 @@ use super::vertex::check_range;
 use crate::{Error, ErrorCode, Problem};
 
 /// Parts of a corner, in order.
-const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+const KINDS: [[&str; 2]; 3] =
+    [["vertex", "vertices"], ["texture coordinate", "texture coordinates"], ["normal", "normals"]];
 
 /// Result of the check of an OBJ file, before tobj reads it.
 #[derive(Clone, Debug, Default)]
@@ -199,12 +200,14 @@ impl Obj {
     }
 }
 
-fn out_of_range(name: &str, stated: isize, count: usize) -> String {
-    format!("the face refers to {name} {stated}, but there are {count}; the file is damaged or truncated")
+fn out_of_range([name, names]: [&str; 2], stated: isize, count: usize) -> String {
+    format!(
+        "{name} index {stated} of the face is out of range (number of {names}: {count}, counted from 1); the file is damaged or truncated"
+    )
 }
 
 fn wrong_count(keyword: &str, expected: &str, actual: usize) -> Problem {
-    format!("`{keyword}` has {actual}, expected {expected}; the line may be truncated").into()
+    format!("`{keyword}`: expected {expected}, found {actual}; the line may be truncated").into()
 }
 
 #[cfg(test)]
@@ -238,29 +241,29 @@ mod tests {
     fn faults_name_their_line() {
         assert_eq!(
             refused("f 1 2 4"),
-            "a.obj:4: the face refers to vertex 4, but there are 3; the file is damaged or truncated"
+            "a.obj:4: vertex index 4 of the face is out of range (number of vertices: 3, counted from 1); the file is damaged or truncated"
         );
         assert_eq!(
             refused("f 1 2 -4"),
-            "a.obj:4: the face refers to vertex -4, but there are 3; the file is damaged or truncated"
+            "a.obj:4: vertex index -4 of the face is out of range (number of vertices: 3, counted from 1); the file is damaged or truncated"
         );
         assert_eq!(
             refused("f 0 1 2"),
-            "a.obj:4: the face refers to vertex 0, but there are 3; the file is damaged or truncated"
+            "a.obj:4: vertex index 0 of the face is out of range (number of vertices: 3, counted from 1); the file is damaged or truncated"
         );
         assert_eq!(
             refused("\nf 1/1 2/1 3/1"),
-            "a.obj:5: the face refers to texture coordinate 1, but there are 0; the file is damaged or truncated"
+            "a.obj:5: texture coordinate index 1 of the face is out of range (number of texture coordinates: 0, counted from 1); the file is damaged or truncated"
         );
         assert_eq!(refused("v 0 nan 0"), "a.obj:4: `nan` is not finite; expected a finite number");
         assert_eq!(refused("v 0 -inf 0"), "a.obj:4: `-inf` is not finite; expected a finite number");
         assert_eq!(
             refused("f 1 2 3\nv 0.25 0."),
-            "a.obj:5: `v` has 2, expected 3 coordinates; the line may be truncated"
+            "a.obj:5: `v`: expected 3 coordinates, found 2; the line may be truncated"
         );
         assert_eq!(
             refused("f 1 2 3\nf 1 2"),
-            "a.obj:5: `f` has 2, expected 3 or more corners; the line may be truncated"
+            "a.obj:5: `f`: expected 3 or more corners, found 2; the line may be truncated"
         );
         assert_eq!(refused("f 1 2 x"), "a.obj:4: `f 1 2 x` is invalid (face parse error); correct or remove this line");
         assert_eq!(
@@ -269,7 +272,7 @@ mod tests {
         );
         assert_eq!(
             refused("vn 0 0 1\nf 1//1 2//0 3//1"),
-            "a.obj:5: the face refers to normal 0, but there are 1; the file is damaged or truncated"
+            "a.obj:5: normal index 0 of the face is out of range (number of normals: 1, counted from 1); the file is damaged or truncated"
         );
         assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: the corners in `f "));
         assert_eq!(

@@ -52,7 +52,7 @@ fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
     let refusing = OutputFolder::open(place.path(), ExistingFiles::Refuse).expect("open");
     let message = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
     assert!(
-        message.ends_with("x.txt: already exists; choose another output folder, or allow overwriting with `overwrite`"),
+        message.ends_with("x.txt: already exists; choose another folder, or allow overwriting with `overwrite`"),
         "{message}"
     );
     drop(refusing);

@@ -49,7 +49,7 @@ impl PrivateGlasses {
         if indices.is_empty() || indices.len() != self.wavelengths_nm.len() {
             let (actual, expected) = (indices.len(), self.wavelengths_nm.len());
             return Err(w.error(format!(
-                "the private glass has {actual} indices; expected one for each of {expected} wavelengths of PWL"
+                "the private glass has {actual} of {expected} indices; expected one for each wavelength of PWL"
             )));
         }
         let points = self.wavelengths_nm.iter().zip(indices).map(|(nm, index)| IndexSample { nm: *nm, index });

@@ -3,7 +3,7 @@
 use etendue_scene::asset::{PassAsset, TermAsset, TransferAsset};
 
 use crate::ErrorCode;
-use crate::tree::{Read, TreeError, TreeNode, passed_over};
+use crate::tree::{TreeError, TreeNode, TreeResult, passed_over};
 
 /// Maximum power, and maximum number of terms of a polynomial.
 const MAX_POWER: u8 = 32;
@@ -17,7 +17,7 @@ const USED: [&str; 7] =
     ["wavelength_nm", "passnopass", "raypass", "circleRadii", "circleSensitivities", "circlePlaneZ", "poly"];
 
 /// Functions, and the ignored keys.
-pub(super) fn read(node: &TreeNode, output_offset_mm: f64, with_dz: bool) -> Read<(TransferAsset, Vec<String>)> {
+pub(super) fn read(node: &TreeNode, output_offset_mm: f64, with_dz: bool) -> TreeResult<(TransferAsset, Vec<String>)> {
     let wavelength = node.key("wavelength_nm")?;
     let wavelength_nm = wavelength.number()?;
     if wavelength_nm <= 0.0 {
@@ -60,7 +60,7 @@ pub(super) fn read(node: &TreeNode, output_offset_mm: f64, with_dz: bool) -> Rea
     Ok((transfer, passed_over(&node.others(&USED))))
 }
 
-fn terms(item: &TreeNode) -> Read<Vec<TermAsset>> {
+fn terms(item: &TreeNode) -> TreeResult<Vec<TermAsset>> {
     let coefficients = item.key("coeff")?.numbers()?;
     let powers = [
         powers(item.key("termr")?)?,
@@ -70,7 +70,9 @@ fn terms(item: &TreeNode) -> Read<Vec<TermAsset>> {
     let counts = [coefficients.len(), powers[0].len(), powers[1].len(), powers[2].len()];
     if counts.iter().any(|count| *count != counts[0]) {
         let [c, r, dx, dy] = counts;
-        let message = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected equal numbers");
+        let message = format!(
+            "the numbers of coefficients ({c}) and of powers of r, dx and dy ({r}, {dx}, {dy}) differ; expected equal numbers"
+        );
         return Err(TreeError::at(item.line, message));
     }
     if counts[0] > MAX_TERMS {
@@ -84,7 +86,7 @@ fn terms(item: &TreeNode) -> Read<Vec<TermAsset>> {
     Ok(coefficients.into_iter().enumerate().map(term).collect())
 }
 
-fn powers(node: &TreeNode) -> Read<Vec<u8>> {
+fn powers(node: &TreeNode) -> TreeResult<Vec<u8>> {
     let power = |value: f64| {
         let is_valid = value.fract() == 0.0 && (0.0..=f64::from(MAX_POWER)).contains(&value);
         let message = || format!("found the power {value}; expected a whole number from 0 to {MAX_POWER}");
@@ -94,7 +96,7 @@ fn powers(node: &TreeNode) -> Read<Vec<u8>> {
 }
 
 /// Plane of the ray-pass function, and the region.
-fn pass(node: &TreeNode) -> Read<(f64, PassAsset)> {
+fn pass(node: &TreeNode) -> TreeResult<(f64, PassAsset)> {
     let Some(pass) = node.find("raypass").or_else(|| node.find("passnopass")) else {
         let (radii, sensitivities) = (node.key("circleRadii")?, node.key("circleSensitivities")?);
         return Ok((node.key("circlePlaneZ")?.number()?, circles(radii, sensitivities)?));
@@ -115,7 +117,7 @@ fn pass(node: &TreeNode) -> Read<(f64, PassAsset)> {
 /// Maximum ellipses or circles per wavelength: some ten times the number in real files.
 const MAX_REGIONS: usize = 4096;
 
-fn ellipses(pass: &TreeNode) -> Read<PassAsset> {
+fn ellipses(pass: &TreeNode) -> TreeResult<PassAsset> {
     let list = |key: &str| pass.key(key)?.numbers();
     let positions = pass.key("positions")?;
     let heights = positions.numbers()?;
@@ -145,7 +147,7 @@ fn ellipses(pass: &TreeNode) -> Read<PassAsset> {
     Ok(PassAsset::Ellipses(heights.into_iter().enumerate().map(ellipse).collect()))
 }
 
-fn circles(radii: &TreeNode, sensitivities: &TreeNode) -> Read<PassAsset> {
+fn circles(radii: &TreeNode, sensitivities: &TreeNode) -> TreeResult<PassAsset> {
     let (values, centres) = (radii.numbers()?, sensitivities.numbers()?);
     if values.len() > MAX_REGIONS {
         return Err(TreeError::at(

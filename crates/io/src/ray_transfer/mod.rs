@@ -21,7 +21,7 @@ use std::path::Path;
 use etendue_scene::asset::RayTransferAsset;
 
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{self, Read, TreeError, TreeNode, passed_over};
+use crate::tree::{self, TreeError, TreeNode, TreeResult, passed_over};
 use crate::{Error, ErrorCode, hash};
 
 const KEYS: [&str; 8] = [
@@ -49,7 +49,7 @@ pub fn read_ray_transfer(file: &Path) -> Result<RayTransferAsset, Error> {
     Ok(RayTransferAsset { hash: hash::hash_bytes(&bytes), ..asset })
 }
 
-fn read(text: &str) -> Read<RayTransferAsset> {
+fn read(text: &str) -> TreeResult<RayTransferAsset> {
     let root = tree::parse(text)?;
     let thickness_mm = root.key("thickness")?.number()?;
     let input_offset_mm = root.any(&["planeoffsetinput", "planeoffset"])?.number()?;
@@ -60,7 +60,7 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     // Some programs write a list of one as its only item.
     let items = polynomials.items().unwrap_or(std::slice::from_ref(polynomials));
     let read = |node: &TreeNode| functions::read(node, output_offset_mm, with_dz);
-    let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
+    let mut transfers = items.iter().map(read).collect::<TreeResult<Vec<_>>>()?;
     if transfers.len() > MAX_WAVELENGTHS {
         let message = format!("contains {} wavelengths; expected at most {MAX_WAVELENGTHS}", transfers.len());
         return Err(TreeError::at(polynomials.line, message));
@@ -90,7 +90,7 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     Ok(RayTransferAsset { name, thickness_mm, input_offset_mm, transfers, notes, hash: [0; 32] })
 }
 
-fn flag(node: &TreeNode) -> Read<bool> {
+fn flag(node: &TreeNode) -> TreeResult<bool> {
     match node.text()? {
         "true" => Ok(true),
         "false" => Ok(false),

@@ -48,7 +48,7 @@ pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
 fn index_of(row: &TableRow<'_>, before: Option<f64>) -> Result<(f64, f64, f64), String> {
     let values = row.numbers()?;
     let [nm, n, k] = values[..] else {
-        return Err(format!("found {} columns; expected three: wavelength in nm, n, k", values.len()));
+        return Err(format!("the number of columns is {}; expected three: wavelength in nm, n, k", values.len()));
     };
     if let Some(last) = before.filter(|last| nm <= *last) {
         return Err(format!(
@@ -95,7 +95,7 @@ fn add_row(table: &mut RetroTableAsset, row: &TableRow<'_>) -> Result<(), String
     let (count, expected) = (row.cells.len() - 1, table.entrance_deg.len());
     if count != expected {
         return Err(format!(
-            "found {count} coefficients; expected {expected}, one for each entrance angle of the first row"
+            "the number of coefficients is {count}; expected {expected}, one for each entrance angle of the first row"
         ));
     }
     let angle = angle(row.cells[0], "observation", 180.0, table.observation_deg.last())?;
@@ -135,7 +135,8 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
         }
         let values = row.numbers().map_err(|what| Error::at(file, row.line, what))?;
         if table.columns != 0 && table.columns != values.len() {
-            let what = format!("found {} numbers; expected {} as in the rows before", values.len(), table.columns);
+            let what =
+                format!("the number of values is {}; expected {} as in the rows before", values.len(), table.columns);
             return Err(Error::at(file, row.line, what));
         }
         table.columns = values.len();

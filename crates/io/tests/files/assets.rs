@@ -107,7 +107,8 @@ fn lamps_and_tables_are_read_by_their_kind() {
     write(folder, &[("l.ies", &lamp[..lamp.len() - 3])]);
     let message = load_assets(&requests).expect_err("a truncated lamp")[0].to_string();
     assert!(
-        message.contains("l.ies:6: the file ends here; expected intensity 2 of 2") && message.contains("(named at "),
+        message.contains("l.ies:6: the file ends here; expected intensity 2 of 2")
+            && message.contains("(referenced at "),
         "{message}"
     );
 }
@@ -123,18 +124,18 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     assert_eq!(messages.len(), 3, "{messages:#?}");
     assert_eq!(
         messages[0],
-        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
+        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once (referenced at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
         messages[1],
-        "m.obj:2: the face refers to vertex 2, but there are 1; the file is damaged or truncated (named at job.toml:5:8: scene.meshes.m.file)"
+        "m.obj:2: vertex index 2 of the face is out of range (number of vertices: 1, counted from 1); the file is damaged or truncated (referenced at job.toml:5:8: scene.meshes.m.file)"
     );
     assert!(
         messages[2].starts_with("t.png: not a readable image (") && messages[2].contains("truncated"),
         "{}",
         messages[2]
     );
-    assert!(messages[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", messages[2]);
+    assert!(messages[2].ends_with("(referenced at job.toml:9:8: scene.textures.t.file)"), "{}", messages[2]);
 }
 
 #[test]
@@ -150,7 +151,7 @@ fn a_value_that_its_use_forbids_is_reported_with_its_line() {
     assert_eq!(
         messages(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
         ["b.csv:4: found 1.5 at 500 nm; expected a fraction from 0 to 1 \
-          (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
+          (referenced at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
     );
     assert_eq!(messages(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));
     assert_eq!(messages(b"400,0\n500,1\n"), [""; 0]);
@@ -165,7 +166,7 @@ fn a_missing_texture_of_a_mesh_is_reported_with_the_mesh() {
     let errors = load_assets(&description(folder).assets()).expect_err("a lost texture");
     let message = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
     assert!(errors.len() == 1 && message.starts_with("lost.png: no such image file; check the path"), "{message}");
-    assert!(message.contains("named at m.obj"), "{message}");
+    assert!(message.contains("referenced at m.obj"), "{message}");
     assert!(message.ends_with("; a path is relative to the file that names it)"), "{message}");
     let message = read_image(&folder.join("lost.png")).expect_err("nobody names it").to_string();
     assert!(message.ends_with("lost.png: no such image file; check the path"), "{message}");

@@ -228,7 +228,7 @@ fn faults_name_the_line_and_what_was_expected() {
             Colmap,
             "1 SIMPLE_RADIAL 640 480 500 320 240\n".into(),
             Some(1),
-            "found 3 parameters; the model SIMPLE_RADIAL has 4",
+            "the number of parameters is 3; the model SIMPLE_RADIAL has 4",
         ),
         (Colmap, "# no\n1 FISH 640 480 1\n".into(), Some(2), "expected one of SIMPLE_PINHOLE, SIMPLE_RADIAL"),
         (Colmap, "1 PINHOLE 640\n".into(), Some(1), "ends before the height"),
@@ -239,7 +239,7 @@ fn faults_name_the_line_and_what_was_expected() {
         (Ocam, ocam.replace("480 640", "480 640\n1"), Some(20), "a sixth line"),
         (OpenCv, opencv.replace("812.5, 0.,", "812.5, 1.,"), Some(5), "the skew is 1 px"),
         (OpenCv, opencv.replace("camera_matrix", "matrix"), Some(3), "camera_matrix or cameraMatrix or K"),
-        (OpenCvFisheye, opencv, Some(10), "found 14 numbers; expected k1, k2, k3, k4"),
+        (OpenCvFisheye, opencv, Some(10), "the number of values is 14; expected k1, k2, k3, k4"),
         (OpenCv, "{\"a\": ".into(), None, "not YAML or JSON"),
     ];
     let wrong = cases.into_iter().filter_map(|(format, text, line, expected)| {

@@ -31,7 +31,7 @@ fn provenance() -> Provenance {
 fn cube<Q: Quantity<Sample = f32>>(offset: f32) -> SpectralCube<Q> {
     let bands = Bands::covering(380.0, 780.0, 5.0).expect("80 bands");
     let plane = |i: usize| Plane::from_samples(3, 2, ODD.map(|v| v + offset * i as f32).to_vec()).expect("six pixels");
-    SpectralCube::from_planes(bands, (0..bands.count()).map(plane).collect()).expect("one plane a band")
+    SpectralCube::from_planes(bands, (0..bands.count()).map(plane).collect()).expect("one plane per band")
 }
 
 fn bits<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> Vec<u32> {

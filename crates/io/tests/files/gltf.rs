@@ -210,7 +210,7 @@ fn what_has_no_place_is_reported() {
     for phrase in [
         "1 lights",
         "1 cameras",
-        "1 primitives of points or lines",
+        "primitives of points or lines, which are not used: 1",
         "not used: EXT_of_someone",
         "material \"m\": conductor",
     ] {

@@ -33,12 +33,12 @@ fn damage_is_named_with_its_line() {
     let cut_in_a_vertex = &complete[..CUBE_FACE.len() - 4];
     assert_eq!(
         read(cut_in_a_vertex, &[]),
-        Err("a.obj:4: `v` has 1, expected 3 coordinates; the line may be truncated".to_owned())
+        Err("a.obj:4: `v`: expected 3 coordinates, found 1; the line may be truncated".to_owned())
     );
     let cut_in_a_face = &complete[..complete.len() - 5];
     assert_eq!(
         read(cut_in_a_face, &[]),
-        Err("a.obj:5: `f` has 2, expected 3 or more corners; the line may be truncated".to_owned())
+        Err("a.obj:5: `f`: expected 3 or more corners, found 2; the line may be truncated".to_owned())
     );
     let before_the_faces = read(CUBE_FACE, &[]).expect_err("no faces");
     assert!(before_the_faces.contains("no faces; the file may be truncated"), "{before_the_faces}");
@@ -46,7 +46,7 @@ fn damage_is_named_with_its_line() {
     assert_eq!(without_an_end.report, ["a.obj: the last line has no line end: the file may be truncated"]);
     assert_eq!(
         read(&format!("{CUBE_FACE}f 1 2 9\n"), &[]),
-        Err("a.obj:5: the face refers to vertex 9, but there are 4; the file is damaged or truncated".to_owned())
+        Err("a.obj:5: vertex index 9 of the face is out of range (number of vertices: 4, counted from 1); the file is damaged or truncated".to_owned())
     );
     assert_eq!(
         read("v 0 0 0\r\nv 1 NaN 0\r\n", &[]),
@@ -105,7 +105,7 @@ fn faces_without_normals_are_flat_among_faces_with_them() {
     let mesh = read(&text, &[]).expect("whole");
     assert_eq!(mesh.normals[..3], [[0.0, 0.6, 0.8]; 3]);
     assert_eq!(mesh.normals[3..], [[0.0, 0.0, 1.0]; 3]);
-    assert_eq!(mesh.report, ["a.obj: 3 vertices without a usable normal use that of their face"]);
+    assert_eq!(mesh.report, ["a.obj: vertices without a usable normal, which use that of their face: 3"]);
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn cube<Q: Quantity<Sample = f32>>(scale: f32) -> SpectralCube<Q> {
     let bands = Bands::covering(500.0, 515.0, 5.0).expect("three bands");
     let plane =
         |i: usize| Plane::from_samples(3, 2, VALUES.map(|v| scale * v + i as f32).to_vec()).expect("six pixels");
-    SpectralCube::from_planes(bands, (0..3).map(plane).collect()).expect("one plane a band")
+    SpectralCube::from_planes(bands, (0..3).map(plane).collect()).expect("one plane per band")
 }
 
 fn spectral() -> Vec<u8> {

@@ -79,7 +79,7 @@ fn a_concave_polygon_is_that_of_an_obj_file() {
         [
             "a.ply: properties that are not used: confidence, flags",
             "a.ply: the image `star.png` is not used: give it as a texture of the object's material",
-            "a.ply: 1 elements `edge` are not used",
+            "a.ply: elements `edge`, which are not used: 1",
         ]
     );
 }
@@ -119,7 +119,7 @@ fn zero_normals_are_those_of_a_face() {
         property float nz\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 0\n1 0 0 0 3 4\n0 1 0 0 0 1\n3 0 1 2";
     let mesh = read_bytes("a.ply", file.as_bytes()).expect("read, though the last line has no end");
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.0, 0.0, 1.0]]);
-    assert_eq!(mesh.report, ["a.ply: 1 vertices without a usable normal use that of a face"]);
+    assert_eq!(mesh.report, ["a.ply: vertices without a usable normal, which use that of a face: 1"]);
 }
 
 #[track_caller]
@@ -189,7 +189,7 @@ fn damaged_rows_are_refused_with_their_line() {
     let message = read_bytes("a.ply", &STAR.as_bytes()[..length - 5]).expect_err("truncated");
     assert_eq!(
         message,
-        "a.ply:23: the header states 1 elements `edge`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again"
+        "a.ply:23: the header states 1 × element `edge`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again"
     );
     refused_star(
         "element face 1\r\n",
@@ -207,9 +207,9 @@ fn damaged_rows_are_refused_with_their_line() {
 #[test]
 fn huge_counts_are_refused_at_once() {
     for (from, to, element) in [
-        ("element vertex 5", "element vertex 4294967295", "4294967295 elements `vertex`"),
-        ("element face 1", "element face 18446744073709551615", "18446744073709551615 elements `face`"),
-        ("element edge 1", "element edge 99999999999", "99999999999 elements `edge`"),
+        ("element vertex 5", "element vertex 4294967295", "4294967295 × element `vertex`"),
+        ("element face 1", "element face 18446744073709551615", "18446744073709551615 × element `face`"),
+        ("element edge 1", "element edge 99999999999", "99999999999 × element `edge`"),
     ] {
         let message = read_bytes("a.ply", STAR.replace(from, to).as_bytes()).expect_err("too many");
         assert!(message.contains(element) && message.contains("too short"), "{message}");

@@ -112,7 +112,10 @@ fn listings_that_cannot_be_used_are_reported_with_their_line() {
         (NEW.replace("relative intensity", "log base 10"), &["psf.txt:20", "\"Linear\""]),
         (NEW.replace("5.0E-01", "-5.0E-01"), &["psf.txt:23", "-0.5", "0 or more"]),
         (NEW.replace("5.0E-01", "0.0E-01"), &["psf.txt:23", "all values are 0"]),
-        (NEW.replacen("5.0E-01\t  0.0E+00\n", "5.0E-01\n", 1), &["psf.txt:24", "found 4 numbers; expected 3"]),
+        (
+            NEW.replacen("5.0E-01\t  0.0E+00\n", "5.0E-01\n", 1),
+            &["psf.txt:24", "the number of values is 4; expected 3"],
+        ),
         (format!("{NEW}\nand\n1 2\n"), &["psf.txt:29", "second table"]),
         ("Listing of Huygens PSF Data\n".to_owned(), &["no row of numbers"]),
     ] {

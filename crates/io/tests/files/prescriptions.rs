@@ -86,7 +86,8 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     let seq = |from: &str, to: &str| read("lens.seq", &SEQ.replacen(from, to, 1)).expect_err("refused");
     assert!(seq("NBK7_SCHOTT", "'mine'").contains("unknown glass `mine`"));
     assert!(
-        seq("SO 0.0", "PRV\nPWL 600 500\n'mine' 1.5\nEND\nSO 0.0").contains("1 indices; expected one for each of 2")
+        seq("SO 0.0", "PRV\nPWL 600 500\n'mine' 1.5\nEND\nSO 0.0")
+            .contains("1 of 2 indices; expected one for each wavelength")
     );
     assert!(zmx("ENPD 10.0", "FNUM 4 1").starts_with("5: a working f-number"));
     assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));

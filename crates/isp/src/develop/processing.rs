@@ -133,7 +133,9 @@ pub enum DevelopError {
     )]
     NoOpticalBlack,
     /// A mapped defect outside the image.
-    #[error("the defective pixel at column {x}, row {y} lies outside the image of {width} × {height} pixels")]
+    #[error(
+        "the defective pixel at column {x}, row {y} lies outside the image of {width} × {height} pixels: remove it"
+    )]
     DefectOutside {
         /// Column.
         x: u32,
@@ -154,7 +156,9 @@ pub enum DevelopError {
     #[error("white balance is {0:?}, but finite gains of at least 1 are needed: divide them by the smallest")]
     WhiteBalance(Vec<f64>),
     /// Settings for another number of channels.
-    #[error("the mosaic has {mosaic} channels, but white balance and colour matrix are for {settings}")]
+    #[error(
+        "the mosaic has {mosaic} channels, but white balance and colour matrix are for {settings}: give one gain and one column for each channel"
+    )]
     Channels {
         /// Channels of the mosaic.
         mosaic: usize,

@@ -55,7 +55,6 @@ pub(super) struct FilterAddress {
     pub(super) place: u32,
 }
 
-/// DN of white.
 pub(super) const WHITE_DN: f64 = 255.0;
 
 /// Changes the brightness of each pixel by the same amount in all channels, in DN, from its own random number, and clips.

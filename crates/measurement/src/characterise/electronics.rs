@@ -108,7 +108,7 @@ fn levels(shots: &[&LaboratoryImage], photons_per_s: f64) -> Result<Vec<Describe
             Error::coded(
                 ErrorCode::NotStated,
                 format!(
-                    "{}: its exposure time is not stated by EXIF data, a side-car or exposures_s in laboratory.toml",
+                    "{}: its exposure time is not stated by EXIF data, a side-car or exposures_s in laboratory.toml; add it to exposures_s",
                     shot.name()
                 ),
             )

@@ -6,7 +6,6 @@ use etendue_metrology::sfr::Blur;
 
 use super::spread::{Spread, is_significant};
 
-/// Samples per pixel.
 const SAMPLES_PER_PIXEL: f64 = 8.0;
 /// Half extent in standard deviations.
 const HALF_EXTENT: f64 = 4.0;

@@ -10,7 +10,6 @@ use serde_json::Value;
 
 use super::parameter::ImageKind;
 
-/// An image.
 #[derive(Clone, Debug)]
 pub(super) struct LaboratoryImage {
     pub(super) kind: ImageKind,

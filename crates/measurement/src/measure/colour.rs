@@ -147,8 +147,8 @@ fn report(patches: &[ColourPatch], result: &ColourError) -> Report {
     report.figure("mean_delta_e00", "mean ΔE00", "", result.mean);
     report.fact("largest_delta_e00", "largest ΔE00", "", result.largest);
     let number = |x: f64| Cell::Number(x, 2);
-    let row = |((patch, difference), [seen, reference]): ((&ColourPatch, &Estimate), &[[f64; 3]; 2])| {
-        let lab = seen.iter().chain(reference).map(|x| number(*x));
+    let row = |((patch, difference), [measured, reference]): ((&ColourPatch, &Estimate), &[[f64; 3]; 2])| {
+        let lab = measured.iter().chain(reference).map(|x| number(*x));
         [Cell::Text(patch.name.replace('_', " ")), Cell::Estimate(*difference)].into_iter().chain(lab).collect()
     };
     report.table(Table {

@@ -44,8 +44,10 @@ fn table(file: &Path) -> Result<Encoding, Error> {
     let table = read_numbers(file).map_err(Error::input)?;
     if table.columns != 2 {
         let file = file.display();
-        let message =
-            format!("{file}: {} columns; expected two: light and number, or exposure and number", table.columns);
+        let message = format!(
+            "{file}: the number of columns is {}; expected two: light or exposure, and digital number",
+            table.columns
+        );
         return Err(Error::coded(ErrorCode::UnsuitableFile, message));
     }
     let points: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[1])).collect();
@@ -127,7 +129,7 @@ fn companding(photograph: &Photograph) -> Option<Companding> {
 }
 
 /// Conversion from numbers to light.
-pub(crate) enum ToLight {
+pub(crate) enum LightConversion {
     /// None: numbers are proportional to light.
     Stored,
     /// A tone curve, of numbers relative to the full scale; light is 0 … 1.
@@ -136,7 +138,7 @@ pub(crate) enum ToLight {
     Companded(Companding),
 }
 
-impl ToLight {
+impl LightConversion {
     pub(crate) fn from_photograph(file: &Path, photograph: &Photograph) -> Result<Self, Error> {
         if let Some(companding) = companding(photograph) {
             return Ok(Self::Companded(companding));
@@ -208,7 +210,7 @@ mod tests {
             raw: None,
             correlated_block_px: 1,
         };
-        let to_light = ToLight::from_photograph(Path::new("a.png"), &photograph).expect("a curve");
+        let to_light = LightConversion::from_photograph(Path::new("a.png"), &photograph).expect("a curve");
         to_light.channel_light(&photograph.channels[0])
     }
 

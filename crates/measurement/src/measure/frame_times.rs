@@ -63,7 +63,7 @@ impl TimeSources {
                 self.notes
                     .push(format!("`{field}` {requested} is used; {side_car} states {} {unit}", rounded(recorded)));
             }
-            (None, Some(said)) => self.notes_taken.push(format!("{name} {} {unit}", rounded(said))),
+            (None, Some(value)) => self.notes_taken.push(format!("{name} {} {unit}", rounded(value))),
             _ => {}
         }
         requested.or(recorded)

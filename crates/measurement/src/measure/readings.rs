@@ -10,7 +10,7 @@ use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
 
 use super::balanced_mosaic::balanced_mosaic;
-use super::encoding::{EncodingChoice, ToLight};
+use super::encoding::{EncodingChoice, LightConversion};
 
 /// In place of a colour's name: the mosaic's colours balanced to one grey, one reading per pixel.
 pub(crate) const BALANCED: &str = "balanced";
@@ -127,7 +127,7 @@ fn shared_px(photograph: &Photograph) -> usize {
 
 impl Readings {
     /// Creates one reading for every measured pixel of an image.
-    fn from_image(image: Image, photograph: &Photograph, light: &ToLight) -> Self {
+    fn from_image(image: Image, photograph: &Photograph, light: &LightConversion) -> Self {
         let facts = photograph.raw.as_ref();
         Self {
             full_scale: facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn))),
@@ -226,7 +226,7 @@ impl Selection {
     /// For a mosaic, the readings of the colour's nth place in the tile.
     fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
-        let light = ToLight::from_photograph(file, photograph)?;
+        let light = LightConversion::from_photograph(file, photograph)?;
         let linear = |name: &str| photograph.channel(name).map(|c| light.channel_light(c));
         let samples = match (&self.channel, self.mosaic(photograph)) {
             (_, Some(_)) => light.channel_light(&photograph.channels[0]),
@@ -258,7 +258,7 @@ impl Selection {
             );
             return Err(Error::coded(ErrorCode::NotStated, error));
         }
-        self.part(file, &photograph, samples, &ToLight::Stored, 0)
+        self.part(file, &photograph, samples, &LightConversion::Stored, 0)
     }
 
     fn part(
@@ -266,7 +266,7 @@ impl Selection {
         file: &Path,
         photograph: &Photograph,
         samples: Vec<f32>,
-        light: &ToLight,
+        light: &LightConversion,
         nth: usize,
     ) -> Result<Readings, Error> {
         let area = self.area(photograph);
@@ -280,7 +280,7 @@ impl Selection {
     /// The readings of all pixels of a mosaic, with its colours balanced.
     fn balanced(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
-        let light = ToLight::from_photograph(file, photograph)?;
+        let light = LightConversion::from_photograph(file, photograph)?;
         let samples = light.channel_light(&photograph.channels[0]);
         let mosaic = cropped(file, full_image(photograph, samples), self.area(photograph))?;
         let readings = Readings::from_image(mosaic, photograph, &light);
@@ -372,7 +372,7 @@ fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image,
     Ok(image.part(x, y, width, height))
 }
 
-fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Vec<f32>, Error> {
+fn luminance(file: &Path, photograph: &Photograph, light: &LightConversion) -> Result<Vec<f32>, Error> {
     let linear = |name: &str| photograph.channel(name).map(|c| light.channel_light(c));
     if let Some(grey) = linear("Y") {
         return Ok(grey);

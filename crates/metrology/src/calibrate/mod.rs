@@ -16,8 +16,8 @@
 //! if exact) in addition to the points; a distance that contradicts the views is refused. Parameters that the views do not
 //! determine, such as the focal length from one frontal view, are refused ([`CalibrateError::Undetermined`]).
 //!
-//! Robust weights are off by default ([`CalibrationOptions::robust`]): if on, after step 2 a point at a distance d beyond 2.5 σ (σ from the
-//! median) has the weight √(2.5 σ/d) (Huber 1964), and step 2 is repeated five times; the covariance is widened to compensate for
+//! Robust weights are off by default ([`CalibrationOptions::robust`]): if on, after step 2 the residual of a point at a distance d beyond
+//! 2.5 σ (σ from the median) is multiplied by √(2.5 σ/d) (Huber 1964), and step 2 is repeated five times; the covariance is widened to compensate for
 //! these weights (Huber 1981).
 //!
 //! Limitations: no skew, no charts that are not flat or not known, no multi-camera calibration.

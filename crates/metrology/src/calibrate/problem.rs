@@ -133,8 +133,9 @@ impl<'a> CalibrationProblem<'a> {
         }
     }
 
-    /// Factor that corrects the covariance for Huber's weights (Huber 1981, section 6.5, to the mean of his matrices): Σ ψ²/ν over
-    /// the square of the mean of ψ′, which is 1 within the limit and, perpendicular to the residual, w beyond it.
+    /// Factor on the covariance of a fit with Huber's weights w (Huber 1981, section 6.5, with the means of his matrices). Weighted
+    /// least squares state (Σ w d²/ν)/w̄ · (JᵀJ)⁻¹; the covariance is (Σ ψ²/ν)/(mean of ψ′)² · (JᵀJ)⁻¹, where ψ = w d. ψ′ is 1 within
+    /// the limit; beyond it, it is w perpendicular to the residual and 0 along it, w/2 on average.
     pub(super) fn widening(&self, fit: &Fit) -> f64 {
         let (mut weighted, mut squares, mut weights, mut slopes, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (view, residuals) in self.weights.iter().zip(&fit.residuals) {

@@ -53,7 +53,7 @@ pub enum ColourMeasurementError {
     #[error("a colour matrix needs at least six patches, not {0}")]
     TooFew(usize),
     /// A patch is too small.
-    #[error("the patch {0} has fewer than four pixels")]
+    #[error("the patch {0} has fewer than four pixels: give an image in which the chart is larger")]
     TooSmall(String),
     /// A patch is clipped.
     #[error("{percent:.1} % of the patch {name} is saturated: expose less")]

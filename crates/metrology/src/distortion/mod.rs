@@ -138,7 +138,7 @@ fn maps(
 ) -> Result<FittedMaps, DistortionError> {
     let grid = Grid { nodes, disc_radius_steps: None, size };
     let points = Sightings::from_grid(&grid, 1.0).points;
-    let radial = |sense| RadialFit::of(&points, sense, centre, half_diagonal_px);
+    let radial = |sense| RadialFit::new(&points, sense, centre, half_diagonal_px);
     let (forward, backward) =
         (radial(DistortionDirection::IdealToObserved)?, radial(DistortionDirection::ObservedToIdeal)?);
     let ideal = IdealMap::from_nodes(&grid.nodes, centre, [&forward, &backward], half_diagonal_px)?;

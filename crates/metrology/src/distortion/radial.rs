@@ -28,7 +28,7 @@ pub struct RadialFit {
 }
 
 impl RadialFit {
-    pub(super) fn of(
+    pub(super) fn new(
         points: &[Sighting],
         sense: DistortionDirection,
         centre: DVec2,

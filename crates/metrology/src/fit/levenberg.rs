@@ -172,7 +172,7 @@ fn step(normal: &Matrix, gradient: &[f64], lambda: f64) -> Option<Vec<f64>> {
     let mut damped = scaled(normal, &scale);
     (0..n).for_each(|i| *damped.at_mut(i, i) += lambda);
     let right: Vec<f64> = gradient.iter().zip(&scale).map(|(g, s)| -g * s).collect();
-    let step = Cholesky::of(&damped, 1e-15)?.solve(&right);
+    let step = Cholesky::new(&damped, 1e-15)?.solve(&right);
     Some(step.iter().zip(&scale).map(|(d, s)| d * s).collect())
 }
 

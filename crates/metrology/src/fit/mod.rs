@@ -159,7 +159,7 @@ fn lambda_solution(
     let count = right.len();
     let mut matrix = normal.clone();
     (free..count).for_each(|i| *matrix.at_mut(i, i) += 1.0 / lambda);
-    let factor = Cholesky::of(&matrix, 1e-14)?;
+    let factor = Cholesky::new(&matrix, 1e-14)?;
     let parameters = factor.solve(right);
     let left = (size - dot(&parameters, right)).max(ROUNDING * ROUNDING * freedom);
     let unlikely = freedom * ln(left) + factor.ln_determinant() + (count - free) as f64 * ln(lambda);

@@ -20,7 +20,6 @@ pub struct PulseLight {
     pub modulation: Estimate,
 }
 
-/// Fitted pulses.
 #[derive(Clone, Copy)]
 pub(super) struct FittedPulses {
     pub(super) light: PulseLight,

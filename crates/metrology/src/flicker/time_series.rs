@@ -323,7 +323,7 @@ fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<LeastSquares> {
         }
     }
     let right: Vec<f64> = columns.iter().map(|column| dot(column, values)).collect();
-    let factor = Cholesky::of(&normal, 1e-10)?;
+    let factor = Cholesky::new(&normal, 1e-10)?;
     let coefficients = factor.solve(&right);
     let rest = |(i, value): (usize, &f64)| {
         let explained: f64 = columns.iter().zip(&coefficients).map(|(column, c)| c * column[i]).sum();

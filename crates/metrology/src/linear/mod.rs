@@ -128,10 +128,10 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factors a symmetric matrix; `None` if a pivot is less than `least` of its diagonal element: there the column depends
+    /// Factors a symmetric matrix; `None` if a pivot is less than `min_pivot` of its diagonal element: there the column depends
     /// linearly on those before it, to rounding.
     #[must_use]
-    pub fn of(a: &Matrix, min_pivot: f64) -> Option<Self> {
+    pub fn new(a: &Matrix, min_pivot: f64) -> Option<Self> {
         let n = a.rows();
         let mut lower = Matrix::zeros(n, n);
         for j in 0..n {
@@ -223,12 +223,12 @@ impl Normal {
 
     /// The solution; `None` if the equations do not determine it.
     pub(crate) fn solve(&self) -> Option<Vec<f64>> {
-        Some(Cholesky::of(&self.matrix, MIN_PIVOT)?.solve(&self.right))
+        Some(Cholesky::new(&self.matrix, MIN_PIVOT)?.solve(&self.right))
     }
 
     /// The inverse of AᵀWA: the covariance of the solution for weights that are inverse variances.
     pub(crate) fn inverse(&self) -> Option<Matrix> {
-        Some(Cholesky::of(&self.matrix, MIN_PIVOT)?.inverse())
+        Some(Cholesky::new(&self.matrix, MIN_PIVOT)?.inverse())
     }
 }
 
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn hilbert_s_inverse_is_whole() {
         let hilbert = Matrix::from_rows(3, (0..3).map(|i| [0, 1, 2].map(|j| 1.0 / f64::from(i + j + 1))));
-        let inverse = Cholesky::of(&hilbert, 1e-12).expect("positive definite").inverse();
+        let inverse = Cholesky::new(&hilbert, 1e-12).expect("positive definite").inverse();
         let expected = [[9.0, -36.0, 30.0], [-36.0, 192.0, -180.0], [30.0, -180.0, 180.0]];
         for (i, row) in expected.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
@@ -247,10 +247,10 @@ mod tests {
                 assert!((inverse.at(i, j) - value).abs() < 1e-10, "{i} {j}");
             }
         }
-        let determinant = Cholesky::of(&hilbert, 1e-12).expect("positive definite").ln_determinant();
+        let determinant = Cholesky::new(&hilbert, 1e-12).expect("positive definite").ln_determinant();
         assert!((determinant + etendue_core::maths::f64::ln(2160.0)).abs() < 1e-10, "{determinant}");
         let singular = Matrix::from_rows(2, [[1.0, 2.0], [2.0, 4.0]]);
-        assert!(Cholesky::of(&singular, 1e-12).is_none());
+        assert!(Cholesky::new(&singular, 1e-12).is_none());
     }
 
     #[test]

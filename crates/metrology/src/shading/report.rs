@@ -176,7 +176,7 @@ impl Basis {
 fn inverse_hilbert() -> Matrix {
     let row = |i: usize| (0..TERMS - 1).map(|j| 1.0 / (i + j + 3) as f64).collect::<Vec<_>>();
     let moments = Matrix::from_rows(TERMS - 1, (0..TERMS - 1).map(row));
-    Cholesky::of(&moments, 1e-14).expect("powers are independent").inverse()
+    Cholesky::new(&moments, 1e-14).expect("powers are independent").inverse()
 }
 
 /// Nodes and weights of Fejér's first rule on 0 to 1: exact for polynomials of a degree below the number of nodes, and equally

@@ -69,7 +69,7 @@ pub(super) fn fit_corner(image: &Image, start: DVec2, steps: [DVec2; 2], radius:
     }
     let corner = DVec2::new(at[0], at[1]);
     let variance = squares / (pixels.len() - COUNT) as f64;
-    let covariance = Cholesky::of(&normal.0, 1e-14)?.inverse();
+    let covariance = Cholesky::new(&normal.0, 1e-14)?.inverse();
     let white = variance * (covariance.at(0, 0) + covariance.at(1, 1));
     let uncertainty_px = (0.5 * white.max(correlated(&pixels, &at, &covariance))).sqrt();
     ((corner - start).length() < 0.5 * radius).then_some(Corner { at: corner, uncertainty_px })
@@ -209,7 +209,7 @@ fn equations(pixels: &[(DVec2, f64)], at: &Numbers) -> ((Matrix, Numbers), f64) 
 fn moved(at: &Numbers, normal: &Matrix, gradient: &Numbers, lambda: f64) -> Option<Numbers> {
     let mut damped = normal.clone();
     (0..COUNT).for_each(|i| *damped.at_mut(i, i) *= 1.0 + lambda);
-    let step = Cholesky::of(&damped, 1e-14)?.solve(&gradient.map(|g| -g));
+    let step = Cholesky::new(&damped, 1e-14)?.solve(&gradient.map(|g| -g));
     let mut next: Numbers = std::array::from_fn(|i| at[i] + step[i]);
     next[6] = next[6].clamp((at[6] / 3.0).max(SOFTNESS_PX[0]), (at[6] * 3.0).min(SOFTNESS_PX[1]));
     Some(next)

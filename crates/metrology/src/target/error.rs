@@ -5,12 +5,12 @@
 pub enum TargetError {
     /// No points, or too few.
     #[error(
-        "no {sought} was found ({best} points in rows and columns, {least} are needed): capture the whole chart in focus, uniformly lit and not \
+        "no {pattern} was found ({best} points in rows and columns, {least} are needed): capture the whole chart in focus, uniformly lit and not \
          saturated, with a pitch of at least 10 px"
     )]
     None {
         /// Description of the chart.
-        sought: &'static str,
+        pattern: &'static str,
         /// Number of points of the best attempt.
         best: usize,
         /// Minimum number of points.
@@ -44,10 +44,10 @@ pub enum TargetError {
         points: [usize; 2],
     },
     /// A larger chart than stated.
-    #[error("a grid of {} × {} points was found where {} × {} were stated; a checkerboard counts its inner corners", found[0], found[1], stated[0], stated[1])]
+    #[error("a grid of {} × {} points was found where {} × {} were stated; a checkerboard counts its inner corners", actual[0], actual[1], stated[0], stated[1])]
     Larger {
         /// Detected.
-        found: [usize; 2],
+        actual: [usize; 2],
         /// Stated.
         stated: [usize; 2],
     },

@@ -96,7 +96,7 @@ fn checked(grid: Grid, stated: Option<[usize; 2]>, target_name: &'static str) ->
     let min_points = stated.map_or(MIN_GRID_POINTS, |[a, b]| MIN_GRID_POINTS.min(a * b / 2).max(4));
     let best = grid.nodes.len();
     if best < min_points || grid.size.iter().any(|n| *n < 2) {
-        return Err(TargetError::None { sought: target_name, best, least: min_points });
+        return Err(TargetError::None { pattern: target_name, best, least: min_points });
     }
     if grid.filled() < 0.9 {
         return Err(TargetError::Gaps { points: best, size: grid.size });
@@ -108,7 +108,7 @@ fn checked(grid: Grid, stated: Option<[usize; 2]>, target_name: &'static str) ->
     let larger = |stated: [usize; 2]| grid.size[0] > stated[0] || grid.size[1] > stated[1];
     match stated {
         Some([a, b]) if larger([a, b]) && larger([b, a]) => {
-            Err(TargetError::Larger { found: grid.size, stated: [a, b] })
+            Err(TargetError::Larger { actual: grid.size, stated: [a, b] })
         }
         _ => Ok(grid),
     }

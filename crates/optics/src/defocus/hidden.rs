@@ -1,8 +1,9 @@
-//! Points hidden from the centre of the pupil but visible from its edge, estimated from visible neighbours.
+//! Estimates of surfaces that are hidden from the centre of the pupil but visible from its edge, from neighbouring pixels.
 //!
-//! At a jump of the distance the farther surface continues behind the nearer one. From each pixel the nearest jumps to a farther surface are searched
-//! in eight directions, within the reach of blurs. The pixel beyond each jump's own (possibly mixed) pixel provides light and distance. Their mean,
-//! weighted by the inverse square of the path length, fills the position behind the pixel.
+//! Where the distance jumps, the farther surface is assumed to continue behind the nearer one. From each pixel the first jump to a farther surface is
+//! searched in eight directions, within the reach of the blurs. The pixel one step beyond the jump provides light and inverse distance, because the
+//! pixel at the jump may mix both surfaces. The mean over the directions, weighted by the inverse square of the number of steps, is the estimate of
+//! the surface behind the pixel.
 
 use super::{PinholeView, footprint::Footprints};
 

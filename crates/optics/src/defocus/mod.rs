@@ -31,7 +31,7 @@ use etendue_projection::Raster;
 use crate::lens::Lens;
 
 pub use fast::{FastBlend, FastParameters};
-pub use physical::Physical;
+pub use physical::PhysicalDefocus;
 pub use pinhole_view::PinholeView;
 
 /// The methods: the closed list.
@@ -47,12 +47,12 @@ pub enum DepthOfField {
 }
 
 impl DepthOfField {
-    /// The image of a view, on the caller's thread. ([`Physical`] computes rows on several.)
+    /// The image of a view, on the caller's thread. ([`PhysicalDefocus`] computes rows on several.)
     #[must_use]
     pub fn apply(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         match self {
             Self::None => view.cropped(),
-            Self::Physical => Physical::new(*view).image(),
+            Self::Physical => PhysicalDefocus::new(*view).image(),
             Self::Fast(blend) => blend.image(view),
         }
     }

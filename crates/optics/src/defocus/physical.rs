@@ -31,13 +31,13 @@ const UNSPREAD_STEPS: [CoverageStep; 2] =
 
 /// A view with known footprints and layers: rows of its image can be computed on any number of threads.
 #[derive(Clone, Debug)]
-pub struct Physical<'a> {
+pub struct PhysicalDefocus<'a> {
     view: PinholeView<'a>,
     /// `None` if everything is sharp.
     blurs: Option<(Footprints, Layers)>,
 }
 
-impl<'a> Physical<'a> {
+impl<'a> PhysicalDefocus<'a> {
     /// Traces the pupil of a view and sorts its pixels.
     #[must_use]
     pub fn new(view: PinholeView<'a>) -> Self {

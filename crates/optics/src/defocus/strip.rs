@@ -146,7 +146,7 @@ pub(super) struct StripSource {
     pub(super) fill: Option<u32>,
 }
 
-/// Sources of one layer, by rising pixels.
+/// Sources of one layer, by increasing pixels.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layer {
     pub(super) sources: Vec<StripSource>,

@@ -226,7 +226,7 @@ impl PreparedEffects {
         let (width, height) = (x.len(), y.len());
         let positive = |v: &f64| if *v < 0.0 { 0.0 } else { *v as f32 };
         let samples = y.flat_map(|y| film.row(y)[x.clone()].iter().map(positive)).collect();
-        Plane::from_samples(width, height, samples).expect("a sample a pixel")
+        Plane::from_samples(width, height, samples).expect("one sample per pixel")
     }
 
     fn unknown(&self) -> Plane<Variance> {

@@ -4,10 +4,10 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EffectsError {
     /// A fraction of scattered light outside its range.
-    #[error("the scattered fraction is {share}; expected 0 to {most} (clean lenses scatter 0.005 to 0.03)")]
+    #[error("the scattered fraction is {fraction}; expected 0 to {most} (clean lenses scatter 0.005 to 0.03)")]
     Scatter {
         /// Value given.
-        share: f64,
+        fraction: f64,
         /// Maximum fraction.
         most: f64,
     },
@@ -30,7 +30,7 @@ pub enum EffectsError {
     },
     /// An invalid table of a wavefront term.
     #[error(
-        "a wavefront term needs one root-mean-square value per field radius, with rising radii; or one value and no radii"
+        "a wavefront term needs one root-mean-square value per field radius, with increasing radii; or one value and no radii"
     )]
     Table,
     /// A wavefront too steep for the lattice of the pupil.
@@ -133,7 +133,7 @@ pub enum EffectsError {
     },
     /// Functions over the field that do not form a table.
     #[error(
-        "functions over the field need rising distances from the axis, the same number at every wavelength, and rising wavelengths"
+        "functions over the field need increasing distances from the axis, the same number at every wavelength, and increasing wavelengths"
     )]
     SpreadTable,
     /// A table of modulation that no lens has.

@@ -208,7 +208,6 @@ pub(crate) struct ComplexGrid {
 }
 
 impl ComplexGrid {
-    /// Zeros.
     pub(crate) fn zeros(width: usize, height: usize) -> Self {
         Self { width, data: ComplexLine::zeros(width * height) }
     }

@@ -59,7 +59,7 @@ impl Glare {
     pub fn new(parameters: GlareParameters) -> Result<Self, EffectsError> {
         let GlareParameters { scatter, core_um, exponent, reach_mm } = parameters;
         if !(0.0..=MAX_SCATTER).contains(&scatter) {
-            return Err(EffectsError::Scatter { share: scatter, most: MAX_SCATTER });
+            return Err(EffectsError::Scatter { fraction: scatter, most: MAX_SCATTER });
         }
         positive("core_um", core_um)?;
         positive("exponent", exponent)?;
@@ -99,7 +99,7 @@ impl Glare {
         let Some(glare) = glare else { return EffectStatus::LeftOut("no [effects.glare] is described".to_owned()) };
         let p = glare.parameters;
         if p.scatter == 0.0 {
-            return EffectStatus::LeftOut("nothing is scattered".to_owned());
+            return EffectStatus::LeftOut("the scattered fraction is 0".to_owned());
         }
         let end = p.reach_mm.map_or_else(|| "over the whole plane".to_owned(), |mm| format!("up to {mm} mm"));
         let how = format!(

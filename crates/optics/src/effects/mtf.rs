@@ -34,7 +34,7 @@ const MAX_WIDTH_PX: f64 = 24.0;
 /// Maximum accepted deviation.
 const MAX_DEVIATION: f64 = 0.06;
 
-/// The samples of a point-spread function, the same at all wavelengths, from (frequency, cycles/mm, rising from 0 or above; modulation, 1 at 0), for
+/// The samples of a point-spread function, the same at all wavelengths, from (frequency, cycles/mm, increasing from 0 or above; modulation, 1 at 0), for
 /// pixels of `pixel_um`.
 ///
 /// # Errors

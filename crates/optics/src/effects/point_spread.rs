@@ -100,7 +100,6 @@ impl PointSpread {
 /// A point-spread function prepared for a film.
 #[derive(Debug)]
 pub(super) enum PreparedSpread {
-    /// Of an aperture.
     Aperture(Box<PreparedPsf>),
     /// From an image.
     Image(Box<PreparedImage>),

@@ -24,7 +24,9 @@ pub enum FrontError {
         range: &'static str,
     },
     /// A sphere or ellipsoid smaller than the requested outer radius.
-    #[error("the mirror has rim_radius_mm = {rim_mm}, but its surface reaches only {reach_mm:.6} mm from its axis")]
+    #[error(
+        "the mirror has rim_radius_mm = {rim_mm}, but its surface reaches only {reach_mm:.6} mm from its axis: give at most this radius"
+    )]
     RimTooLarge {
         /// The requested outer radius, mm.
         rim_mm: f64,
@@ -32,7 +34,9 @@ pub enum FrontError {
         reach_mm: f64,
     },
     /// A mirror consisting of its hole.
-    #[error("the mirror's hole_radius_mm = {hole_mm} leaves nothing of it within rim_radius_mm = {rim_mm}")]
+    #[error(
+        "the mirror's hole_radius_mm = {hole_mm} leaves nothing of it within rim_radius_mm = {rim_mm}: make the hole smaller"
+    )]
     NoSurface {
         /// The hole, mm.
         hole_mm: f64,
@@ -80,7 +84,7 @@ pub enum FrontError {
     )]
     DropsNotSeen,
     /// A mask whose number of texels does not match its size.
-    #[error("the mask has {texels} texels, but its size is {width} × {height}")]
+    #[error("the mask has {texels} texels, but its size is {width} × {height}: correct its size")]
     MaskSize {
         /// Columns.
         width: usize,

@@ -165,7 +165,7 @@ pub enum OpticsError {
         kind: &'static str,
     },
     /// An invalid lateral colour.
-    #[error("a lateral colour is a list of two or more rising wavelengths (nm) and of magnifications above 0")]
+    #[error("a lateral colour is a list of two or more increasing wavelengths (nm) and of magnifications above 0")]
     LateralColour,
     /// An invalid calibration.
     #[error(transparent)]
@@ -186,7 +186,9 @@ pub enum OpticsError {
         height: usize,
     },
     /// A calibration without a direction at its own principal point.
-    #[error("the calibration has no ray at its principal point ({x}, {y}) px, where the focal length is computed")]
+    #[error(
+        "the calibration has no ray at its principal point ({x}, {y}) px, where the focal length is computed: correct the calibration"
+    )]
     BlindCentre {
         /// cx, px.
         x: f64,
@@ -195,7 +197,7 @@ pub enum OpticsError {
     },
     /// An invalid relative illumination.
     #[error(
-        "a relative illumination is a list of rising radii or angles from 0 and of ratios of at least 0 that begin with 1"
+        "a relative illumination is a list of increasing radii or angles from 0 and of ratios of at least 0 that begin with 1"
     )]
     Falloff,
     /// A relative illumination that ends inside the image.
@@ -253,7 +255,7 @@ pub enum OpticsError {
     /// Distances of a blend in the wrong order.
     #[error(
         "fully blurred up to {blurred_near_m} m, sharp from {sharp_near_m} m to {sharp_far_m} m, fully blurred from {blurred_far_m} m on: these \
-         distances must rise"
+         distances must increase"
     )]
     SharpRange {
         /// Fully blurred from here to the camera, m.
@@ -290,7 +292,9 @@ pub enum OpticsError {
     #[error("no pixel of the image has a ray: the lens sees nothing there")]
     SeesNothing,
     /// A cube whose size is not that of its stated geometry.
-    #[error("the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}")]
+    #[error(
+        "the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}: give the image as it was rendered"
+    )]
     Size {
         /// Columns found.
         got_width: usize,

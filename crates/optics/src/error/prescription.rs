@@ -7,10 +7,10 @@ pub enum PrescriptionError {
     #[error("the prescription has no surface; give at least one refracting surface and a stop")]
     Empty,
     /// A number of stops other than one.
-    #[error("{found} surfaces are the stop; exactly one must be: set `stop = true` at one of them")]
+    #[error("{count} surfaces are the stop; exactly one must be: set `stop = true` at one of them")]
     Stops {
         /// Number of stops.
-        found: usize,
+        count: usize,
     },
     /// An invalid number of a surface.
     #[error("surface {surface}: {name} is {value}; {expected}")]
@@ -55,10 +55,10 @@ pub enum PrescriptionError {
         nm: f64,
     },
     /// More glasses than the tracer's table holds.
-    #[error("the prescription has {found} different media; at most {most} are possible")]
+    #[error("the prescription has {count} different media; at most {most} are possible")]
     Media {
         /// Number of glasses.
-        found: usize,
+        count: usize,
         /// The limit.
         most: usize,
     },
@@ -170,7 +170,9 @@ pub enum PrescriptionError {
         focus_m: f64,
     },
     /// A sensor without light.
-    #[error("no ray from the middle of the sensor passes through the lens at {nm} nm")]
+    #[error(
+        "no ray from the middle of the sensor passes through the lens at {nm} nm: check glasses, radii and clear apertures"
+    )]
     Dark {
         /// The wavelength, nm.
         nm: f64,

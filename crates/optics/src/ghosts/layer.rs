@@ -115,7 +115,7 @@ impl<'a> Scattering<'a> {
             });
         }
         let planes = canvas.par_iter().map(|levels| self.image_plane(levels)).collect();
-        SpectralCube::from_planes(self.bands, planes).expect("a plane a band, all of the raster's size")
+        SpectralCube::from_planes(self.bands, planes).expect("one plane per band, all of the raster's size")
     }
 
     fn splat<'s>(&self, source: &'s DistantSource, pair: usize) -> Option<GhostSplat<'s>> {

@@ -60,11 +60,14 @@ impl GhostSettings {
         match settings {
             None => EffectStatus::LeftOut("not requested".to_owned()),
             Some(Self { sensor_reflectance: 0.0 }) => EffectStatus::Modelled(
-                "every pair of lens surfaces, by their coatings; the sensor reflects nothing".to_owned(),
+                "two-reflection ghosts of all pairs of lens surfaces, from their coatings; the sensor reflects nothing"
+                    .to_owned(),
             ),
             Some(Self { sensor_reflectance }) => {
-                let why =
-                    format!("every pair of lens surfaces, by their coatings; the sensor reflects {sensor_reflectance}");
+                let why = format!(
+                    "two-reflection ghosts of all pairs of lens surfaces, from their coatings; the sensor reflects \
+                     {sensor_reflectance}"
+                );
                 EffectStatus::Modelled(why)
             }
         }

@@ -14,7 +14,7 @@ const MAX_OMITTED_FRACTION: f64 = 5e-3;
 const KNOT_NM: f64 = 100.0;
 
 /// One angle's footprints: by pair (the relevant ones), by wavelength.
-type AtAngle = Vec<Option<Vec<Footprint>>>;
+type AngleFootprints = Vec<Option<Vec<Footprint>>>;
 
 /// Tabulated ghosts.
 pub(super) struct Response {
@@ -22,11 +22,11 @@ pub(super) struct Response {
     pub(super) knots_nm: Vec<f64>,
     step: f64,
     /// By angle; `None` if no source is near.
-    table: Vec<Option<AtAngle>>,
+    table: Vec<Option<AngleFootprints>>,
 }
 
 impl Response {
-    /// Footprints at the tabulated angles next to the `wanted` ones (rad, rising to at most `greatest`).
+    /// Footprints at the tabulated angles next to the `wanted` ones (rad, increasing to at most `greatest`).
     pub(super) fn new(
         lens: &PrescriptionLens,
         settings: GhostSettings,
@@ -81,7 +81,7 @@ fn at_angle(
     angle: f64,
     pairs: &[GhostPair],
     knots_nm: &[f64],
-) -> AtAngle {
+) -> AngleFootprints {
     let beam = GhostBeam::new(lens.prescription(), angle);
     let middle_nm = knots_nm[knots_nm.len() / 2];
     let survey = |pair: &GhostPair| {

@@ -67,7 +67,6 @@ impl Level {
 /// Light on a window of a level: area of the beam over area of the cell, by wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SplattedLight {
-    /// The level.
     pub(super) level: usize,
     /// First column and row of the window.
     pub(super) from: [usize; 2],

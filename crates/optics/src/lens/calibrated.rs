@@ -59,7 +59,7 @@ pub struct CalibratedParameters {
 
 /// A calibrated camera.
 #[derive(Clone, PartialEq)]
-pub struct Calibrated {
+pub struct CalibratedLens {
     parameters: CalibratedParameters,
     pub(super) lateral_colour: Option<LateralColour>,
     pupil: PupilOrientation,
@@ -69,9 +69,9 @@ pub struct Calibrated {
 }
 
 /// A camera without lateral colour keeps the text (and plans keep the hashes) of versions without it.
-impl Debug for Calibrated {
+impl Debug for CalibratedLens {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut text = f.debug_struct("Calibrated");
+        let mut text = f.debug_struct("CalibratedLens");
         text.field("parameters", &self.parameters).field("pupil", &self.pupil);
         text.field("focal_length_mm", &self.focal_length_mm).field("scale", &self.scale);
         if let Some(colour) = &self.lateral_colour {
@@ -81,7 +81,7 @@ impl Debug for Calibrated {
     }
 }
 
-impl Calibrated {
+impl CalibratedLens {
     /// Creates a calibrated camera.
     ///
     /// # Errors

@@ -47,7 +47,7 @@ use etendue_projection::{RadialDistortion, Raster};
 
 use crate::error::OpticsError;
 
-pub use calibrated::{Calibrated, CalibratedParameters, PupilOrientation};
+pub use calibrated::{CalibratedLens, CalibratedParameters, PupilOrientation};
 pub use paraxial_properties::{Falloff, FalloffArgument, LateralColour, PupilParameters};
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, PrescriptionLens, Spot};
 pub use rays::TruthRay;
@@ -72,7 +72,7 @@ pub enum Lens {
     /// Ray-transfer functions: one step per ray.
     RayTransfer(Arc<RayTransferLens>),
     /// Viewing directions by a projection.
-    Calibrated(Arc<Calibrated>),
+    Calibrated(Arc<CalibratedLens>),
     /// Every pixel looks along the axis.
     Telecentric(Telecentric),
 }
@@ -117,9 +117,9 @@ impl Lens {
     /// Creates a calibrated camera.
     ///
     /// # Errors
-    /// As [`Calibrated::new`].
+    /// As [`CalibratedLens::new`].
     pub fn calibrated(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
-        Calibrated::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
+        CalibratedLens::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
     }
 
     /// Creates a telecentric camera.

@@ -211,7 +211,7 @@ impl Debug for Falloff {
 }
 
 impl Falloff {
-    /// Creates the table of distances (mm, rising from 0) and ratios (0 or more, from 1).
+    /// Creates the table of distances (mm, increasing from 0) and ratios (0 or more, from 1).
     ///
     /// # Errors
     /// If the points violate this.
@@ -219,7 +219,7 @@ impl Falloff {
         Self::over(FalloffArgument::Radius, points)
     }
 
-    /// Creates the table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
+    /// Creates the table of distances (mm) or angles (degrees), increasing from 0, and ratios (0 or more, from 1).
     ///
     /// # Errors
     /// If the points violate this.
@@ -264,7 +264,7 @@ pub struct LateralColour {
 }
 
 impl LateralColour {
-    /// Creates the table of wavelengths (nm, rising) and magnifications (above 0).
+    /// Creates the table of wavelengths (nm, increasing) and magnifications (above 0).
     ///
     /// # Errors
     /// If the points violate this or are fewer than two.

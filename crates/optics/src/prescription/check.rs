@@ -17,7 +17,7 @@ pub(super) fn check_surfaces(surfaces: &[Surface]) -> Result<usize, Prescription
     }
     surfaces.iter().enumerate().try_for_each(|(i, surface)| numbers(i + 1, surface))?;
     let stops: Vec<usize> = surfaces.iter().enumerate().filter(|(_, s)| s.stop).map(|(i, _)| i).collect();
-    let [stop] = stops[..] else { return Err(PrescriptionError::Stops { found: stops.len() }) };
+    let [stop] = stops[..] else { return Err(PrescriptionError::Stops { count: stops.len() }) };
     Ok(stop)
 }
 

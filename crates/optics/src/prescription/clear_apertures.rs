@@ -72,7 +72,7 @@ pub fn clear_apertures_mm(
 ) -> Result<Vec<f64>, usize> {
     let mut heights = Heights { max_mm: vec![0.0; lens.surfaces.len()] };
     for nm in wavelengths_nm {
-        let stop = FromStop { lens, media: lens.media(*nm) };
+        let stop = StopRays { lens, media: lens.media(*nm) };
         for (i, bundle) in bundles.iter().enumerate() {
             stop.trace(bundle, stop_mm, &mut heights).ok_or(i)?;
         }
@@ -82,12 +82,12 @@ pub fn clear_apertures_mm(
 }
 
 /// Meridional rays from the stop, at a wavelength.
-struct FromStop<'a> {
+struct StopRays<'a> {
     lens: &'a Prescription,
     media: Media,
 }
 
-impl FromStop<'_> {
+impl StopRays<'_> {
     /// Traces chief and marginal rays of a bundle.
     fn trace(&self, bundle: &FieldBundle, stop_mm: f64, heights: &mut Heights) -> Option<()> {
         let [upper, lower] = bundle.reach;

@@ -1,12 +1,15 @@
-//! Transmittance of a surface: unpolarised light, no absorption.
+//! Transmittance of coated lens surfaces, and of an interference filter in front of the sensor, for unpolarised light.
+//!
+//! **Coatings**, without absorption:
 //!
 //! - [`Coating::Uncoated`]: Fresnel (1823), the mean of both polarisations.
-//! - [`Coating::Constant`]: a constant for all angles and wavelengths.
+//! - [`Coating::Constant`]: the same transmittance at all angles and wavelengths, also between equal media.
 //! - [`Coating::QuarterWave`]: one layer of magnesium fluoride (n = 1.38, its dispersion left out), a quarter of the design wavelength thick at
-//!   normal incidence: R = |r₁ + r₂ e^{2iδ}|²/|1 + r₁ r₂ e^{2iδ}|², δ = (π/2)(λ₀/λ) cos θ in the layer (Airy 1833). If both sides are the same medium
-//!   there is no layer and no reflection. Between two denser glasses, beyond the layer's own critical angle, cos θ is imaginary and light tunnels.
+//!   normal incidence: R = |r₁ + r₂ e^{2iδ}|²/|1 + r₁ r₂ e^{2iδ}|², δ = (π/2)(λ₀/λ) cos θ in the layer (Airy 1833). Between equal media there is no
+//!   layer and no reflection. Between two denser glasses, beyond the critical angle of the layer, cos θ is imaginary: light passes the layer as an
+//!   evanescent wave (frustrated total reflection).
 //!
-//! An interference filter in front of the sensor: an IR-cut filter whose edge shifts towards the blue with the angle.
+//! **[`InterferenceFilter`]**: an IR-cut filter whose edge shifts to shorter wavelengths with the angle of incidence.
 //!
 //! In the filter's layers light propagates at θ′ with sin θ′ = sin θ/n_eff, and the phase between layers is proportional to cos θ′/λ. At the angle θ
 //! the filter therefore acts on λ as it does at normal incidence on λ/√(1 − sin²θ/n_eff²), so an edge at λ₀ shifts to λ₀ √(1 − sin²θ/n_eff²) (Macleod

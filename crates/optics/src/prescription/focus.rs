@@ -38,7 +38,6 @@ pub enum Focus {
     },
 }
 
-/// A focused lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FocusedLens {
     /// Sensor position without defocus, mm behind the last vertex.

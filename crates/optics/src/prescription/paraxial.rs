@@ -28,8 +28,8 @@ pub struct Paraxial {
     pub exit_pupil_position_mm: f64,
     /// Its radius, mm.
     pub exit_radius_mm: f64,
-    /// Radius of the Petzval surface, mm, signed as a surface's: 1/R = −Σ φ/(n n′), negative where it curves towards the
-    /// lens at its edges.
+    /// Radius of the Petzval surface, mm, with the sign convention of lens surfaces: 1/R = −Σ φ/(n n′); negative if the edges of the
+    /// Petzval surface are nearer to the lens than its vertex.
     pub petzval_radius_mm: f64,
 }
 

@@ -73,7 +73,6 @@ impl Element {
     }
 }
 
-/// Direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TravelDirection {
     ToSensor,
@@ -248,7 +247,7 @@ pub(super) fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize
         })
         .collect();
     if list.len() > MAX_MEDIA {
-        return Err(PrescriptionError::Media { found: list.len(), most: MAX_MEDIA });
+        return Err(PrescriptionError::Media { count: list.len(), most: MAX_MEDIA });
     }
     if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
 }

@@ -93,7 +93,7 @@ impl<'a> Resampling<'a> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
         let bands = radiance.bands();
         let planes = self.apply_to_bands(radiance.planes(), |i| bands.centre_nm(i))?;
-        Ok(SpectralCube::from_planes(bands, planes).expect("a plane a band, all of the raster's size"))
+        Ok(SpectralCube::from_planes(bands, planes).expect("one plane per band, all of the raster's size"))
     }
 
     /// Some bands of a radiance image in the raster of the sensor image, each of the wavelength at its centre, nm; equal to [`apply`](Self::apply).

@@ -116,7 +116,6 @@ const KNOTS: usize = 512;
 pub(crate) enum ChiefRaySource<'a> {
     /// Queried from the lens, point by point.
     Lens {
-        /// The lens.
         lens: &'a Lens,
         /// The wavelength, nm.
         nm: f64,

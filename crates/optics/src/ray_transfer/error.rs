@@ -4,13 +4,15 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RayTransferError {
     /// A polynomial with an invalid number.
-    #[error("a polynomial has a coefficient that is not finite, or a power above 32")]
+    #[error("a polynomial has a coefficient that is not finite, or a power above 32: correct it")]
     Polynomial,
     /// An invalid region.
-    #[error("transmitted rays must be given by ellipses at heights that rise from 0, or by circles of radii above 0")]
+    #[error(
+        "transmitted rays must be given by ellipses at heights that increase from 0, or by circles of radii above 0"
+    )]
     Pass,
-    /// Wavelengths that do not rise.
-    #[error("ray-transfer functions need one or more rising wavelengths above 0 nm")]
+    /// Wavelengths that do not increase.
+    #[error("ray-transfer functions need one or more increasing wavelengths above 0 nm")]
     Wavelengths,
     /// A sensor behind the input plane.
     #[error(

@@ -49,10 +49,10 @@ pub struct TransferRay {
 }
 
 impl RayTransfer {
-    /// Creates the functions from transfers by rising wavelength.
+    /// Creates the functions from transfers by increasing wavelength.
     ///
     /// # Errors
-    /// If there are none, or their wavelengths do not rise.
+    /// If there are none, or their wavelengths do not increase.
     pub fn new(thickness_mm: f64, input_offset_mm: f64, transfers: Vec<Transfer>) -> Result<Self, RayTransferError> {
         let rising = transfers.windows(2).all(|pair| pair[1].wavelength_nm > pair[0].wavelength_nm);
         let first = transfers.first().is_some_and(|t| t.wavelength_nm > 0.0);
@@ -78,7 +78,7 @@ impl RayTransfer {
         self.input_offset_mm
     }
 
-    /// The functions, by rising wavelength.
+    /// The functions, by increasing wavelength.
     #[must_use]
     pub fn transfers(&self) -> &[Transfer] {
         &self.transfers
@@ -211,7 +211,7 @@ impl RayPass {
     /// Creates the region of the plane at `plane_mm` from the input plane.
     ///
     /// # Errors
-    /// If the heights do not rise from 0, the region is empty or a value is not a number.
+    /// If the heights do not increase from 0, the region is empty or a value is not a number.
     pub fn new(plane_mm: f64, region: PassRegion) -> Result<Self, RayTransferError> {
         let legal = match &region {
             PassRegion::Ellipses(list) => {

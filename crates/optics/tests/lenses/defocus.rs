@@ -2,7 +2,7 @@
 
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Bands, Plane, SpectralCube};
-use etendue_optics::defocus::{Physical, PinholeView};
+use etendue_optics::defocus::{PhysicalDefocus, PinholeView};
 use etendue_optics::{
     ClippingAperture, ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters,
     PupilParameters, ThickParameters, ThinParameters,
@@ -237,13 +237,13 @@ fn all_bands_have_the_same_weights_and_strips_join_to_the_same_bits() {
     let three = vec![plane.clone(), plane.map(|l| 2.0 * l), plane.clone()];
     let three = SpectralCube::from_planes(bands(3), three).expect("sizes");
     let view = PinholeView::new(&lens, &raster, 10, &three, &distance).expect("sizes");
-    let image = Physical::new(view).image();
+    let image = PhysicalDefocus::new(view).image();
     let [a, b, c] = image.planes() else { panic!("three bands") };
     assert_eq!(a, c);
     for (a, b) in a.samples().iter().zip(b.samples()) {
         assert!((b / a - 2.0).abs() < 1e-6);
     }
-    let prepared = Physical::new(view);
+    let prepared = PhysicalDefocus::new(view);
     let rows: Vec<_> = (0..70).rev().map(|y| prepared.rows(y..y + 1)).collect();
     let rows: Vec<_> = rows.into_iter().rev().collect();
     assert_eq!(prepared.join(&rows), image);

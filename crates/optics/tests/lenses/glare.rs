@@ -23,7 +23,7 @@ fn effects(glare: Glare, margin: f64, width: usize, height: usize) -> (Effects, 
 fn glare_image(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f32) -> Plane<Irradiance> {
     let film = effects.film(raster);
     let samples = (0..film.width() * film.height()).map(|i| light(i % film.width(), i / film.width())).collect();
-    let film = Plane::from_samples(film.width(), film.height(), samples).expect("a sample a pixel");
+    let film = Plane::from_samples(film.width(), film.height(), samples).expect("one sample per pixel");
     effects
         .prepared(raster, WavelengthRange::new(500.0, 600.0), FilmPart::Whole)
         .apply(WavelengthRange::new(500.0, 600.0), &film, None)
@@ -100,7 +100,7 @@ fn the_kernel_within_a_circle_is_its_closed_form() {
 fn variances_go_through_the_squared_kernel() {
     let (effects, raster) = effects(glare(0.3, 10.0, 2.5, Some(0.05)), 0.0, 41, 41);
     let one = |i: usize| f32::from(u8::from(i == 20 * 41 + 20));
-    let film = Plane::from_samples(41, 41, (0..41 * 41).map(one).collect()).expect("a sample a pixel");
+    let film = Plane::from_samples(41, 41, (0..41 * 41).map(one).collect()).expect("one sample per pixel");
     let variance: Plane<Variance> = film.map(|v| v);
     let (mean, variance) = effects.prepared(&raster, WavelengthRange::new(500.0, 600.0), FilmPart::Whole).apply(
         WavelengthRange::new(500.0, 600.0),
@@ -137,7 +137,7 @@ fn what_cannot_be_is_refused() {
     let new = |scatter, core_um, exponent| {
         Glare::new(GlareParameters { scatter, core_um, exponent, reach_mm: None }).expect_err("illegal")
     };
-    assert_eq!(new(0.6, 1.0, 3.0), EffectsError::Scatter { share: 0.6, most: 0.5 });
+    assert_eq!(new(0.6, 1.0, 3.0), EffectsError::Scatter { fraction: 0.6, most: 0.5 });
     assert_eq!(new(0.1, 0.0, 3.0), EffectsError::NotPositive { key: "core_um", value: 0.0 });
     assert_eq!(new(0.1, 1.0, 2.0), EffectsError::Endless { exponent: 2.0 });
 }

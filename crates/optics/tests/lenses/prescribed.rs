@@ -210,12 +210,12 @@ fn the_report_obeys_third_order_theory() {
     let report = prescribed.report(6);
     let field = report.fields[1].image.as_ref().expect("an image");
     let height_mm = report.fields[1].height_mm;
-    // The Petzval surface lies beyond the sagittal focus by half the distance between the tangential and the sagittal focus.
+    // Third order: the tangential focus is three times as far from the Petzval surface as the sagittal focus, so p = (3 s − t)/2.
     let petzval_mm = height_mm * height_mm / (2.0 * report.first_order.petzval_radius_mm);
     let sagitta = 0.5 * (3.0 * field.sagittal_mm - field.tangential_mm);
     // At 1 mm of 49 mm the next order is some 1e-3.
     assert!((sagitta / petzval_mm - 1.0).abs() < 5e-3, "{sagitta} {petzval_mm}");
-    // Rays cross the axis of a defocused fan at the stop's image: the spot is that of the tangential and sagittal blur.
+    // The spot lies about the principal ray, to 0.1 µm.
     let spot = field.spot.expect("lit");
     assert!(spot.rms_mm < spot.radius_mm && (spot.centroid_mm - height_mm).abs() < 1e-4);
     assert_eq!(report.axial_colour_f_mm, 0.0, "a glass of one index");

@@ -33,7 +33,7 @@ fn spread(
 
 fn film() -> Plane<Irradiance> {
     let value = |i: usize| ((i * 7919 + 104_729) % 1013) as f32 / 1013.0;
-    Plane::from_samples(41, 31, (0..41 * 31).map(value).collect()).expect("a sample a pixel")
+    Plane::from_samples(41, 31, (0..41 * 31).map(value).collect()).expect("one sample per pixel")
 }
 
 fn point() -> Plane<Irradiance> {

@@ -4,7 +4,7 @@ use crate::camera::stored::{PinholeImages, StoredRadianceImage};
 use crate::plan::CameraBody;
 use etendue_core::quantity::Radiance;
 use etendue_core::{Bands, SpectralCube};
-use etendue_optics::defocus::{self, Physical};
+use etendue_optics::defocus::{self, PhysicalDefocus};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling};
 use rayon::prelude::*;
 
@@ -62,7 +62,7 @@ pub fn pupil_mean_radiance(
 
 /// Strips are independent of each other, so that threads do not change the result.
 fn physical(view: defocus::PinholeView<'_>) -> SpectralCube<Radiance> {
-    let prepared = Physical::new(view);
+    let prepared = PhysicalDefocus::new(view);
     let strips: Vec<_> = prepared.strips().collect();
     let strips: Vec<_> = strips.into_par_iter().map(|rows| prepared.rows(rows)).collect();
     prepared.join(&strips)

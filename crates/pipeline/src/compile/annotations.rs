@@ -162,7 +162,7 @@ fn difference_in_height(
     point_m: DVec3,
     right_px: Option<DVec2>,
 ) -> String {
-    let there = right_px.map_or_else(|| "not imaged".to_owned(), |seen| format!("at y = {:.3} px", seen.y));
+    let there = right_px.map_or_else(|| "not imaged".to_owned(), |pixel| format!("at y = {:.3} px", pixel.y));
     format!(
         "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is at y = {:.3} px in the first, \
          {there} in the second",

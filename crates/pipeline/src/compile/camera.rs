@@ -38,7 +38,8 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
 /// Warns of light from outside the image that the lens does not transmit.
 pub(super) fn warn_of_margin(body: &CameraBody, context: &mut Context<'_>) {
     if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
-        context.warn(format!("part of the light from outside the image, which the effects use, is missing: {error}"));
+        context
+            .warn(format!("part of the light from outside the image, which the lens effects use, is missing: {error}"));
     }
 }
 

@@ -7,7 +7,6 @@ use std::fmt::Display;
 
 /// An error of a model, with its code.
 pub(super) trait CodedError: Display {
-    /// Its code.
     fn code(&self) -> ErrorCode;
 }
 

@@ -2,7 +2,7 @@
 
 use super::coded_error::CodedError;
 use super::coverage::SpectralCoverage;
-use crate::plan::remark::{Note, Severity};
+use crate::plan::note::{Note, Severity};
 use etendue_core::{Epoch, ExactTime};
 pub(super) use etendue_scene::ErrorCode;
 use etendue_scene::asset::Assets;

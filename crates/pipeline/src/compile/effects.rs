@@ -42,8 +42,8 @@ pub(super) fn effects(
     };
     let requested = record.psf.as_ref().and_then(|psf| psf.spread_by.as_ref());
     let spread_by = requested.map(|requested| match requested.value {
-        description::SpreadBy::Film => SpreadMethod::Film,
-        description::SpreadBy::Samples => SpreadMethod::Samples,
+        description::PsfMethod::Film => SpreadMethod::Film,
+        description::PsfMethod::Samples => SpreadMethod::Samples,
     });
     let margin = record.margin.as_ref().map(|m| m.value);
     let effects = Effects::new(EffectsParameters { psf, spread_by, glare, ghosts, margin }, image_raster);
@@ -58,7 +58,7 @@ pub(super) fn effects(
 pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, context: &mut Context<'_>) {
     let requested = record.and_then(|effects| effects.psf.as_ref()).and_then(|psf| psf.spread_by.as_ref());
     if let (Some(requested), Route::Pupil(_)) = (requested, route)
-        && requested.value == description::SpreadBy::Samples
+        && requested.value == description::PsfMethod::Samples
     {
         let problem = "samples are displaced on the sensor, but route = \"pupil\" has no samples there";
         context.error(

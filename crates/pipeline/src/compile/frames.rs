@@ -21,7 +21,6 @@ struct PlacedFrame<'a> {
     parent: Option<&'a str>,
     /// Motion in the parent, followed by the rotation of a wheel, if any.
     own: Vec<Motion>,
-    /// To the world.
     to_world: OnceCell<Motion>,
 }
 

@@ -28,8 +28,8 @@ fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
     };
     let to_world = frames.world_motion(record.frame.as_ref(), Motion::constant(record.transform.to_world()));
     let shape = shape(record.shape.as_ref(), context)?;
-    let made = Medium::new(extinction?, albedo?, phase(record.phase.as_ref()), shape, to_world);
-    let medium = context.accept(&record.place, made)?;
+    let medium = Medium::new(extinction?, albedo?, phase(record.phase.as_ref()), shape, to_world);
+    let medium = context.accept(&record.place, medium)?;
     Some(with_unevenness(medium, record.unevenness.as_ref()))
 }
 

@@ -53,7 +53,7 @@ mod world;
 pub use choices::{Choices, Refinement};
 pub use lens::stated_projection;
 
-use crate::plan::remark::grouped;
+use crate::plan::note::grouped;
 use crate::plan::{
     CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence, hash_with_passes,
 };

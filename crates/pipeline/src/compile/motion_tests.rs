@@ -203,7 +203,7 @@ fn what_cannot_move_is_refused() {
     assert!(smooth.contains("is 0 at some time of its motion"), "{smooth}");
     let idle = plan(STILL, &format!("{CAR}{}", ball("position_m = [5, 0, 1]")), &[]).expect("no fault");
     assert!(
-        idle.notes.iter().any(|r| r.text == "not read: the frame that nothing is attached to: car"),
+        idle.notes.iter().any(|r| r.text == "not read: frame to which nothing is attached: car"),
         "{:?}",
         idle.notes
     );

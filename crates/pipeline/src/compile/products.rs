@@ -117,12 +117,12 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
     };
     if !(products.ground_truth || products.rays || products.picture) {
         let problem = "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", to which it \
-                       adds undistorted twins";
+                       adds undistorted images";
         context.error(ErrorCode::NoEffect, &key.place, problem, "request one of them, or remove the key");
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if products.picture && layout.is_some_and(|l| !l.is_whole()) {
-        let problem = "images of a region, or with binned or skipped pixels, have no undistorted twins";
+        let problem = "images of a region, or with binned or skipped pixels, have no undistorted images";
         context.error(
             ErrorCode::NotModelled,
             &key.place,

@@ -195,7 +195,8 @@ fn uniform_samples(render: &Render, choices: &Choices, context: &mut Context<'_>
     }
     let max_replicates = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
     if max_replicates == 1 {
-        context.note(format!("{spp} samples form one replicate, which gives no variance; an even number gives two"));
+        context
+            .note(format!("{spp} samples form one replicate, which gives no variance; use an even number of samples"));
     }
     (spp, max_replicates as u32)
 }

@@ -159,7 +159,7 @@ fn note_losses(
         context.note(format!("electrons are computed from band means and have no variance; use {remedy}"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
-        context.note("route = \"pupil\" without radiance = true: nothing is stored for expose");
+        context.note("route = \"pupil\" without radiance = true: no radiance is stored for the expose command");
     }
     if products.variance && products.irradiance && *route != Route::Lens {
         context.note("irradiance computed from stored radiance has no variance; the radiance has".to_owned());

@@ -60,8 +60,8 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<CompiledSky
     };
     let sun = match beam {
         Some(beam) => {
-            let made = Sun::from_irradiance(sunward.direction(), SUN_ANGULAR_DIAMETER_DEG, &beam);
-            Some(context.accept(place, made)?.with_limb())
+            let sun = Sun::from_irradiance(sunward.direction(), SUN_ANGULAR_DIAMETER_DEG, &beam);
+            Some(context.accept(place, sun)?.with_limb())
         }
         None => None,
     };

@@ -4,7 +4,7 @@ mod modulation;
 
 use super::{Choices, compile};
 use crate::Plan;
-use crate::plan::remark::{Note, Severity};
+use crate::plan::note::{Note, Severity};
 use etendue_optics::effects::PointSpread;
 use etendue_scene::asset::{Assets, ImageAsset, ImagePixels};
 use etendue_scene::{Description, Overrides, preset};
@@ -242,7 +242,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     assert!(error("", "").contains("contains no effect"));
     // The distortion folds outside the image, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
-    assert!(plan.notes.iter().any(|r| r.text.contains("which the effects use, is missing")), "{:?}", plan.notes);
+    assert!(plan.notes.iter().any(|r| r.text.contains("which the lens effects use, is missing")), "{:?}", plan.notes);
 }
 
 const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";

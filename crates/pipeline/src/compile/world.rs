@@ -87,14 +87,14 @@ impl Assembly {
         };
         asset.report.iter().for_each(|line| context.note(line));
         asset.warnings.iter().for_each(|line| context.warn(line));
-        let made = match record.animation() {
+        let mesh = match record.animation() {
             None => mesh_of(asset),
             Some(animation) => match vertex_animation::mesh(animation, asset, context) {
-                Some(made) => made,
+                Some(mesh) => mesh,
                 None => return,
             },
         };
-        let Some((mesh, dropped_triangles)) = context.accept(&file.place, made) else { return };
+        let Some((mesh, dropped_triangles)) = context.accept(&file.place, mesh) else { return };
         let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
         if dropped_triangles != DroppedTriangles::default() {
             let DroppedTriangles { zero_area, duplicate, .. } = dropped_triangles;

@@ -3,12 +3,12 @@
 mod camera;
 pub(crate) mod camera_body;
 pub(crate) mod film;
+pub mod note;
 mod passes;
 pub mod pixel_density;
 mod products;
 pub mod raw_colour;
 pub mod rectified;
-pub mod remark;
 mod row_exposure;
 mod settings;
 mod source_spectra;
@@ -16,7 +16,7 @@ mod timing;
 mod wavelength_sampling;
 mod weather;
 
-use crate::plan::remark::Note;
+use crate::plan::note::Note;
 use etendue_core::storage::ScratchStore;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;

@@ -122,7 +122,7 @@ mod tests {
         Spectrum::from_fn(|nm| if (low_nm..=high_nm).contains(&nm) { 2.0 } else { 0.0 })
     }
 
-    fn of(
+    fn density(
         sampling: WavelengthSampling,
         keeps_bands: bool,
         sources: &[Spectrum],
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn wavelengths_are_sampled_where_a_pixel_responds_and_a_few_everywhere() {
-        let density = of(WavelengthSampling::Response, true, &[], &between(500.0, 600.0));
+        let density = density(WavelengthSampling::Response, true, &[], &between(500.0, 600.0));
         let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
         // A third of the range has half of the density, in addition to a uniform half.
         assert!((inside - (0.5 + 0.5 * 3.0)).abs() < 0.05 && (outside - 0.5).abs() < 0.01, "{inside} {outside}");
@@ -145,7 +145,7 @@ mod tests {
         for sampling in
             [WavelengthSampling::Uniform, WavelengthSampling::Response, WavelengthSampling::ResponseAndSource]
         {
-            let density = of(sampling, false, &[between(500.0, 600.0)], &Spectrum::constant(0.0));
+            let density = density(sampling, false, &[between(500.0, 600.0)], &Spectrum::constant(0.0));
             assert!((300.0 * density.pdf(490.0) - 1.0).abs() < 1e-5);
         }
     }
@@ -156,7 +156,7 @@ mod tests {
         let lamp = [between(589.0, 590.0), between(430.0, 470.0).scaled(1e-3)];
         for (keeps_bands, response) in [(false, between(420.0, 610.0)), (true, Spectrum::constant(0.3))] {
             let [with, without] = [WavelengthSampling::ResponseAndSource, WavelengthSampling::Response]
-                .map(|sampling| of(sampling, keeps_bands, &lamp, &response));
+                .map(|sampling| density(sampling, keeps_bands, &lamp, &response));
             let mut sum = 0.0;
             for i in 0..3000 {
                 let nm = 400.05 + 0.1 * i as f32;

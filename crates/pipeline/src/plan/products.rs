@@ -119,9 +119,9 @@ impl Products {
         vec![
             flag("output.radiance", "spectral radiance", self.radiance, "radiance"),
             flag("output.irradiance", "spectral irradiance", self.irradiance, "irradiance"),
-            flag("output.ghosts", "ghosts by themselves", self.ghosts, "ghosts"),
+            flag("output.ghosts", "ghosts as a separate image", self.ghosts, "ghosts"),
             flag("output.variance", "variance", self.variance, "variance").as_modifier(),
-            silent(flag("output.sampling", "samples of pixels", self.sampling, "")),
+            silent(flag("output.sampling", "samples per pixel", self.sampling, "")),
             flag("output.electrons", "electrons", self.electrons, "electrons"),
             flag("output.raw", "raw", self.raw, raw),
             flag("output.signal_breakdown", "signal breakdown", self.signal_breakdown, "signal_breakdown"),
@@ -134,7 +134,7 @@ impl Products {
             ),
             flag("output.depth_png", "depth PNG", depth_png, "depth PNG"),
             flag("output.rays", "ray table", self.rays, "ray table"),
-            flag("output.undistorted", "undistorted twin", self.undistorted.is_some(), "the undistorted twin of these")
+            flag("output.undistorted", "undistorted images", self.undistorted.is_some(), "undistorted copies of these")
                 .as_modifier(),
             named("output.optical_flow", "optical flow", annotations.optical_flow.is_some(), "optical flow"),
             flag("output.scene_flow", "scene flow", annotations.scene_flow, "scene flow"),
@@ -142,7 +142,7 @@ impl Products {
             flag("output.boxes", "boxes", annotations.boxes, "boxes"),
             flag("output.tracks", "tracks", annotations.tracks, "tracks").as_modifier(),
             flag("output.cryptomatte", "Cryptomatte", annotations.cryptomatte, "Cryptomatte"),
-            flag("output.weather", "layers of weather", self.weather, "transmittance, airlight and cover"),
+            flag("output.weather", "weather layers", self.weather, "transmittance, airlight and cover"),
             flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files")
                 .as_modifier(),
         ]

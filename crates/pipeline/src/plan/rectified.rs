@@ -22,7 +22,7 @@ const MAX_FIELD_DEG: f64 = 85.0;
 pub enum RectifiedCameraError {
     /// Rays that do not meet.
     #[error(
-        "a telecentric camera has no undistorted twin: its rays are parallel and already undistorted; remove the key"
+        "a telecentric camera has no undistorted image: its rays are parallel and already undistorted; remove the key"
     )]
     Telecentric,
     /// A field too wide for a plane.
@@ -36,11 +36,11 @@ pub enum RectifiedCameraError {
     },
     /// A camera without light at its principal point.
     #[error(
-        "the camera sees nothing at its principal point, so its undistorted twin has no focal length; remove the key"
+        "the camera sees nothing at its principal point, so its undistorted image has no focal length; remove the key"
     )]
     Blind,
     /// Rays that an element before the lens bends.
-    #[error("a camera with a {what} has no undistorted twin: no camera matrix describes its rays; remove the key")]
+    #[error("a camera with a {what} has no undistorted image: no camera matrix describes its rays; remove the key")]
     Front {
         /// The element before the lens.
         what: &'static str,

@@ -23,7 +23,6 @@ pub(crate) struct SourceResponse {
     pub(crate) weight: f64,
     /// Responsivity times spectrum.
     pub(crate) product: Spectrum,
-    /// Its integral.
     pub(crate) integral: f64,
 }
 

@@ -156,7 +156,7 @@ mod tests {
     use crate::plan::{AdaptiveSampling, NumberedPass};
     use crate::render::film::Film;
     use crate::render::light::{RaySource, RenderJob, Sampling};
-    use crate::render::observer::Unobserved;
+    use crate::render::observer::NullObserver;
     use crate::render::test_job::{sampling, still_job};
     use crate::sizes::spectrum_spread::SpectrumSpread;
     use etendue_core::random::Draw;
@@ -200,7 +200,7 @@ mod tests {
             Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(NumberedPass::only(4096), 8) };
         let job = still_job(&ColumnRays, [64, ROWS as u32], layout, sampling);
         let job = RenderJob { tolerance: Some(tolerance), tile_px, ..job };
-        job.gather::<1>(field, None, &Unobserved).expect("not cancelled")
+        job.gather::<1>(field, None, &NullObserver).expect("not cancelled")
     }
 
     /// Rows of the film.

@@ -2,7 +2,7 @@
 
 use super::film::Film;
 use super::light::{RaySource, RenderError, RenderJob};
-use super::observer::Unobserved;
+use super::observer::NullObserver;
 use super::test_job::{sampling, still_job};
 use crate::plan::{NumberedPass, Pass, Passes};
 use crate::sizes::film::FilmLayout;
@@ -87,7 +87,7 @@ fn gather_film(
         FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
     let store: Option<Arc<dyn ScratchStore>> = store.map(|store| -> Arc<dyn ScratchStore> { Arc::new(store) });
     let job = still_job(&ForwardRays, SIZE, layout, sampling(pass, replicates));
-    RenderJob { shard, scratch: store.as_ref(), ..job }.gather::<4>(&NoisyField, before, &Unobserved)
+    RenderJob { shard, scratch: store.as_ref(), ..job }.gather::<4>(&NoisyField, before, &NullObserver)
 }
 
 /// Bits of all bands, with rows requested in strips that match no tile.

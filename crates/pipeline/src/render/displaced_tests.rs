@@ -2,7 +2,7 @@
 
 use super::film::Film;
 use super::light::{RaySource, RenderJob};
-use super::observer::Unobserved;
+use super::observer::NullObserver;
 use super::test_job::{sampling, still_job};
 use crate::plan::NumberedPass;
 use crate::sizes::film::FilmLayout;
@@ -42,7 +42,7 @@ fn film(field: &BarField, spread: Option<&SampleSpread>, spp: u32) -> Film {
     let layout =
         FilmLayout { bands: Bands::covering(400.0, 700.0, 75.0), accumulates_electrons: false, watched: false };
     let job = still_job(&PositionRays, [SIDE, SIDE], layout, sampling(NumberedPass::only(spp), 4));
-    RenderJob { sample_spread: spread, ..job }.gather::<4>(field, None, &Unobserved).expect("not cancelled")
+    RenderJob { sample_spread: spread, ..job }.gather::<4>(field, None, &NullObserver).expect("not cancelled")
 }
 
 fn means(film: &Film) -> Vec<f64> {

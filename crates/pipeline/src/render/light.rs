@@ -4,11 +4,11 @@ use crate::plan::NumberedPass;
 use crate::render::exposure::{FilmExposure, FrameCapture};
 use crate::render::film::Film;
 use crate::render::gather::{PixelLight, ReplicateMoments, ReplicateSums};
-use crate::render::heroes::{ReplicateNumbers, WavelengthNumbers};
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
+use crate::render::wavelength_numbers::{ReplicateNumbers, WavelengthNumbers};
 use crate::sizes::block::Blocks;
 use crate::sizes::film::{FilmLayout, has_variance};
 use crate::sizes::spectrum_spread::SpectrumSpread;
@@ -350,7 +350,8 @@ impl RenderJob<'_> {
         }
     }
 
-    /// Number that determines the times of a block's samples: that of the block's first pixel.
+    /// Random number in [0, 1) of the time of a sample, from the stream of the block's first pixel, so that all pixels of a block share it; 0 if samples
+    /// have no individual times.
     pub(super) fn time_number(&self, stream: &PathStream) -> f32 {
         if self.exposure.has_sample_times() { stream.one(Draw::Time, 0) } else { 0.0 }
     }

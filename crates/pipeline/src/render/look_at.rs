@@ -11,7 +11,6 @@ use glam::{DVec2, DVec3};
 
 /// A frame of a camera and the world during it.
 pub(crate) struct GroundTruthView<'a> {
-    /// The frame.
     pub(crate) frame: FrameView<'a>,
     plan: &'a Plan,
     view: RenderSpace<'a>,

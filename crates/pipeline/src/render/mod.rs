@@ -25,7 +25,6 @@ pub mod exposure;
 pub mod film;
 pub mod frame_view;
 pub mod gather;
-mod heroes;
 pub mod identity_coverage;
 pub mod light;
 mod look_at;
@@ -47,6 +46,7 @@ pub mod tile_bands;
 pub mod tiled_cube;
 pub mod training;
 pub mod truth;
+mod wavelength_numbers;
 pub mod weather_layers;
 
 pub use camera_light::{FilmStorage, LightRequest, change_over, light, light_counts, pass};

@@ -5,7 +5,7 @@ use crate::sizes::tolerance::Tolerance;
 
 /// Result of noise-limited sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoiseReached {
+pub struct NoiseLimitResult {
     /// Mean samples per pixel.
     pub mean_spp: f64,
     /// Minimum and maximum samples of a pixel.
@@ -16,7 +16,7 @@ pub struct NoiseReached {
     pub beyond_limit_fraction: f64,
 }
 
-impl NoiseReached {
+impl NoiseLimitResult {
     /// Evaluates the pixels of a film that have samples, at most `max_spp` each; `None` without a monitored signal or without samples.
     #[must_use]
     pub fn new(film: &Film, tolerance: &Tolerance, max_spp: u32) -> Option<Self> {

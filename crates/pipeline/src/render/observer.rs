@@ -17,9 +17,9 @@ pub trait Observer: Sync {
 
 /// An observer that ignores progress and never cancels.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Unobserved;
+pub struct NullObserver;
 
-impl Observer for Unobserved {
+impl Observer for NullObserver {
     fn tiles(&self, _done: usize, _total: usize) {}
 
     fn cancelled(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::film::Film;
 use super::light::RaySource;
-use super::observer::Unobserved;
+use super::observer::NullObserver;
 use super::test_job::{sampling, still_job};
 use crate::plan::{NumberedPass, Pass, Passes};
 use crate::sizes::film::FilmLayout;
@@ -39,7 +39,7 @@ fn pass_of(pass: NumberedPass, before: Option<&Film>) -> Film {
     let layout =
         FilmLayout { bands: Bands::covering(400.0, 700.0, 50.0), accumulates_electrons: false, watched: false };
     let job = still_job(&ForwardRays, [WIDTH as u32, HEIGHT as u32], layout, sampling(pass, 4));
-    job.gather::<4>(&NoisyField, before, &Unobserved).expect("not cancelled")
+    job.gather::<4>(&NoisyField, before, &NullObserver).expect("not cancelled")
 }
 
 fn passes() -> Passes {

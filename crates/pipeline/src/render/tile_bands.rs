@@ -60,7 +60,6 @@ impl TileBands {
         }
     }
 
-    /// The tile.
     pub(super) fn tile(&self) -> Tile {
         self.tile
     }

@@ -92,11 +92,11 @@ pub(crate) fn film_work(plan: &Plan, camera: &CameraPlan) -> Vec<FilmWork> {
         work(Effect::PointSpread.name(), point_spread(camera)),
         work(Effect::Glare.name(), glare(camera)),
         FilmWork { name: Effect::Ghosts.name(), cpu_s: ghosts_s, holds_for },
-        work("the lens on the picture", if applies_lens(plan, camera) { at_pupil(camera) } else { 0.0 }),
+        work("lens applied to the image", if applies_lens(plan, camera) { at_pupil(camera) } else { 0.0 }),
         work("ground truth", truth(camera)),
         work("spectral files", files(camera)),
-        work("layers of weather", weather(camera)),
-        work("the sensor", sensor(camera)),
+        work("weather layers", weather(camera)),
+        work("sensor", sensor(camera)),
         work("processing", processing(camera)),
     ]
 }

@@ -1,6 +1,6 @@
 //! Warnings of a plan that a render repeats: reasons for which the image may differ from the user's intent.
 
-use crate::plan::remark::{Severity, grouped};
+use crate::plan::note::{Severity, grouped};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::{light_counts, surrounding_object};
 use crate::report::mesh_sizes;

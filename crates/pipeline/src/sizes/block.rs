@@ -7,7 +7,7 @@ use crate::sizes::tile::Tile;
 use etendue_core::maths::least_common_multiple;
 use etendue_core::random::Pixel;
 
-/// Minimum side of a cell, px: if bright light is rare, fewer pixels cannot estimate it together.
+/// Minimum side of the cells whose pixels estimate their noise together, px: fewer pixels miss light that only rare samples find.
 const CELL_PX: u32 = 16;
 
 /// Division of a frame into blocks.
@@ -46,7 +46,7 @@ impl Blocks {
         (self.side * self.stride.0, self.side * self.stride.1)
     }
 
-    /// Smallest side of a tile, at least `wanted`, that does not split a block.
+    /// Smallest side of a tile, at least `requested_px`, that does not split a block.
     #[must_use]
     pub fn tile_px(self, requested_px: u32) -> u32 {
         let (columns, rows) = self.cell();

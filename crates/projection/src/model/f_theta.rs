@@ -7,7 +7,7 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::profile::{AffineMapped, FieldEdge, Profile, Projection};
+use super::profile::{AffineProfile, FieldEdge, Profile, Projection};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
@@ -23,7 +23,7 @@ pub enum FThetaSense {
 
 /// The f-theta model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FTheta(AffineMapped<FThetaPolynomial>);
+pub struct FTheta(AffineProfile<FThetaPolynomial>);
 
 impl FTheta {
     /// Creates the camera from c₀ = 0, c₁, c₂, …, up to a field angle.
@@ -43,7 +43,7 @@ impl FTheta {
         let inside = greatest_angle_rad > 0.0 && greatest_angle_rad <= PI;
         legal("the greatest angle", greatest_angle_rad.to_degrees(), inside, "above 0° and no more than 180°")?;
         affine.check()?;
-        Ok(Self(AffineMapped { profile: FThetaPolynomial::new(sense, coefficients, greatest_angle_rad), affine }))
+        Ok(Self(AffineProfile { profile: FThetaPolynomial::new(sense, coefficients, greatest_angle_rad), affine }))
     }
 
     /// Direction of the polynomial.

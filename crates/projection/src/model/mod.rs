@@ -16,7 +16,7 @@
 //! | [`DoubleSphere`] | sin θ/(α d + (1 − α)(ξ + cos θ)) | by ξ, α |
 //! | [`Ocam`] | tan θ = −r/f(r), then an affine map | by f |
 //! | [`FTheta`] | a polynomial r(θ) or θ(r), then an affine map | as stated |
-//! | [`Tabulated`] | θ q(θ), q a spline through a table | as far as the table |
+//! | [`TabulatedProjection`] | θ q(θ), q a spline through a table | as far as the table |
 //! | [`Ideal`] | equidistant, equisolid, stereographic, orthographic, rectilinear | 180° or 90° |
 //! | [`Panorama`] | cylindrical, equirectangular | the sphere |
 //!
@@ -51,7 +51,7 @@ pub use ocam::Ocam;
 pub use perspective::{Division, FieldOfView, Perspective};
 pub use profile::{DirectionAndSolidAngle, FieldEdge};
 pub use spherical::{DoubleSphere, ExtendedUnified, Unified};
-pub use tabulated::Tabulated;
+pub use tabulated::TabulatedProjection;
 
 pub(crate) use profile::field_angle;
 
@@ -81,7 +81,7 @@ pub enum Model {
     /// F-theta polynomial.
     FTheta(FTheta),
     /// A table.
-    Tabulated(Tabulated),
+    Tabulated(TabulatedProjection),
     /// An ideal projection about the axis.
     Ideal(Ideal),
     /// A panorama.

@@ -11,14 +11,14 @@
 use etendue_core::maths::f64::atan2;
 
 use super::ModelError;
-use super::profile::{AffineMapped, FieldEdge, Profile, Projection};
+use super::profile::{AffineProfile, FieldEdge, Profile, Projection};
 use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 
 /// Scaramuzza's model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ocam(AffineMapped<OcamPolynomial>);
+pub struct Ocam(AffineProfile<OcamPolynomial>);
 
 impl Ocam {
     /// Creates the camera from a₀, a₁, … (px, …) and the affine map.
@@ -30,7 +30,7 @@ impl Ocam {
         let a0 = coefficients.first().copied().unwrap_or(0.0);
         legal("a0", a0, a0 < 0.0, "a negative number of pixels (a camera that looks along its axis)")?;
         affine.check()?;
-        Ok(Self(AffineMapped { profile: OcamPolynomial::new(coefficients), affine }))
+        Ok(Self(AffineProfile { profile: OcamPolynomial::new(coefficients), affine }))
     }
 
     /// a₀, a₁, …

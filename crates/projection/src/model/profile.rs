@@ -175,12 +175,12 @@ impl<P: Profile> Projection for DistortedProfile<P> {
 
 /// r(θ), then an affine map.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct AffineMapped<P> {
+pub(super) struct AffineProfile<P> {
     pub(super) profile: P,
     pub(super) affine: Affine,
 }
 
-impl<P: Profile> Projection for AffineMapped<P> {
+impl<P: Profile> Projection for AffineProfile<P> {
     fn edge(&self) -> FieldEdge {
         Profile::edge(&self.profile)
     }

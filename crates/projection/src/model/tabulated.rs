@@ -13,7 +13,7 @@ use crate::root::{first_sign_change, increasing};
 
 /// A projection by a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tabulated {
+pub struct TabulatedProjection {
     /// Field angles from 0, rad, with the spline at each.
     knots: Vec<Knot>,
 }
@@ -30,7 +30,7 @@ struct Knot {
     second_derivative: f64,
 }
 
-impl Tabulated {
+impl TabulatedProjection {
     /// Creates the curve through (field angle, rad; radius in units of the image plane), two or more points beyond the axis; the axis itself is not
     /// included.
     ///
@@ -41,8 +41,8 @@ impl Tabulated {
         let mut last = (0.0, 0.0);
         for (angle, radius) in points.iter().copied() {
             let rises = angle > last.0 && angle <= PI;
-            legal("a field angle", angle.to_degrees(), rises, "angles that rise from above 0° to 180° at most")?;
-            legal("a radius", radius, radius > last.1 && radius.is_finite(), "radii that rise with the angles")?;
+            legal("a field angle", angle.to_degrees(), rises, "angles that increase from above 0° to 180° at most")?;
+            legal("a radius", radius, radius > last.1 && radius.is_finite(), "radii that increase with the angles")?;
             last = (angle, radius);
         }
         let [first, second] = [points[0], points[1]].map(|(angle, radius)| (angle * angle, radius / angle));
@@ -75,8 +75,8 @@ impl Tabulated {
             let t = from.angle;
             let slope = [c0 + t * c1, 2.0 * (c1 + t * c2), 3.0 * (c2 + t * c3), 4.0 * c3];
             let falls = slope[0] <= 0.0 || first_sign_change(&slope, h).is_some();
-            let expected = "a table whose curve rises everywhere; check its numbers, since its points jump";
-            legal("a field angle before which the radius falls", pair[1].angle.to_degrees(), !falls, expected)?;
+            let expected = "a table whose curve increases everywhere; check the table for jumps";
+            legal("a field angle before which the radius decreases", pair[1].angle.to_degrees(), !falls, expected)?;
         }
         Ok(())
     }
@@ -125,7 +125,7 @@ fn solve_second_derivatives(knots: &mut [Knot]) {
     }
 }
 
-impl Profile for Tabulated {
+impl Profile for TabulatedProjection {
     fn edge(&self) -> FieldEdge {
         FieldEdge::end(self.knots[self.knots.len() - 1].angle)
     }
@@ -152,10 +152,10 @@ mod tests {
     use super::*;
     use etendue_core::maths::f64::{sin, tan};
 
-    fn table(r: impl Fn(f64) -> f64, maximum: f64, count: usize) -> Tabulated {
+    fn table(r: impl Fn(f64) -> f64, maximum: f64, count: usize) -> TabulatedProjection {
         let at = |i: usize| maximum * (i + 1) as f64 / count as f64;
         let points: Vec<(f64, f64)> = (0..count).map(|i| (at(i), r(at(i)))).collect();
-        Tabulated::new(&points).expect("a rising table")
+        TabulatedProjection::new(&points).expect("a rising table")
     }
 
     #[test]
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn points_are_exact_and_bad_tables_refused() {
         let points = [(0.1, 1.0), (0.25, 2.4), (0.3, 2.95), (0.6, 5.5)];
-        let tabulated = Tabulated::new(&points).expect("rising");
+        let tabulated = TabulatedProjection::new(&points).expect("rising");
         for (angle, radius) in points {
             assert!((tabulated.value(angle)[0] - radius).abs() < 1e-12);
         }
@@ -198,7 +198,7 @@ mod tests {
             &[(0.1, 1.0), (0.2, 9.0), (0.3, 9.01), (0.4, 9.02)],
             &[(0.1, 0.1), (0.2, f64::NAN)],
         ] {
-            Tabulated::new(bad).expect_err("no lens");
+            TabulatedProjection::new(bad).expect_err("no lens");
         }
     }
 }

@@ -125,9 +125,9 @@ fn beyond_the_fold_there_is_nothing() {
 
 proptest! {
     #[test]
-    fn the_inverse_inverts(k1 in -0.5..0.5f64, k2 in -0.2..0.2f64, share in 0.0..0.98f64) {
+    fn the_inverse_inverts(k1 in -0.5..0.5f64, k2 in -0.2..0.2f64, fraction in 0.0..0.98f64) {
         let p = RadialPolynomial::new(k1, k2);
-        let r = share * p.fold().min(4.0);
+        let r = fraction * p.fold().min(4.0);
         let back = p.inverse(p.forward(r).expect("before the fold")).expect("before the fold");
         // The root's condition number is r′/(r · dr′/dr) ≤ 1/0.04 at 98 % of the fold.
         prop_assert!((back - r).abs() <= 1e-12 * r, "{back} for {r}");

@@ -84,7 +84,10 @@ impl ChartCamera {
         let message = || {
             Error::coded(
                 ErrorCode::InvalidArgument,
-                format!("{}: give a path without quotes and backslashes", file.display()),
+                format!(
+                    "{}: the path contains a quote or a backslash, or is not UTF-8; give another path",
+                    file.display()
+                ),
             )
         };
         text.map(str::to_owned).ok_or_else(message)

@@ -87,7 +87,7 @@ pub(crate) fn write_frames<'a>(
         }
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
-            let sentence = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
+            let sentence = format!("frame {number}: pixels without valid light, whose digital number is 0: {count}");
             frame_products.observer.message(Message::Warning(&sentence));
         }
         let file = products.raw.then(|| ResultFiles::raw(number, products.raw_format));

@@ -16,7 +16,6 @@ const BLACK_DN: f64 = 0.5;
 /// Mean, and fractions at both ends of the range, of a frame.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct FrameLevels {
-    /// Mean, DN.
     mean_dn: f64,
     /// Fraction of pixels at or above the white level.
     clipped_fraction: f64,

@@ -135,7 +135,7 @@ pub(crate) fn undistorted(rectified: &RectifiedCamera) -> Value {
         "camera_matrix_opencv": rectified.matrix.to_opencv().rows(),
         "width_px": rectified.body().raster.width(),
         "height_px": rectified.body().raster.height(),
-        "ground_truth": "traced along the twin's own rays from the centre of the entrance pupil",
+        "ground_truth": "traced along the undistorted camera's own rays from the centre of the entrance pupil",
         "picture": "the camera's, resampled linearly in linear light; black outside the camera's field of view",
     })
 }

@@ -184,14 +184,13 @@ impl ResultFiles {
         );
         files.add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
         let has_rectified = p.undistorted.is_some();
-        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        let planes = entry("depth, distance, normal, position, ids of the undistorted image", "m, m, 1, m, 1");
         files.add(has_rectified && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
-        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        let rays = entry("origin and direction of each pixel's ray of the undistorted image, camera frame", "m, 1");
         files.add(has_rectified && p.rays, &Self::undistorted(Self::RAYS), rays);
         files.0.into_iter().collect()
     }
 
-    /// Files of frames.
     fn frame_files(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |is_wanted: bool, name: &str, entry: Value| {

@@ -203,7 +203,7 @@ pub(crate) fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error
     match film.not_finite_samples() {
         0 => Ok(()),
         count => Err(Error::Run(format!(
-            "camera {}: {count} samples of its light are not finite, so no results are written; a light is too \
+            "camera {}: some samples of its light are not finite ({count}), so no results are written; a light is too \
              bright or too near for 32-bit floats: lower it or move it",
             camera.name
         ))),

@@ -9,7 +9,7 @@ use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress,
 use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::noise_reached::NoiseReached;
+use etendue_pipeline::noise_reached::NoiseLimitResult;
 use etendue_pipeline::plan::{CameraPlan, NumberedPass, TimeDependence};
 use etendue_pipeline::render::{FrameCapture, LightRequest, pass};
 use etendue_pipeline::tile::Tile;
@@ -99,7 +99,7 @@ impl etendue_pipeline::Observer for WatchedPass<'_> {
 /// Reports the samples taken by noise-limited sampling, and whether the limit was reached.
 pub(super) fn report_noise(camera: &CameraPlan, frame_capture: FrameCapture, film: &Film, observer: &dyn Observer) {
     let Some((limit, tolerance)) = camera.settings.adaptive.zip(camera.tolerance()) else { return };
-    let Some(reached) = NoiseReached::new(film, &tolerance, camera.settings.spp) else { return };
+    let Some(reached) = NoiseLimitResult::new(film, &tolerance, camera.settings.spp) else { return };
     let place = match camera.time {
         TimeDependence::None => format!("camera {}", camera.name),
         _ => format!("camera {}, frame {}, capture {}", camera.name, frame_capture.frame, frame_capture.capture),
@@ -107,7 +107,7 @@ pub(super) fn report_noise(camera: &CameraPlan, frame_capture: FrameCapture, fil
     let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
     let (min_spp, max_spp) = reached.range_spp;
     observer.message(Message::Note(&format!(
-        "{place}: {:.1} samples a pixel ({min_spp} to {max_spp}); standard error {:.3} of {of} (root mean square; requested {})",
+        "{place}: {:.1} samples per pixel ({min_spp} to {max_spp}); standard error {:.3} of {of} (root mean square; requested {})",
         reached.mean_spp,
         limit.threshold * reached.error,
         limit.threshold

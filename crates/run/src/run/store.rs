@@ -8,7 +8,7 @@ use super::films::check_finite;
 use crate::film_file::{self, FilmOrigin, StoredPasses, holds_state, state_name};
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::results::{CameraResults, DoneFrames, FrameSequence};
-use etendue_core::observer::{Message, Observer, Unobserved};
+use etendue_core::observer::{Message, NullObserver, Observer};
 use etendue_io::failure::Error;
 use etendue_io::{ExistingFiles, OutputFolder};
 use etendue_pipeline::Plan;
@@ -21,7 +21,6 @@ use std::sync::Arc;
 /// Stored light of a film.
 #[derive(Debug)]
 pub(crate) enum StoredLight {
-    /// None.
     None,
     /// Light of some passes, from an interrupted run.
     Passes(Film, StoredPasses),
@@ -227,7 +226,7 @@ impl RunStore for RunFolder<'_> {
     fn refine(&mut self, results: &mut dyn Iterator<Item = Result<CameraResults, Error>>) -> Result<(), Error> {
         let Some(folder) = self.progressive() else { return Ok(()) };
         for camera in results {
-            camera?.write_light(folder, &Unobserved)?;
+            camera?.write_light(folder, &NullObserver)?;
         }
         folder.publish().map_err(Error::run)?;
         Ok(())

@@ -97,7 +97,6 @@ impl<'a> TimedPasses<'a> {
         self.round.as_ref().map_or(&self.passes, |round| &round.passes)
     }
 
-    /// The completed passes.
     pub(super) fn completed_passes(&self) -> &Passes {
         &self.passes
     }
@@ -226,7 +225,7 @@ impl<'a> TimedPasses<'a> {
             _ => String::new(),
         };
         self.observer.message(Message::Note(&format!(
-            "{:.2} s of light (`time_s` {}): {} samples a pixel; {replicates}`set` \"render.passes={}\" gives the same bytes",
+            "{:.2} s of rendering (`time_s` {}): {} samples per pixel; {replicates}`set` \"render.passes={}\" gives the same bytes",
             self.watch.elapsed_s(),
             self.total_s,
             self.passes.mean_spp(),

@@ -21,17 +21,17 @@ pub enum LensNumbers {
     /// Angle from the axis, degrees, from 0; radius over that of `beside`, whose focal length is `focal_length_mm` if the file states it.
     Distortion {
         /// The lens without distortion.
-        reference: Undistorted,
+        reference: UndistortedProjection,
         /// Focal length of that lens, mm; `None` if the file does not state it.
         focal_length_mm: Option<f64>,
     },
-    /// Spatial frequency on the image, cycles/mm, rising; modulation, 1 at 0.
+    /// Spatial frequency on the image, cycles/mm, increasing; modulation, 1 at 0.
     Modulation,
 }
 
 /// Projection of a lens without distortion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Undistorted {
+pub enum UndistortedProjection {
     /// r = f tan θ.
     Tangent,
     /// r = f θ.
@@ -43,7 +43,7 @@ pub enum Undistorted {
 pub struct LensTableAsset {
     /// Meaning of its numbers.
     pub numbers: LensNumbers,
-    /// Pairs of numbers, the first rising.
+    /// Pairs of numbers, the first increasing.
     pub points: Vec<(f64, f64)>,
     /// Interpreted and ignored content of the file, one sentence each.
     pub notes: Vec<String>,

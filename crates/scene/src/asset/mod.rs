@@ -19,7 +19,7 @@ mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use large_image::{LargeImage, PixelFormat, PixelRows, RowReceiver, TexelStore};
-pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, Undistorted};
+pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, UndistortedProjection};
 pub use mesh::{ColourMatrix, ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};

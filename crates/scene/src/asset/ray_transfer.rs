@@ -42,7 +42,7 @@ pub struct RayTransferAsset {
     pub thickness_mm: f64,
     /// Distance of the input plane from the rear vertex towards the sensor, mm.
     pub input_offset_mm: f64,
-    /// Functions by rising wavelength.
+    /// Functions by increasing wavelength.
     pub transfers: Vec<TransferAsset>,
     /// Ignored content, one sentence each.
     pub notes: Vec<String>,

@@ -3,7 +3,7 @@
 /// Complex refractive index n + i k by wavelength, as stored in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComplexIndexAsset {
-    /// Wavelength (nm, rising), n (above 0) and k (0 or more).
+    /// Wavelength (nm, increasing), n (above 0) and k (0 or more).
     pub points: Vec<(f64, f64, f64)>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
@@ -12,9 +12,9 @@ pub struct ComplexIndexAsset {
 /// Coefficients of retro-reflection R_A (cd·lx⁻¹·m⁻²) by observation and entrance angle (CIE 54.2; ASTM E810).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RetroTableAsset {
-    /// Observation angles between the directions to the light and to the observer, degrees, rising, 0 … 180.
+    /// Observation angles between the directions to the light and to the observer, degrees, increasing, 0 … 180.
     pub observation_deg: Vec<f64>,
-    /// Entrance angles between the direction to the light and the normal, degrees, rising, 0 … 90.
+    /// Entrance angles between the direction to the light and the normal, degrees, increasing, 0 … 90.
     pub entrance_deg: Vec<f64>,
     /// R_A: all entrance angles of the first observation angle, then of the next; 0 or more.
     pub coefficients: Vec<f64>,

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 /// The rows of a trajectory, in the axes of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrajectoryAsset {
-    /// Rows, one or more, with rising, distinct times.
+    /// Rows, one or more, with increasing, distinct times.
     pub rows: Vec<TrajectoryRow>,
     /// Columns that were not read.
     pub unread: Vec<String>,

@@ -83,8 +83,8 @@ error_codes! {
         "Rename or remove one of them.",
         Example::keys("name = \"towers\"", "name = \"ball\"");
     WrongOrder "wrong-order":
-        "Values that must rise do not, or the end of a range is before its start.",
-        "Give the values in rising order.",
+        "Values that must increase do not, or the end of a range is before its start.",
+        "Give the values in increasing order.",
         Example::keys("wavelength_range_nm = [800, 350]", "wavelength_range_nm = [350, 800]");
     WrongCount "wrong-count":
         "A list has too many or too few entries: for example, one is needed for each channel or for each value of another list.",

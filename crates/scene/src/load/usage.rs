@@ -71,10 +71,10 @@ impl UnusedNames {
             count => Some(format!("not read: {count} {many}: {}", listed(names))),
         };
         let kinds = [
-            note(&self.meshes, "the mesh that no object uses", "meshes that no object uses"),
-            note(&self.materials, "the material that no object uses", "materials that no object uses"),
-            note(&self.textures, "the texture that no used material has", "textures that no used material has"),
-            note(&self.frames, "the frame that nothing is attached to", "frames that nothing is attached to"),
+            note(&self.meshes, "mesh used by no object", "meshes used by no object"),
+            note(&self.materials, "material used by no object", "materials used by no object"),
+            note(&self.textures, "texture used by no material in use", "textures used by no material in use"),
+            note(&self.frames, "frame to which nothing is attached", "frames to which nothing is attached"),
         ];
         kinds.into_iter().flatten().collect()
     }

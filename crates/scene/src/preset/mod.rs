@@ -92,8 +92,8 @@ fn spell_out_material(material: &mut Table, errors: &mut DescriptionErrors) {
         );
         return;
     }
-    let found = word(&named.node, &names(), errors).and_then(|name| all().iter().find(|p| p.name == name));
-    match found {
+    let preset = word(&named.node, &names(), errors).and_then(|name| all().iter().find(|p| p.name == name));
+    match preset {
         Some(preset) => {
             let preset_entries = preset.keys.entries.iter().filter(|e| !is_given(material, &e.key));
             let entries: Vec<_> = preset_entries.map(|e| e.with_place(&named.node.place)).collect();

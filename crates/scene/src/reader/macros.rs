@@ -86,7 +86,7 @@ macro_rules! field {
         <$ty as $crate::reader::Record>::read_keys($reader, $faults)
     };
     (read group $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
-        if <$ty as $crate::reader::Record>::keys().iter().any(|k| $reader.given(k).is_some()) {
+        if <$ty as $crate::reader::Record>::keys().iter().any(|k| $reader.place_of(k).is_some()) {
             <$ty as $crate::reader::Record>::read_keys($reader, $faults).map(Some)
         } else {
             Some(None)
@@ -379,14 +379,14 @@ pub(crate) fn only_key<'k>(
     keys: &[&'k str],
     errors: &mut DescriptionErrors,
 ) -> Option<&'k str> {
-    let present: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
+    let present: Vec<_> = keys.iter().filter(|k| reader.place_of(k).is_some()).copied().collect();
     if let [only] = present.as_slice() {
         return Some(only);
     }
     for key in &present {
         reader.take(key);
     }
-    let place = present.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
+    let place = present.last().and_then(|k| reader.place_of(k)).unwrap_or(reader.place());
     let (code, problem) = match present.as_slice() {
         [] => (ErrorCode::MissingKey, "a key is missing".to_owned()),
         _ => (ErrorCode::Contradiction, format!("{} contradict each other", quoted(&present))),

@@ -13,7 +13,7 @@ mod word;
 pub(crate) use any_value::{any_value, unread_item};
 pub(crate) use etendue_core::words;
 pub(crate) use macros::{keyed, record, variant, variants};
-pub(crate) use number::{NumberRule, among, number, percentile, time, vector, whole};
+pub(crate) use number::{NumberRule, among, integer, number, percentile, time, vector};
 pub(crate) use rule::{Rule, RuleExt, ValueKind, either, exactly, keyed_by_name, list, record};
 pub(crate) use table::{Form, Key, Reader, Record};
 pub(crate) use word::{KnownNameRule, choice, file_name, flag, known, name_of, path, text, word};

@@ -188,11 +188,11 @@ impl Rule for ExactTimeRule {
 }
 
 /// A whole number from `low` to `high`.
-pub(crate) const fn whole(low: u64, high: u64) -> IntegerRule {
+pub(crate) const fn integer(low: u64, high: u64) -> IntegerRule {
     IntegerRule { low, high }
 }
 
-/// See [`whole`].
+/// See [`integer`].
 #[derive(Clone, Copy)]
 pub(crate) struct IntegerRule {
     low: u64,

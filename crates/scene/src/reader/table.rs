@@ -251,7 +251,7 @@ impl<'t> Reader<'t> {
     }
 
     /// Place of the key, if given.
-    pub(crate) fn given(&self, key: &str) -> Option<&'t Place> {
+    pub(crate) fn place_of(&self, key: &str) -> Option<&'t Place> {
         self.table.entries.iter().find(|e| e.key == key).map(|e| &e.place)
     }
 

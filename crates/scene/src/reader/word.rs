@@ -269,15 +269,15 @@ pub(crate) fn one_of(words: &[&str]) -> String {
 
 /// Returns the text of the node, which must be one of `words`.
 pub(crate) fn word<'n>(node: &'n Node, words: &[&str], errors: &mut DescriptionErrors) -> Option<&'n str> {
-    let found = node.as_text();
-    if let Some(text) = found.filter(|t| words.contains(t)) {
+    let text = node.as_text();
+    if let Some(text) = text.filter(|t| words.contains(t)) {
         return Some(text);
     }
     if matches!(node.value, Value::Unreadable) {
         return None;
     }
-    let code = if found.is_some() { ErrorCode::UnknownWord } else { ErrorCode::WrongType };
-    errors.add(code, &node.place, format!("found {}", node.describe()), remedy(found, words));
+    let code = if text.is_some() { ErrorCode::UnknownWord } else { ErrorCode::WrongType };
+    errors.add(code, &node.place, format!("found {}", node.describe()), remedy(text, words));
     None
 }
 

@@ -3,7 +3,7 @@
 use super::sensor::cfa::Cfa;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, text, variant, vector, whole};
+use crate::reader::{Rule, choice, either, integer, keyed_by_name, list, number, record, text, variant, vector};
 
 /// Points of a curve: wavelength, nm, and quantum efficiency, %.
 pub type CurvePoints = Vec<Placed<[f64; 2]>>;
@@ -14,9 +14,9 @@ record! {
         /// Name of the camera.
         required camera: Placed<String> = text("the camera's name");
         /// Image width.
-        required width_px: Placed<u64> = whole(1, 65_536);
+        required width_px: Placed<u64> = integer(1, 65_536);
         /// Image height.
-        required height_px: Placed<u64> = whole(1, 65_536);
+        required height_px: Placed<u64> = integer(1, 65_536);
         /// Pixel pitch.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
         /// Colour filter array. Default: "mono".
@@ -26,7 +26,7 @@ record! {
         /// Wavelength to which the keys in photons refer. Default: the only one of "quantum_efficiency_percent".
         optional measured_at_nm: Placed<f64> = number("nm").above(0.0);
         /// Bits of the ADC.
-        required bits: Placed<u64> = whole(1, 24);
+        required bits: Placed<u64> = integer(1, 24);
         /// System gain K.
         optional gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
         /// Inverse system gain 1/K.
@@ -147,8 +147,8 @@ fn check_curves(sheet: &DataSheet, errors: &mut DescriptionErrors) {
             );
         }
         for pair in points.windows(2).filter(|pair| pair[0].value[0] >= pair[1].value[0]) {
-            let problem = format!("{} nm comes after {} nm", pair[1].value[0], pair[0].value[0]);
-            errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths in rising order");
+            let problem = format!("{} nm follows {} nm", pair[1].value[0], pair[0].value[0]);
+            errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the wavelengths in increasing order");
         }
     }
     let mut channels = sheet.filters().tile().to_vec();

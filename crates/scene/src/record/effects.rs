@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{
-    Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole, words,
+    Rule, RuleExt as _, choice, either, exactly, flag, integer, keyed, list, number, path, record, words,
 };
 
 record! {
@@ -30,7 +30,7 @@ record! {
     /// "files" (tables over the field) replace both.
     pub struct Psf check(check_psf) {
         /// Blades of the diaphragm, at constant aperture area. Default: a circle.
-        optional blades: Placed<u64> = whole(3, 32);
+        optional blades: Placed<u64> = integer(3, 32);
         /// With "blades": curvature, from straight edges to a circle. Default: 0.
         optional blade_curvature: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With "blades": direction of a corner, from right towards bottom. Default: 0.
@@ -42,7 +42,7 @@ record! {
         /// Radius at which the function ends. Default: about 256 px, or 256 λN where λN is below a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
         /// Patches across and down with one function each. Default: one where it is nearly constant, otherwise five across and three down.
-        optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
+        optional patches: Placed<[Placed<u64>; 2]> = exactly(integer(1, 32));
         /// Image of a point, instead of the aperture: linear, normalised, oriented as captured, the point in the middle.
         optional image: Placed<PathBuf> = path(&["png", "exr"]);
         /// With "image": its pixel pitch on the sensor, at most the sensor's.
@@ -55,7 +55,7 @@ record! {
         many files: Placed<PathBuf> = list(path(&["txt", "dat"]), 1);
         /// "film" convolves pixels without noise; "samples" displaces samples, exact at any width. Default: "samples" where samples pass through the lens,
         /// four fifths of the light fall near, and "film" would change contrast by more than 0.01 ("image" of one width) or 0.065; otherwise "film".
-        optional spread_by: Placed<SpreadBy> = choice();
+        optional spread_by: Placed<PsfMethod> = choice();
     }
 }
 
@@ -74,7 +74,7 @@ keyed! {
     pub enum ModulationSource {
         /// Zemax "FFT MTF" text, or a table of frequency and modulation headed "MTF" and "cycles per mm".
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Spatial frequencies, rising.
+        /// Spatial frequencies, increasing.
         cycles_per_mm => Frequencies(Vec<Placed<f64>>) = list(number("cycles/mm").above(0.0), 2);
     }
 }
@@ -100,13 +100,14 @@ fn check_modulation(table: &ModulationTable, errors: &mut DescriptionErrors) {
             );
         }
         (ModulationSource::Frequencies(frequencies), Some(list)) if frequencies.len() != list.len() => {
-            let problem = format!("found {} frequencies and {} modulations", frequencies.len(), list.len());
-            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+            let problem =
+                format!("the numbers of frequencies ({}) and modulations ({}) differ", frequencies.len(), list.len());
+            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers");
         }
         (ModulationSource::Frequencies(frequencies), Some(_)) => {
             if let Some(pair) = frequencies.windows(2).find(|pair| pair[1].value <= pair[0].value) {
                 let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
-                errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising frequencies");
+                errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give increasing frequencies");
             }
         }
     }
@@ -114,7 +115,7 @@ fn check_modulation(table: &ModulationTable, errors: &mut DescriptionErrors) {
 
 words! {
     /// Method of spreading light by a point-spread function.
-    pub enum SpreadBy {
+    pub enum PsfMethod {
         /// Convolution of the film's pixels.
         "film" => Film,
         /// Displaced samples.
@@ -131,7 +132,7 @@ record! {
         inside size: TermSize;
         /// Wavelength of "rms_waves".
         optional wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// Rising distances from the axis, one for each root mean square of a point to the right; the term turns with the point. Default: equal everywhere.
+        /// Increasing distances from the axis, one for each root mean square of a point to the right; the term turns with the point. Default: equal everywhere.
         many field_radius_mm: Placed<f64> = list(number("mm").at_least(0.0), 2);
     }
 }
@@ -140,9 +141,9 @@ keyed! {
     /// The index of a Zernike term.
     pub enum ZernikeIndex {
         /// Noll's index (1976): 1 piston, 4 defocus, 7 and 8 coma, 11 spherical aberration.
-        noll => Noll(Placed<u64>) = whole(1, 91);
+        noll => Noll(Placed<u64>) = integer(1, 91);
         /// Index of OSA and ANSI Z80.28: 0 piston, 4 defocus, 7 and 8 coma, 12 spherical aberration.
-        osa => Osa(Placed<u64>) = whole(0, 90);
+        osa => Osa(Placed<u64>) = integer(0, 90);
     }
 }
 

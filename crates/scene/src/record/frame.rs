@@ -117,7 +117,7 @@ fn note_cycle(circle: &[usize], frames: &[Frame], errors: &mut DescriptionErrors
         if circle.len() > MAX_NAMES {
             chain.extend(["…", name(place)]);
         }
-        let problem = format!("the frame is its own parent: {}", chain.join(" in "));
+        let problem = format!("frames form a cycle: {}", chain.join(" -> "));
         errors.add(ErrorCode::CircularReference, &own.place, problem, "give another parent, or none");
     }
 }

@@ -56,11 +56,11 @@ pub struct CameraSource(pub Camera);
 
 impl Record for CameraSource {
     fn read_keys(reader: &mut Reader<'_>, errors: &mut DescriptionErrors) -> Option<Self> {
-        if reader.given("file").is_none() {
+        if reader.place_of("file").is_none() {
             return Camera::read_keys(reader, errors).map(Self);
         }
         for key in Camera::keys() {
-            if let Some(place) = reader.given(key) {
+            if let Some(place) = reader.place_of(key) {
                 reader.take(key);
                 errors.add(
                     ErrorCode::Contradiction,

@@ -2,7 +2,7 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
+use crate::reader::{choice, exactly, integer, keyed_by_name, list, number, record, text, vector, words};
 
 record! {
     /// Facts that `etendue characterise` cannot read from images, their EXIF data or side-cars.
@@ -10,7 +10,7 @@ record! {
         /// Pixel pitch. Default: from side-cars.
         optional pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
         /// Bits of the ADC. Default: from side-cars.
-        optional bits: Placed<u64> = whole(1, 24);
+        optional bits: Placed<u64> = integer(1, 24);
         /// f-number. Default: from side-cars or EXIF data.
         optional f_number: Placed<f64> = number("").at_least(0.5);
         /// Colour filters of a two-by-two tile, row by row: "RGGB". Default: from side-cars or EXIF data.

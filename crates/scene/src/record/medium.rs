@@ -6,7 +6,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{ReplacedMaterials, SpectrumValues};
 use crate::fault::{DescriptionErrors, ErrorCode, NameKind};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, name_of, number, path, record, text, variants, vector, whole};
+use crate::reader::{integer, keyed, name_of, number, path, record, text, variants, vector};
 use std::path::PathBuf;
 
 record! {
@@ -106,7 +106,7 @@ variants! {
     /// A part of the world.
     pub enum MediumShape by "type" {
         /// The whole world, unlimited: no light from infinity is transmitted.
-        "everywhere" => Everywhere(Everywhere),
+        "everywhere" => Everywhere(UnboundedRegion),
         /// Everything below a height.
         "layer" => Layer(Layer),
         /// A box about its origin.
@@ -120,7 +120,7 @@ variants! {
 
 record! {
     /// All of the world: no keys.
-    pub struct Everywhere {}
+    pub struct UnboundedRegion {}
 }
 
 record! {
@@ -166,13 +166,13 @@ record! {
         /// Size of the largest clouds.
         required scale_m: Placed<f64> = number("m").above(0.0);
         /// Octaves, each of half the size. Default: 4.
-        optional octaves: Placed<u64> = whole(1, 12);
+        optional octaves: Placed<u64> = integer(1, 12);
         /// Amplitude ratio of successive octaves. Default: 0.5.
         optional gain: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Drift velocity of the noise. Default: 0.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s"));
         /// Seed of the noise. Default: 0.
-        optional seed: Placed<u64> = whole(0, u64::from(u32::MAX));
+        optional seed: Placed<u64> = integer(0, u64::from(u32::MAX));
     }
 }
 

@@ -2,13 +2,13 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{among, flag, record, whole};
+use crate::reader::{among, flag, integer, record};
 
 record! {
     /// Settings of the path integrator.
     pub struct PathKeys {
         /// Maximum number of surfaces along a path. Default: 16, or the quality preset's.
-        optional max_bounces: Placed<u64> = whole(1, 1024);
+        optional max_bounces: Placed<u64> = integer(1, 1024);
         /// Includes caustics of suns and glowing surfaces; without them that light is missing. Default: true.
         optional caustics: Placed<bool> = flag();
         /// Path-space regularisation: fewer fireflies, but indirect reflections and caustics are blurred. Default: false.
@@ -16,7 +16,7 @@ record! {
         /// Path guiding at diffuse surfaces; affects noise only. Default: false.
         optional guiding: Placed<bool> = flag();
         /// Paths and sampled lights at the first surface that is no mirror; affects noise only. Excludes "path_reuse_px" above 1. Default: 1.
-        optional branches: Placed<u64> = whole(1, 64);
+        optional branches: Placed<u64> = integer(1, 64);
         /// Side of pixel blocks whose paths share tails; their errors are correlated. Default: 1.
         optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
     }

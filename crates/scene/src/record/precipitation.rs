@@ -1,7 +1,7 @@
 //! `[precipitation]`: rain or snow.
 
 use crate::place::{Place, Placed};
-use crate::reader::{choice, flag, number, record, variants, vector, whole, words};
+use crate::reader::{choice, flag, integer, number, record, variants, vector, words};
 
 variants! {
     /// Precipitation over the whole scene below a height. Near a camera drops and flakes are modelled individually, farther away as a medium of the
@@ -75,10 +75,10 @@ record! {
         /// Distance from the camera within which nothing falls. Default: 0.
         optional clear_m: Placed<f64> = number("m").at_least(0.0).at_most(100.0);
         /// Seed. Default: 0.
-        optional seed: Placed<u64> = whole(0, 4_294_967_295);
+        optional seed: Placed<u64> = integer(0, 4_294_967_295);
         /// Width on the image, px, from which drops are modelled individually. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
         /// Maximum number modelled individually per camera and exposure; more shorten their range. Default: 200 000.
-        optional most: Placed<u64> = whole(0, 5_000_000);
+        optional most: Placed<u64> = integer(0, 5_000_000);
     }
 }

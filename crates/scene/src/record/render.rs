@@ -2,7 +2,7 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
-use crate::reader::{Record, Rule, among, choice, either, keyed, number, record, variant, vector, whole, words};
+use crate::reader::{Record, Rule, among, choice, either, integer, keyed, number, record, variant, vector, words};
 use crate::record::paths::PathKeys;
 use crate::record::samples::SampleKeys;
 use etendue_core::{Accelerator, Integrator, LightSampling};
@@ -36,9 +36,9 @@ record! {
         /// Build effort of ray-tracing structures, without effect on pixels; the best of several cameras counts. Default: "default".
         optional accelerator: Placed<Accelerator> = choice();
         /// Side of a tile. Default: 32.
-        optional tile_px: Placed<u64> = whole(4, 1024);
+        optional tile_px: Placed<u64> = integer(4, 1024);
         /// Seed of all random numbers. Default: 0.
-        optional seed: Placed<u64> = whole(0, MAX_SEED);
+        optional seed: Placed<u64> = integer(0, MAX_SEED);
         /// With route "pupil": margin on every side, as a fraction of the image's size. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With route "pupil": defocus blur. Default: "physical".
@@ -78,9 +78,9 @@ record! {
     /// A blend with one blurred copy of the image. The weight of the copy is 0 in the sharp range, 1 in the blurred range, and linear in the distance
     /// (along the ray) between them.
     pub struct FastBlend check(check_blend) {
-        /// Two rising distances: blurred before the first, sharp beyond the second. Default: nothing near is blurred.
+        /// Two increasing distances: blurred before the first, sharp beyond the second. Default: nothing near is blurred.
         optional near_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
-        /// Two rising distances: sharp before the first, blurred beyond the second. Default: nothing far is blurred.
+        /// Two increasing distances: sharp before the first, blurred beyond the second. Default: nothing far is blurred.
         optional far_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
         /// Diameter of the blur; the kernel is a bell of this width.
         required blur_px: Placed<f64> = number("px").above(0.0).at_most(1000.0);

@@ -4,7 +4,7 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
-use crate::reader::{list, number, record, whole};
+use crate::reader::{integer, list, number, record};
 
 /// Largest number of samples per pixel.
 pub const MAX_SPP: u64 = 1 << 20;
@@ -13,19 +13,19 @@ record! {
     /// Number of samples.
     pub struct SampleKeys {
         /// Samples per pixel, a multiple of "replicates". Default: 64, or the quality preset's.
-        optional spp: Placed<u64> = whole(1, MAX_SPP);
+        optional spp: Placed<u64> = integer(1, MAX_SPP);
         /// Samples per pixel of at most 64 independent passes, averaged by weight: multiples of "replicates" (at least one), or fewer on part of the pixels.
         /// Excludes "spp". Default: one pass.
         many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
         /// Independent replicates that estimate the variance. Default: 4, or 2 or 1 where "spp" is no multiple.
-        optional replicates: Placed<u64> = whole(1, 1024);
+        optional replicates: Placed<u64> = integer(1, 1024);
         /// Adaptive sampling: maximum standard error of a pixel over its sensor noise (without electrons, its mean). Needs 5 replicates, by default 8.
         /// Excludes "spp". Default: off.
         optional noise_threshold: Placed<f64> = number("").above(0.0).at_most(100.0);
         /// With "noise_threshold": minimum samples, a multiple of "replicates". Default: 16.
-        optional min_spp: Placed<u64> = whole(8, 65_536);
+        optional min_spp: Placed<u64> = integer(8, 65_536);
         /// With "noise_threshold": maximum samples, a multiple of "replicates". Default: 4 096.
-        optional max_spp: Placed<u64> = whole(8, 1 << 20);
+        optional max_spp: Placed<u64> = integer(8, 1 << 20);
     }
 }
 

@@ -11,7 +11,7 @@ use super::precipitation::Precipitation;
 use super::texture::Texture;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{keyed_by_name, list, record, whole};
+use crate::reader::{integer, keyed_by_name, list, record};
 
 record! {
     /// A scene: everything that cameras see.
@@ -23,7 +23,7 @@ record! {
         /// Optical properties of surfaces.
         many materials: Material = list(record(), 0);
         /// Semantic classes: name and number. Class 0 is everything else.
-        many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
+        many classes: (Placed<String>, Placed<u64>) = keyed_by_name(integer(1, 65_535));
         /// Moving frames that carry objects, lamps and cameras.
         many frames: Frame = list(record(), 0);
         /// Objects; their order numbers the instances.

@@ -4,7 +4,7 @@ use super::render::MAX_SEED;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{
-    RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole, words,
+    RuleExt as _, any_value, choice, either, integer, keyed_by_name, list, number, record, text, variants, words,
 };
 use crate::written::Item;
 
@@ -16,13 +16,13 @@ record! {
     /// preset: its name).
     pub struct Variations check(check) {
         /// Seed of drawn values, light and noise. Default: 0.
-        optional seed: Placed<u64> = whole(0, MAX_SEED);
+        optional seed: Placed<u64> = integer(0, MAX_SEED);
         /// Formats, as for `--format`, which overrides this. Default: "coco".
         many formats: Placed<SetFormat> = list(choice(), 1);
         /// Probability of "val"; other samples are "train". Default: 0.
         optional validation_fraction: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Samples per shard of "webdataset". Default: 1000.
-        optional shard_samples: Placed<u64> = whole(1, MAX_SAMPLES);
+        optional shard_samples: Placed<u64> = integer(1, MAX_SAMPLES);
         /// Unit of depth in "bop", at most 65 535 units. Default: 1.
         optional bop_depth_unit_mm: Placed<f64> = number("mm").above(0.0);
         /// Cityscapes classes: `{ car_body = "car" }`. Default: the name with blanks for "-" and "_", or "unlabeled".
@@ -89,7 +89,7 @@ variants! {
         /// Uniform over whole numbers.
         "integer" => Integer(Integer),
         /// One of several values.
-        "choice" => Choice(ChoiceOf),
+        "choice" => Choice(WeightedChoice),
     }
 }
 
@@ -131,15 +131,15 @@ record! {
     /// A uniform distribution of whole numbers.
     pub struct Integer check(check_integer) {
         /// Minimum.
-        required min: Placed<u64> = whole(0, MAX_SEED);
+        required min: Placed<u64> = integer(0, MAX_SEED);
         /// Maximum, included.
-        required max: Placed<u64> = whole(0, MAX_SEED);
+        required max: Placed<u64> = integer(0, MAX_SEED);
     }
 }
 
 record! {
     /// One of several values.
-    pub struct ChoiceOf check(check_choice) {
+    pub struct WeightedChoice check(check_choice) {
         /// Values that the key accepts.
         required values: Vec<Item> = list(any_value(), 1);
         /// Relative frequencies. Default: equal.
@@ -249,7 +249,7 @@ fn check_normal(normal: &Normal, errors: &mut DescriptionErrors) {
     }
 }
 
-fn check_choice(choice: &ChoiceOf, errors: &mut DescriptionErrors) {
+fn check_choice(choice: &WeightedChoice, errors: &mut DescriptionErrors) {
     check_weights(&choice.weights, choice.values.len(), errors);
 }
 
@@ -268,7 +268,7 @@ fn check_preset(preset: &Preset, errors: &mut DescriptionErrors) {
 fn check_weights(weights: &[Placed<f64>], choices: usize, errors: &mut DescriptionErrors) {
     let Some(first) = weights.first() else { return };
     if weights.len() != choices {
-        let problem = format!("found {} weights for {choices} choices", weights.len());
+        let problem = format!("the numbers of weights ({}) and choices ({choices}) differ", weights.len());
         errors.add(ErrorCode::WrongCount, &first.place, problem, "give a weight for each choice");
     } else if weights.iter().map(|weight| weight.value).sum::<f64>() <= 0.0 {
         errors.add(

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
-use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
+use crate::reader::{choice, integer, keyed, list, number, path, record, time, words};
 
 record! {
     /// Vertex animation: the same mesh in several files, one for each time. Every vertex moves straight and at constant speed between two files.
@@ -15,9 +15,9 @@ record! {
         /// Numbered Wavefront OBJ files (`%d`, `%03d`) with equal faces; texture coordinates and materials of the first.
         required files: Placed<PathBuf> = path(&["obj"]);
         /// First number. Default: 0.
-        optional first: Placed<u64> = whole(0, 999_999_999);
+        optional first: Placed<u64> = integer(0, 999_999_999);
         /// Number of files.
-        required count: Placed<u64> = whole(2, 100_000);
+        required count: Placed<u64> = integer(2, 100_000);
         /// Times of the files.
         inside times: FrameTimes;
         /// Offset added to all times. Default: 0.
@@ -32,7 +32,7 @@ keyed! {
     pub enum FrameTimes {
         /// Files per second, the first at 0 s; in a loop it recurs one step after the last.
         rate_hz => Rate(Placed<f64>) = number("Hz").above(0.0).at_most(1e6);
-        /// Rising times, one per file; a loop has one more, at which the first recurs.
+        /// Increasing times, one per file; a loop has one more, at which the first recurs.
         times_s => Times(Vec<Placed<ExactTime>>) = list(time(), 2);
     }
 }
@@ -109,10 +109,10 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], error
     let (count, needed, files) = (times_s.len(), animation.times_needed(), animation.count.value);
     if count as u64 != needed {
         let problem = match animation.repeats() {
-            FrameRepeat::Hold => format!("found {count} times for {files} files; each file needs one"),
+            FrameRepeat::Hold => format!("the number of times is {count}; each of the {files} files needs one"),
             FrameRepeat::Loop => {
                 format!(
-                    "found {count} times for a loop of {files} files, which needs one for each and one for the return of the first"
+                    "the number of times is {count}; a loop of {files} files needs one for each and one for the return of the first"
                 )
             }
         };
@@ -121,7 +121,7 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], error
     let unsorted = times_s.windows(2).filter(|pair| pair[1].value <= pair[0].value);
     for pair in unsorted {
         let problem = format!("the time {} s follows {} s", pair[1].value, pair[0].value);
-        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the times in rising order");
+        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the times in increasing order");
     }
 }
 

@@ -76,7 +76,10 @@ fn head_lamps_keep_to_a_side_of_the_road() {
     let lamp =
         |keys: &str| light(&format!("type = \"head_lamp\"\nposition_m = [0, 0, 0.7]\nilluminant = \"LED-B3\"\n{keys}"));
     assert_eq!(lamp("beam = \"low_beam\"\ntraffic = \"right\""), "");
-    assert!(lamp("beam = \"low_beam\"").contains("the side of the road towards which the low beam rises is missing"));
+    assert!(
+        lamp("beam = \"low_beam\"")
+            .contains("the side of the road towards which the cut-off of the low beam rises is missing")
+    );
     assert!(lamp("beam = \"high_beam\"\ntraffic = \"left\"").contains("belongs to beam = \"low_beam\""));
 }
 

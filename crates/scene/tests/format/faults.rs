@@ -218,8 +218,8 @@ fn overrides_that_are_wrong() {
         ),
         (
             "cameras.frnt.lens.f_number=4",
-            "`set` cameras.frnt.lens.f_number=4: there is no entry \"frnt\"; did you mean \"front\"? give a number from 0 \
-             to 0, or a name: front",
+            "`set` cameras.frnt.lens.f_number=4: there is no entry \"frnt\"; did you mean \"front\"? give the number \
+             0, or a name: front",
         ),
         (
             "format.x=4",

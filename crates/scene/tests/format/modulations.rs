@@ -43,7 +43,7 @@ fn invalid_modulations_are_reported_with_their_place() {
         ),
         ("type = \"blink\", frequency_hz = 100, fall_s = 0.02", "more than the shorter of pulse and pause, 0.005 s"),
         ("type = \"mains\", frequency_hz = 50, modulation_depth = 1.2", "modulation_depth: found 1.2"),
-        ("type = \"table\", points = [[0, 1], [0, 2]]", "the time 0 s follows 0 s; give the times in rising order"),
+        ("type = \"table\", points = [[0, 1], [0, 2]]", "the time 0 s follows 0 s; give the times in increasing order"),
         ("type = \"table\", points = [[0, 0], [1, 0]]", "dark at all times"),
         ("type = \"table\", points = [[0, 1], [1, -1]]", "found the level -1"),
         ("type = \"table\", points = [[0, 1], [2, 0]], period_s = 1", "the table lasts 2 s, but its period is 1 s"),

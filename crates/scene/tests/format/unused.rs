@@ -47,9 +47,9 @@ fn unused_names_are_reported() {
     assert_eq!(
         described("mixed").unused.notes(),
         [
-            "not read: the mesh that no object uses: spare",
-            "not read: 2 materials that no object uses: more, rest",
-            "not read: 2 textures that no used material has: b, c"
+            "not read: mesh used by no object: spare",
+            "not read: 2 materials used by no object: more, rest",
+            "not read: 2 textures used by no material in use: b, c"
         ]
     );
 }

@@ -28,7 +28,7 @@ macro_rules! domain {
                 context: &$crate::effect::Context,
                 memory: &mut $crate::effect::Memory,
             ) -> Vec<$crate::effect::Stage<$quantity>> {
-                [$( $crate::effect::Listed::stage(&self.$field, context, memory) ),*].into_iter().flatten().collect()
+                [$( $crate::effect::ListedEffect::stage(&self.$field, context, memory) ),*].into_iter().flatten().collect()
             }
         }
     };

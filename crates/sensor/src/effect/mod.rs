@@ -1,6 +1,6 @@
 //! An effect: its own parameters, whether it is modelled, and its action on one quantity.
 //!
-//! An effect acts on mean electrons, on charge or on voltage ([`EffectOn`]), pixel by pixel along a row or on the whole plane ([`Action`]). The three
+//! An effect acts on mean electrons, on charge or on voltage ([`QuantityEffect`]), pixel by pixel along a row or on the whole plane ([`Action`]). The three
 //! quantities are types, so an effect can only be applied to its own quantity: only counting converts mean electrons to charge, and only the response
 //! converts charge to voltage ([`RowConversion`]).
 
@@ -99,15 +99,15 @@ pub(crate) trait Visitor {
 }
 
 /// An effect on one quantity.
-pub(crate) trait EffectOn: Effect {
+pub(crate) trait QuantityEffect: Effect {
     /// The quantity.
-    type On: Quantity<Sample = f32>;
+    type Signal: Quantity<Sample = f32>;
 
     /// The component of the signal breakdown to which the effect's change belongs.
     const COMPONENT: SignalComponent;
 
     /// The effect prepared for a capture.
-    fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Self::On>;
+    fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Self::Signal>;
 }
 
 /// The action of an effect, prepared for a capture.
@@ -150,14 +150,14 @@ pub(crate) struct Traces<'a> {
 /// Converts one quantity to another, row by row.
 pub(crate) trait RowConversion: Send + Sync {
     /// Quantity before.
-    type From: Quantity<Sample = f32>;
+    type Input: Quantity<Sample = f32>;
     /// Quantity after.
-    type To: Quantity<Sample = f32>;
+    type Output: Quantity<Sample = f32>;
 
     /// The component of the signal breakdown that receives the difference, in electrons.
     const COMPONENT: SignalComponent;
 
-    fn convert<'a>(&self, row: Row<'a, Self::From>) -> Row<'a, Self::To>;
+    fn convert<'a>(&self, row: Row<'a, Self::Input>) -> Row<'a, Self::Output>;
 }
 
 /// A prepared effect of a capture.
@@ -167,26 +167,26 @@ pub(crate) struct Stage<Q: Quantity> {
 }
 
 /// A member of a domain's list: an effect, or one that may be absent from the description.
-pub(crate) trait Listed: Effect {
-    type On: Quantity<Sample = f32>;
+pub(crate) trait ListedEffect: Effect {
+    type Signal: Quantity<Sample = f32>;
 
     /// The prepared effect; `None` if the capture does not have it.
-    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<Self::On>>;
+    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<Self::Signal>>;
 }
 
-impl<E: EffectOn> Listed for E {
-    type On = E::On;
+impl<E: QuantityEffect> ListedEffect for E {
+    type Signal = E::Signal;
 
-    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::On>> {
+    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::Signal>> {
         let modelled = self.status(&context.facts, &context.operation).is_modelled();
         modelled.then(|| Stage { component: E::COMPONENT, action: self.prepare(context, memory) })
     }
 }
 
-impl<E: EffectOn> Listed for Option<E> {
-    type On = E::On;
+impl<E: QuantityEffect> ListedEffect for Option<E> {
+    type Signal = E::Signal;
 
-    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::On>> {
+    fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::Signal>> {
         self.as_ref()?.stage(context, memory)
     }
 }

@@ -8,13 +8,13 @@
 
 use etendue_core::{EffectStatus, maths::f64::atan, quantity::MeanElectrons};
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::effect::{Action, Context, Effect, Memory, QuantityEffect, Row, RowEffect, SensorFacts};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Response over angle, and the geometry of the incident light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleResponse {
-    /// Angle (degrees) and response, angles rising from 0.
+    /// Angle (degrees) and response, angles increasing from 0.
     pub table: Vec<[f64; 2]>,
     /// Distance of the exit pupil from the sensor, mm.
     pub exit_pupil_mm: f64,
@@ -47,18 +47,19 @@ impl Effect for AngleResponse {
         let starts = self.table.first().is_some_and(|[angle, response]| *angle == 0.0 && *response == 1.0);
         let ends = self.table.last().is_some_and(|[angle, _]| *angle < 90.0);
         checks.agree("angle_response", rising && starts && ends, || {
-            "two angles or more must rise from 0 (where the response is 1) to less than 90 degrees".to_owned()
+            "expected two or more angles that increase from 0 (where the response is 1) to less than 90 degrees"
+                .to_owned()
         });
         self.table.iter().for_each(|[_, response]| checks.fraction("angle_response", *response));
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        EffectStatus::Modelled(format!("light comes from an exit pupil {} mm away", self.exit_pupil_mm))
+        EffectStatus::Modelled(format!("the exit pupil is {} mm from the sensor", self.exit_pupil_mm))
     }
 }
 
-impl EffectOn for AngleResponse {
-    type On = MeanElectrons;
+impl QuantityEffect for AngleResponse {
+    type Signal = MeanElectrons;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {

@@ -12,7 +12,7 @@
 use etendue_core::{EffectStatus, Plane, quantity::Charge};
 use rayon::prelude::*;
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::effect::{Action, Context, Effect, Memory, PlaneEffect, QuantityEffect, SensorFacts, Traces};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Pixel borders shifted by charge.
@@ -46,8 +46,8 @@ impl Effect for BrighterFatter {
     }
 }
 
-impl EffectOn for BrighterFatter {
-    type On = Charge;
+impl QuantityEffect for BrighterFatter {
+    type Signal = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {

@@ -50,7 +50,7 @@ impl Effect for Adc {
             gain => format!(", then a digital gain of {gain}"),
         };
         let Self { gain_dn_e, black_level_dn, bits, .. } = self;
-        EffectStatus::Modelled(format!("{gain_dn_e} DN/e⁻, black at {black_level_dn} DN, {bits} bits{digital}"))
+        EffectStatus::Modelled(format!("{gain_dn_e} DN/e⁻, black level {black_level_dn} DN, {bits} bits{digital}"))
     }
 
     /// A sensor always has an ADC.
@@ -60,7 +60,7 @@ impl Effect for Adc {
 
     /// Rounding to integers: a standard deviation of 1/√12 of a step.
     fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
-        vec![KnownError { quantity: "rounding σ", value: 1.0 / 12.0_f64.sqrt(), unit: "DN" }]
+        vec![KnownError { quantity: "missing quantisation noise", value: 1.0 / 12.0_f64.sqrt(), unit: "DN" }]
     }
 }
 

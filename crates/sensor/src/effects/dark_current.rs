@@ -17,7 +17,7 @@ use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
 
 use super::temperature::Temperature;
 use super::two_level::{self, RandomPurposes, RtsPixel, TwoLevel, high_in_row};
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
+use crate::effect::{Action, Context, Effect, Memory, QuantityEffect, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::random::pattern::{self, Deviations, Sigmas};
 use crate::random::{Poisson, standard_normal};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
@@ -47,7 +47,7 @@ pub struct DarkSpread {
 
 /// Pixels with far more dark current.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hot {
+pub struct HotPixels {
     /// Fraction of pixels, above 0 and up to 1.
     pub fraction: f64,
     /// Mean of their additional current, e⁻/s.
@@ -64,7 +64,7 @@ pub struct DarkCurrent {
     /// Variation over pixels.
     pub spread: DarkSpread,
     /// Hot pixels.
-    pub hot: Option<Hot>,
+    pub hot: Option<HotPixels>,
     /// Blinking pixels; the amplitude is a current, e⁻/s.
     pub dark_current_rts: Option<TwoLevel>,
 }
@@ -129,7 +129,7 @@ impl Effect for DarkCurrent {
         let mean_e = self.current_e_s * self.temperature_factor() * exposure_s;
         let none = mean_e == 0.0 && self.hot.is_none() && self.dark_current_rts.is_none();
         if none || exposure_s == 0.0 {
-            let text = format!("{} e-/s over {exposure_s} s frees no electron", self.current_e_s);
+            let text = format!("{} e⁻/s over {exposure_s} s generates no electrons", self.current_e_s);
             return EffectStatus::LeftOut(text);
         }
         let mean_e = four_digits(mean_e);
@@ -152,12 +152,12 @@ impl Effect for DarkCurrent {
 
     fn errors_without(&self, facts: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
         let value = self.current_e_s * self.temperature_factor() * facts.exposure_s;
-        vec![KnownError { quantity: "dark level lower by", value, unit: "e⁻" }]
+        vec![KnownError { quantity: "missing dark signal", value, unit: "e⁻" }]
     }
 }
 
-impl EffectOn for DarkCurrent {
-    type On = Charge;
+impl QuantityEffect for DarkCurrent {
+    type Signal = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Dark;
 
     fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Charge> {
@@ -185,16 +185,16 @@ fn four_digits(x: f64) -> f64 {
 fn differences(dark: &DarkCurrent) -> String {
     let mut text = String::new();
     if let Some(t) = dark.temperature {
-        text += &format!("; {:.4} times the stated current, by temperature", t.factor());
+        text += &format!("; {:.4} times the stated current at this temperature", t.factor());
     }
     if dark.spread.white > 0.0 || dark.spread.row > 0.0 || dark.spread.column > 0.0 {
-        text += "; pixels differ";
+        text += "; non-uniform (DSNU)";
     }
     if let Some(hot) = dark.hot {
-        text += &format!("; {} of pixels are hot", hot.fraction);
+        text += &format!("; {} of the pixels are hot", hot.fraction);
     }
     if let Some(rts) = dark.dark_current_rts {
-        text += &format!("; {} of pixels switch at random (RTS)", rts.fraction);
+        text += &format!("; {} of the pixels have random telegraph noise (RTS)", rts.fraction);
     }
     text
 }
@@ -353,7 +353,7 @@ mod tests {
     #[test]
     fn hot_pixels_are_a_few_and_stay() {
         let mut p = quiet();
-        p.charge.dark.hot = Some(Hot { fraction: 0.01, mean_e_s: 1e4 / p.exposure.exposure_s });
+        p.charge.dark.hot = Some(HotPixels { fraction: 0.01, mean_e_s: 1e4 / p.exposure.exposure_s });
         let first = run(&p, &Plane::filled(256, 256, 0.0), ADDRESS);
         let hot = first.plane.samples().iter().filter(|dn| **dn > 0).count();
         // 655 ± 25.

@@ -6,7 +6,7 @@
 use etendue_core::random::{NoiseDraw, NoiseKey};
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
+use crate::effect::{Action, Context, Effect, Memory, QuantityEffect, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::{capture::Operation, check::Checks, random::pattern, signal_breakdown::SignalComponent};
 
 /// Dead pixels.
@@ -36,12 +36,12 @@ impl Effect for DeadPixels {
     }
 
     fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
-        vec![KnownError { quantity: "dead pixels alive", value: 100.0 * self.fraction, unit: "%" }]
+        vec![KnownError { quantity: "missing dead pixels", value: 100.0 * self.fraction, unit: "%" }]
     }
 }
 
-impl EffectOn for DeadPixels {
-    type On = Charge;
+impl QuantityEffect for DeadPixels {
+    type Signal = Charge;
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
@@ -49,7 +49,6 @@ impl EffectOn for DeadPixels {
     }
 }
 
-/// Dead pixels, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PreparedDeadPixels {
     fraction: f64,

@@ -13,7 +13,9 @@ use etendue_core::{EffectStatus, KeyChange, Plane, quantity::Charge};
 use rayon::prelude::*;
 
 use super::{bloom_around, bloom_column};
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row, RowEffect, SensorFacts, Traces};
+use crate::effect::{
+    Action, Context, Effect, Memory, PlaneEffect, QuantityEffect, Row, RowEffect, SensorFacts, Traces,
+};
 use crate::signal_breakdown::{ChargeAccount, RowTally, SignalComponent};
 use crate::{capture::Operation, check::Checks};
 
@@ -74,7 +76,7 @@ impl Effect for FullWell {
     fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
         let capacity = operation.full_well_e;
         let clips = match self.blooming {
-            None => format!("a pixel's charge above {capacity} e⁻ is lost"),
+            None => format!("a pixel saturates at {capacity} e⁻"),
             Some(Blooming::Column { overflow_fraction: b }) => {
                 format!("of the charge above {capacity} e⁻, {b} overflows along the column, the rest is drained")
             }
@@ -96,8 +98,8 @@ impl Effect for FullWell {
     }
 }
 
-impl EffectOn for FullWell {
-    type On = Charge;
+impl QuantityEffect for FullWell {
+    type Signal = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Blooming;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {

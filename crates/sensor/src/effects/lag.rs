@@ -14,7 +14,7 @@ use etendue_core::{EffectStatus, Plane, maths::f64::exp, quantity::Charge};
 use rayon::prelude::*;
 
 use crate::capture::{Operation, SensorState};
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::effect::{Action, Context, Effect, Memory, PlaneEffect, QuantityEffect, SensorFacts, Traces};
 use crate::{check::Checks, signal_breakdown::SignalComponent};
 
 /// A kind of trap.
@@ -46,7 +46,7 @@ impl Effect for Lag {
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         for trap in &self.traps {
-            checks.fraction_above_0("lag.share", trap.fraction);
+            checks.fraction_above_0("lag.fraction", trap.fraction);
             checks.positive("lag.time_constant_s", trap.time_constant_s);
             checks.agree("lag", facts.frame_period_s.is_some(), || {
                 "the released charge depends on the time between frames: give \"frame_period_s\"".to_owned()
@@ -70,8 +70,8 @@ impl Effect for Lag {
     }
 }
 
-impl EffectOn for Lag {
-    type On = Charge;
+impl QuantityEffect for Lag {
+    type Signal = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
@@ -82,7 +82,6 @@ impl EffectOn for Lag {
     }
 }
 
-/// Traps, prepared.
 #[derive(Clone, Debug, PartialEq)]
 struct PreparedTraps {
     /// Fraction captured, and fraction released.

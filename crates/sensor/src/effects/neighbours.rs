@@ -17,7 +17,7 @@ use etendue_core::quantity::{MeanElectrons, Quantity, Voltage};
 use etendue_core::{EffectStatus, Plane};
 use rayon::prelude::*;
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::effect::{Action, Context, Effect, Memory, PlaneEffect, QuantityEffect, SensorFacts, Traces};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Fractions given to each neighbour, 0 to 1.
@@ -92,7 +92,6 @@ impl Neighbours {
     }
 }
 
-/// The exchange, prepared.
 pub(crate) struct PreparedExchange(pub(crate) Neighbours);
 
 impl<Q: Quantity<Sample = f32>> PlaneEffect<Q> for PreparedExchange {
@@ -118,8 +117,8 @@ impl Effect for Crosstalk {
     }
 }
 
-impl EffectOn for Crosstalk {
-    type On = MeanElectrons;
+impl QuantityEffect for Crosstalk {
+    type Signal = MeanElectrons;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, _: &Context, _: &mut Memory) -> Action<MeanElectrons> {
@@ -144,8 +143,8 @@ impl Effect for InterPixelCapacitance {
     }
 }
 
-impl EffectOn for InterPixelCapacitance {
-    type On = Voltage;
+impl QuantityEffect for InterPixelCapacitance {
+    type Signal = Voltage;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn prepare(&self, _: &Context, _: &mut Memory) -> Action<Voltage> {

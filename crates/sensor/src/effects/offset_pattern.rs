@@ -13,7 +13,9 @@
 
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Voltage, random::NoiseDraw};
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, Row, RowEffect, SensorFacts, SignalLevels};
+use crate::effect::{
+    Action, Context, Effect, Memory, NOISE_OFF, QuantityEffect, Row, RowEffect, SensorFacts, SignalLevels,
+};
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
@@ -60,7 +62,7 @@ impl Effect for OffsetPattern {
         if sigmas.is_zero() {
             return EffectStatus::NotDescribed;
         }
-        EffectStatus::Modelled(format!("offsets differ: {}", sigmas.described(" e⁻")))
+        EffectStatus::Modelled(format!("standard deviation of the offsets: {}", sigmas.described(" e⁻")))
     }
 
     fn left_out_by(&self) -> Vec<KeyChange> {
@@ -73,12 +75,12 @@ impl Effect for OffsetPattern {
 
     fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
         let value = (self.white_e * self.white_e + self.row_e * self.row_e + self.column_e * self.column_e).sqrt();
-        vec![KnownError { quantity: "missing spread of offsets", value, unit: "e⁻" }]
+        vec![KnownError { quantity: "missing DSNU", value, unit: "e⁻" }]
     }
 }
 
-impl EffectOn for OffsetPattern {
-    type On = Voltage;
+impl QuantityEffect for OffsetPattern {
+    type Signal = Voltage;
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
@@ -121,7 +123,7 @@ impl Effect for ReadNoise {
         } else if facts.noise {
             let part = |name, e: f64| if e > 0.0 { format!(", {e} e⁻ common to a {name}") } else { String::new() };
             let common = part("row", self.row_e) + &part("column", self.column_e);
-            EffectStatus::Modelled(format!("{} e⁻ of standard deviation, normal{common}", operation.read_noise_e))
+            EffectStatus::Modelled(format!("standard deviation {} e⁻, Gaussian{common}", operation.read_noise_e))
         } else {
             EffectStatus::LeftOut(NOISE_OFF.into())
         }
@@ -138,14 +140,14 @@ impl Effect for ReadNoise {
         let variance_e2 = self.white_e * self.white_e + self.row_e * self.row_e + self.column_e * self.column_e;
         let lost = |quantity, of_e2: f64| KnownError { quantity, value: 100.0 * variance_e2 / of_e2, unit: "%" };
         vec![
-            lost("variance of grey lost", grey_e + dark_variance_e2),
-            lost("variance of black lost", *dark_variance_e2),
+            lost("missing variance at mid-grey", grey_e + dark_variance_e2),
+            lost("missing variance in the dark", *dark_variance_e2),
         ]
     }
 }
 
-impl EffectOn for ReadNoise {
-    type On = Voltage;
+impl QuantityEffect for ReadNoise {
+    type Signal = Voltage;
     const COMPONENT: SignalComponent = SignalComponent::Read;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {

@@ -6,7 +6,7 @@
 
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::MeanElectrons, random::NoiseDraw};
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
+use crate::effect::{Action, Context, Effect, Memory, QuantityEffect, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
@@ -42,7 +42,7 @@ impl Effect for PhotoResponse {
         if sigmas.is_zero() {
             return EffectStatus::NotDescribed;
         }
-        EffectStatus::Modelled(format!("responses differ: {}", sigmas.described("")))
+        EffectStatus::Modelled(format!("relative standard deviation of the response: {}", sigmas.described("")))
     }
 
     fn left_out_by(&self) -> Vec<KeyChange> {
@@ -55,12 +55,12 @@ impl Effect for PhotoResponse {
 
     fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
         let value = 100.0 * (self.white * self.white + self.row * self.row + self.column * self.column).sqrt();
-        vec![KnownError { quantity: "missing spread of responses", value, unit: "%" }]
+        vec![KnownError { quantity: "missing PRNU", value, unit: "%" }]
     }
 }
 
-impl EffectOn for PhotoResponse {
-    type On = MeanElectrons;
+impl QuantityEffect for PhotoResponse {
+    type Signal = MeanElectrons;
     const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {

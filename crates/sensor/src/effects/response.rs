@@ -29,7 +29,7 @@ pub enum Response {
     /// Proportional.
     #[default]
     Linear,
-    /// Straight lines, knees by rising charge.
+    /// Straight lines, knees by increasing charge.
     Knees(Vec<Knee>),
     /// Logarithmic above a charge, e⁻.
     Logarithmic {
@@ -106,7 +106,7 @@ impl Effect for Response {
                 let rising = knees.windows(2).all(|k| k[0].at_e < k[1].at_e && k[0].slope > k[1].slope);
                 let legal = knees.iter().all(|k| k.at_e > 0.0 && k.at_e.is_finite() && k.slope > 0.0 && k.slope < 1.0);
                 checks.agree("response.knees", rising && legal && !knees.is_empty(), || {
-                    "charges must rise from above 0, and slopes must fall from below 1 to above 0".to_owned()
+                    "charges must increase from above 0, and slopes must decrease from below 1 to above 0".to_owned()
                 });
             }
         }
@@ -125,8 +125,8 @@ impl Effect for Response {
 }
 
 impl RowConversion for Response {
-    type From = Charge;
-    type To = Voltage;
+    type Input = Charge;
+    type Output = Voltage;
     const COMPONENT: SignalComponent = SignalComponent::Transfer;
 
     fn convert<'a>(&self, row: Row<'a, Charge>) -> Row<'a, Voltage> {

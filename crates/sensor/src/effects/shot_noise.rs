@@ -34,7 +34,7 @@ impl Effect for ShotNoise {
         } else if operation.exposure_s == 0.0 {
             EffectStatus::LeftOut("the exposure is zero: no photon is counted".into())
         } else {
-            EffectStatus::Modelled("photo-electrons are counted: Poisson, exact at every mean".into())
+            EffectStatus::Modelled("photo-electrons are Poisson distributed, sampled exactly at every mean".into())
         }
     }
 
@@ -46,7 +46,7 @@ impl Effect for ShotNoise {
     fn errors_without(&self, _: &SensorFacts, levels: &SignalLevels) -> Vec<KnownError> {
         let SignalLevels { grey_e, dark_variance_e2 } = levels;
         let value = 100.0 * grey_e / (grey_e + dark_variance_e2);
-        vec![KnownError { quantity: "variance of grey lost", value, unit: "%" }]
+        vec![KnownError { quantity: "missing variance at mid-grey", value, unit: "%" }]
     }
 }
 
@@ -57,8 +57,8 @@ pub(crate) struct PreparedShotNoise {
 }
 
 impl RowConversion for PreparedShotNoise {
-    type From = MeanElectrons;
-    type To = Charge;
+    type Input = MeanElectrons;
+    type Output = Charge;
     const COMPONENT: SignalComponent = SignalComponent::Shot;
 
     /// Replaces means (finite, not negative) by counts.

@@ -14,7 +14,7 @@
 use etendue_core::{EffectStatus, Plane, maths::f64::pow, quantity::MeanElectrons};
 use rayon::prelude::*;
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::effect::{Action, Context, Effect, Memory, PlaneEffect, QuantityEffect, SensorFacts, Traces};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Transfer of charge past the light.
@@ -83,14 +83,16 @@ impl Effect for Smear {
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
         EffectStatus::Modelled(match self {
-            Self::Interline { smear_db, .. } => format!("interline, {smear_db} dB: a leak of {:.3e}", self.leak()),
+            Self::Interline { smear_db, .. } => {
+                format!("interline, {smear_db} dB: relative leakage {:.3e}", self.leak())
+            }
             Self::FrameTransfer { line_shift_s } => format!("frame transfer, {line_shift_s} s per row"),
         })
     }
 }
 
-impl EffectOn for Smear {
-    type On = MeanElectrons;
+impl QuantityEffect for Smear {
+    type Signal = MeanElectrons;
     const COMPONENT: SignalComponent = SignalComponent::Smear;
 
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {

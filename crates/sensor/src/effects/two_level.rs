@@ -12,7 +12,7 @@
 use etendue_core::random::{NoiseDraw, Pixel};
 use etendue_core::{EffectStatus, quantity::Voltage};
 
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, Row, RowEffect, SensorFacts};
+use crate::effect::{Action, Context, Effect, Memory, NOISE_OFF, QuantityEffect, Row, RowEffect, SensorFacts};
 use crate::{capture::Operation, check::Checks, random::pattern, signal_breakdown::SignalComponent};
 
 /// Pixels that jump between two levels.
@@ -104,8 +104,8 @@ impl Effect for RtsNoise {
     }
 }
 
-impl EffectOn for RtsNoise {
-    type On = Voltage;
+impl QuantityEffect for RtsNoise {
+    type Signal = Voltage;
     const COMPONENT: SignalComponent = SignalComponent::Read;
 
     fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Voltage> {

@@ -57,9 +57,9 @@ impl<'a, Q: Quantity<Sample = f32>> CapturePass<'a, Q> {
     }
 
     /// The image converted to another quantity; the same values without a conversion.
-    pub(super) fn converted<C>(mut self, conversion: Option<C>) -> CapturePass<'a, C::To>
+    pub(super) fn converted<C>(mut self, conversion: Option<C>) -> CapturePass<'a, C::Output>
     where
-        C: RowConversion<From = Q> + 'static,
+        C: RowConversion<Input = Q> + 'static,
     {
         self.source.waiting.extend(conversion.map(|conversion| DeferredEffect {
             component: C::COMPONENT,
@@ -90,7 +90,7 @@ impl<'a, Q: Quantity<Sample = f32>> CapturePass<'a, Q> {
         self.apply_deferred();
         let ValueSource { samples, width, height, .. } =
             std::mem::replace(&mut self.source, ValueSource::owned(Plane::<Q>::new(0, 0)));
-        Plane::from_samples(width, height, samples.into_owned()).expect("a sample a pixel")
+        Plane::from_samples(width, height, samples.into_owned()).expect("one sample per pixel")
     }
 }
 

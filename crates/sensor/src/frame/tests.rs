@@ -170,7 +170,7 @@ fn everything() -> SensorParameters {
             column: 0.05,
             distribution: dark_current::SpreadDistribution::LogNormal,
         },
-        hot: Some(dark_current::Hot { fraction: 0.01, mean_e_s: 1e5 }),
+        hot: Some(dark_current::HotPixels { fraction: 0.01, mean_e_s: 1e5 }),
         dark_current_rts: Some(two(1e5)),
         ..dark_current::DarkCurrent::uniform(2000.0)
     };

@@ -49,7 +49,7 @@ impl Companding {
         let rising = ends.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] < pair[1][1]);
         let falling = slopes.windows(2).all(|pair| pair[0] >= pair[1]) && slopes.iter().all(|s| *s <= 1.0);
         checks.agree("companding.knees", rising && falling && !slopes.is_empty(), || {
-            "both numbers must rise from (0, 0), with slopes that start at 1 or less and do not grow".to_owned()
+            "both numbers must increase from (0, 0), with slopes that start at 1 or less and do not increase".to_owned()
         });
         let last = ends[ends.len() - 1];
         let reaches = last[0] >= f64::from((1_u32 << linear_bits) - 1) && last[1] <= largest;

@@ -9,7 +9,7 @@
 //! | dual conversion gain | gain and read noise; the same charge is read again |
 //!
 //! These may be combined (a split pixel read at two gains each is four captures). Captures see the same light, each with its own shot and read noise;
-//! a second reading has its own read noise only. Captures are listed by falling sensitivity.
+//! a second reading has its own read noise only. Captures are listed by decreasing sensitivity.
 //!
 //! - [`merge`]: the first capture that is not saturated, scaled ([`merge`](mod@merge)).
 //! - [`companding`]: fewer bits by straight lines ([`companding`](mod@companding)).
@@ -99,7 +99,7 @@ impl Capture {
         }
         let read_only = self.exposure_ratio == 1.0 && self.sensitivity_ratio == 1.0 && self.full_well_e.is_none();
         checks.agree("hdr.captures.dual_conversion_gain", !self.dual_conversion_gain || read_only, || {
-            format!("entry {number} (from 0): the second readout of a charge has its exposure, photodiode and full well: remove these keys, or \
+            format!("entry {number} (from 0): the second readout of a charge has the exposure, photodiode and full well of the first: remove these keys, or \
                      \"dual_conversion_gain\"")
         });
     }
@@ -149,14 +149,14 @@ impl HighDynamicRange {
         if let Some(level) = self.transition_level {
             checks.legal("hdr.transition_level", level, level > 0.0 && level < 1.0, "a fraction between 0 and 1");
             checks.agree("hdr.transition_level", !self.captures.is_empty(), || {
-                "there are no captures to switch between".to_owned()
+                "there are no captures to switch between: remove it, or add captures".to_owned()
             });
         }
     }
 }
 
 impl Effect for HighDynamicRange {
-    const NAME: &'static str = "merging of captures";
+    const NAME: &'static str = "HDR merging";
     const KEY: &'static str = "sensor.hdr";
 
     /// Captures are checked with the whole sensor, once its own values are legal.
@@ -166,7 +166,7 @@ impl Effect for HighDynamicRange {
         let Some(bits) = self.bits else { return EffectStatus::NotDescribed };
         let scales: Vec<String> = (0..=self.captures.len()).map(|k| format!("{}", self.scale(k))).collect();
         EffectStatus::Modelled(format!(
-            "{} captures of scales {}, each used up to {} of its range, merged to {bits} bits",
+            "{} captures with relative signals {}, each used up to {} of its range, merged to {bits} bits",
             scales.len(),
             scales.join(", "),
             self.transition_level_or_default()

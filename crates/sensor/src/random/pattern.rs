@@ -32,7 +32,7 @@ impl Sigmas {
     pub(crate) fn described(self, unit: &str) -> String {
         let parts = [("pixels", self.white), ("rows", self.row), ("columns", self.column)];
         let nonzero = parts.into_iter().filter(|(_, sigma)| *sigma > 0.0);
-        nonzero.map(|(name, sigma)| format!("{name} by {sigma}{unit}")).collect::<Vec<_>>().join(", ")
+        nonzero.map(|(name, sigma)| format!("{name} {sigma}{unit}")).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -75,17 +75,17 @@ pub const TURBIDITIES: RangeInclusive<f64> = 1.0..=10.0;
 pub enum SkyError {
     /// Turbidity outside the tables.
     #[error(
-        "turbidity {found} is outside 1 to 10: 1 is air without haze, 2 very clear, 3 clear, 6 hazy, 10 thick haze"
+        "turbidity {value} is outside 1 to 10: 1 is air without haze, 2 very clear, 3 clear, 6 hazy, 10 thick haze"
     )]
     Turbidity {
         /// Value given.
-        found: f64,
+        value: f64,
     },
     /// An albedo outside 0 to 1.
-    #[error("ground albedo {found} is outside 0 to 1: give the fraction of light that the surrounding ground reflects")]
+    #[error("ground albedo {value} is outside 0 to 1: give the fraction of light that the surrounding ground reflects")]
     Albedo {
         /// Value given.
-        found: f64,
+        value: f64,
     },
     /// An elevation outside −90° to 90°.
     #[error("the Sun's elevation of {degrees}° is outside −90° to 90°: give its angle above the horizon")]
@@ -96,11 +96,11 @@ pub enum SkyError {
 }
 
 fn check_turbidity(turbidity: f64) -> Result<(), SkyError> {
-    if TURBIDITIES.contains(&turbidity) { Ok(()) } else { Err(SkyError::Turbidity { found: turbidity }) }
+    if TURBIDITIES.contains(&turbidity) { Ok(()) } else { Err(SkyError::Turbidity { value: turbidity }) }
 }
 
 fn check_albedo(albedo: f64) -> Result<(), SkyError> {
-    if (0.0..=1.0).contains(&albedo) { Ok(()) } else { Err(SkyError::Albedo { found: albedo }) }
+    if (0.0..=1.0).contains(&albedo) { Ok(()) } else { Err(SkyError::Albedo { value: albedo }) }
 }
 
 fn check_elevation(rad: f64) -> Result<(), SkyError> {

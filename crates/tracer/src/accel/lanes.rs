@@ -87,7 +87,6 @@ pub(crate) enum Visit {
     Node,
     /// A leaf of a mesh, whose triangles are tested at once.
     Leaf,
-    /// An instance.
     Instance,
 }
 

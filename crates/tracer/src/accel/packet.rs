@@ -357,7 +357,6 @@ pub(super) enum PrimitiveNames<'a> {
 }
 
 impl PrimitiveNames<'_> {
-    /// Instance and primitive.
     #[inline(always)]
     fn instance_and_primitive(self, primitive: u32) -> (u32, u32) {
         match self {

@@ -23,13 +23,13 @@ pub enum WorldError {
     },
     /// An instance has fewer materials than its shape has slots.
     #[error(
-        "instance {instance} has {found} materials, but its shape has {expected} material slots; give one material for each slot"
+        "instance {instance} has {actual} materials, but its shape has {expected} material slots; give one material for each slot"
     )]
     MissingMaterials {
         /// Index of the instance, from 0.
         instance: usize,
         /// Number of materials of the instance.
-        found: usize,
+        actual: usize,
         /// Number of slots of the shape.
         expected: usize,
     },
@@ -172,7 +172,7 @@ fn mesh_area_m2(mesh: &Mesh, instance: &Instance, material: MaterialId, to_world
 fn check(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<(), WorldError> {
     let expected = slots(index, instance, meshes)?;
     if instance.materials.len() < expected {
-        return Err(WorldError::MissingMaterials { instance: index, found: instance.materials.len(), expected });
+        return Err(WorldError::MissingMaterials { instance: index, actual: instance.materials.len(), expected });
     }
     match (instance.to_world.is_invertible(), instance.to_world.as_constant()) {
         (true, _) => Ok(()),

@@ -242,7 +242,7 @@ fn check_counts(
 
 fn check_count(what: &'static str, actual: usize, expected: usize) -> Result<(), MeshError> {
     if actual != 0 && actual != expected {
-        return Err(MeshError::Count { what, found: actual, expected });
+        return Err(MeshError::Count { what, actual, expected });
     }
     Ok(())
 }
@@ -367,7 +367,7 @@ mod tests {
         );
         assert_eq!(
             Mesh::new(square(), vec![Vec3::Z; 3], vec![], vec![[0, 1, 2]], vec![]),
-            Err(MeshError::Count { what: "normals", found: 3, expected: 4 })
+            Err(MeshError::Count { what: "normals", actual: 3, expected: 4 })
         );
     }
 

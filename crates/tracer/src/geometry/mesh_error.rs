@@ -34,12 +34,12 @@ pub enum MeshError {
         vertex: usize,
     },
     /// Normals or texture coordinates do not match the vertices, or slots the triangles.
-    #[error("the mesh has {found} {what}; it must have {expected} or none")]
+    #[error("the mesh has {actual} {what}; it must have {expected} or none")]
     Count {
         /// The counted quantity.
         what: &'static str,
         /// Number found.
-        found: usize,
+        actual: usize,
         /// Number expected.
         expected: usize,
     },
@@ -51,7 +51,7 @@ pub enum MeshError {
     },
     /// Vertices that move have too few frames, or times that do not fit them.
     #[error(
-        "{frames} frames of vertices have {times} times; give at least two frames and a rising, finite time for each, and for a \
+        "{frames} frames of vertices have {times} times; give at least two frames and a finite, increasing time for each, and for a \
          loop one more time"
     )]
     FrameTimes {

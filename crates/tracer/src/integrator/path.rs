@@ -10,10 +10,10 @@
 //! branch. Each branch has its part of the throughput. Densities are those of all branches and light samples together, so that multiple importance
 //! sampling weights as many of both.
 //!
-//! **Russian roulette** (Arvo and Kirk 1990): light that a path still finds counts in its pixel by the throughput, and so does everything else that
-//! the pixel shows: behind a dark surface everything is dark. The probability to continue therefore depends on the fraction of the throughput that is
-//! left behind the first surface that scatters, not on the throughput itself. Under uniform light the best probability is that fraction times the
-//! root of the cost of a whole path over that of its remaining part (Bolin and Meyer 1997; Rath and others 2022, "EARS").
+//! **Russian roulette** (Arvo and Kirk 1990): the survival probability is proportional to the throughput (its largest component) relative to that
+//! behind the first surface that is no mirror (`path_state.rs`). The throughput itself would end paths behind a dark first surface early, although
+//! that surface scales all light of the pixel, and its noise, by the same factor. Under uniform light the optimal probability is the relative
+//! throughput times the square root of the cost of a whole path over that of its remainder (Bolin and Meyer 1997; Rath and others 2022, "EARS").
 
 use core::marker::PhantomData;
 

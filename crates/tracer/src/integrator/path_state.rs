@@ -68,8 +68,9 @@ impl PathCone {
 /// Density of scattering, 1/sr, above which a surface counts as smooth: that of the highlight of a GGX surface of α ≈ 0.14.
 const SMOOTH_PER_SR: f32 = 4.0;
 
-/// Minimum ratio of a scattering density to that of a glossy surface before it, from which the glossy surface finds light sources by chance
-/// only: it corresponds to an eighth to a quarter of its α.
+/// Ratio of a scattering density to the smallest density before it, above which light that arrives by this scattering is part of a caustic:
+/// the earlier, glossier surface samples the directions of that light only by chance. For GGX surfaces the ratio corresponds to an α of an
+/// eighth to a quarter of the earlier surface's.
 const MIN_CAUSTIC_RATIO: f32 = 16.0;
 
 /// The kinds of scattering that a path has undergone.
@@ -137,7 +138,7 @@ const PROBABILITY_PER_FRACTION: f32 = 1.5;
 /// The throughput from which Russian roulette computes the survival probability of a path.
 #[derive(Clone, Copy)]
 pub(super) struct RouletteState {
-    /// Factor on the path's throughput: its value when the throughput was last set to one.
+    /// Factor on the path's throughput: the relative densities of guided directions, and the throughputs at which `path_reuse.rs` has set it to one.
     factor: f32,
     /// Throughput behind the first surface that is no mirror.
     first: Option<f32>,

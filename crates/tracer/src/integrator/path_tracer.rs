@@ -120,9 +120,7 @@ pub(super) trait Effects: Copy {
 /// The row of [`Effects`] that a scene takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SceneEffects {
-    /// [`DiffuseOnly`].
     DiffuseOnly,
-    /// [`NoMedia`].
     NoMedia,
     /// [`AllEffects`].
     All,
@@ -132,7 +130,6 @@ pub(super) enum SceneEffects {
 #[derive(Clone, Copy)]
 pub(super) struct AllEffects;
 
-/// No media.
 #[derive(Clone, Copy)]
 pub(super) struct NoMedia;
 

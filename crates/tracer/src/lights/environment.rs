@@ -71,14 +71,14 @@ impl Environment {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnvironmentError {
     /// The texels do not fill the image.
-    #[error("the environment map has {found} texels, but its size is {width} × {height}; correct its size")]
+    #[error("the environment map has {actual} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
         /// Number of texels given.
-        found: usize,
+        actual: usize,
     },
     /// A texel is negative or not finite.
     #[error("texel {texel} of the environment map is negative or not a finite number; correct the image")]
@@ -146,7 +146,7 @@ impl ImageEnvironment {
         rotation_rad: f64,
     ) -> Result<Self, EnvironmentError> {
         if texels.is_empty() || texels.len() != width * height {
-            return Err(EnvironmentError::Size { width, height, found: texels.len() });
+            return Err(EnvironmentError::Size { width, height, actual: texels.len() });
         }
         if let Some(texel) = texels.iter().position(|t| t.iter().any(|v| !(v.is_finite() && *v >= 0.0))) {
             return Err(EnvironmentError::Texel { texel });

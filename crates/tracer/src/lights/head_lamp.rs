@@ -79,7 +79,7 @@ fn grid(candela: impl Fn(f64, f64) -> f64) -> PhotometricGrid {
     let values = horizontal.iter().flat_map(|h| vertical.iter().map(|v| candela(*v, *h) as f32).collect::<Vec<_>>());
     let (rows, columns) = (vertical.iter().map(|v| *v as f32), horizontal.iter().map(|h| *h as f32));
     PhotometricGrid::new(PhotometricAxes::A, rows.collect(), columns.collect(), values.collect())
-        .expect("rising angles and finite values")
+        .expect("increasing angles and finite values")
 }
 
 #[cfg(test)]

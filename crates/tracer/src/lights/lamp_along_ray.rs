@@ -166,12 +166,12 @@ impl Lights {
             if counts > 0.0 && counts.is_finite() {
                 // Each lamp replaces the one before with the probability of its fraction so far. The remainder of the number stays uniform.
                 total += counts;
-                let share = f64::from(counts / total);
-                if rest < share {
+                let probability = f64::from(counts / total);
+                if rest < probability {
                     chosen = Some((along, counts));
-                    rest /= share;
+                    rest /= probability;
                 } else {
-                    rest = (rest - share) / (1.0 - share);
+                    rest = (rest - probability) / (1.0 - probability);
                 }
             }
         }

@@ -244,7 +244,7 @@ mod tests {
                 let actual = sky.radiance(direction, &WAVELENGTHS);
                 for (nm, actual) in WAVELENGTHS.nm.iter().zip(actual.0) {
                     let exact = exact.at(*nm);
-                    // Where gradient and glow nearly cancel (low over the horizon), errors are those of their terms.
+                    // Errors are those of the terms where gradient and glow nearly cancel (low over the horizon).
                     assert!((actual - exact).abs() <= 1e-3 * exact + 2e-5, "{direction} {nm}: {actual} {exact}");
                 }
             }

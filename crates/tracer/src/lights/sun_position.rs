@@ -33,10 +33,10 @@ pub struct SunPosition {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
     /// A year beyond the formulas.
-    #[error("year {found} is outside 1900 to 2100, for which the Sun's position is computed")]
+    #[error("year {year} is outside 1900 to 2100, for which the Sun's position is computed")]
     Year {
         /// The year given.
-        found: i32,
+        year: i32,
     },
     /// A month or day that is not in the calendar.
     #[error("{year}-{month:02}-{day:02} is not a calendar date: give year, month 1 to 12 and day of the month")]
@@ -102,7 +102,7 @@ impl UtcTime {
         let CalendarDate { year, month, day } = date;
         let ClockTime { hour, minute, second } = time;
         if !(1900..=2100).contains(&year) {
-            return Err(SunPositionError::Year { found: year });
+            return Err(SunPositionError::Year { year });
         }
         if !(1..=12).contains(&month) || !(1..=days_of_month(year, month)).contains(&day) {
             return Err(SunPositionError::Date { year, month, day });

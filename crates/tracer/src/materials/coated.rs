@@ -34,14 +34,14 @@ pub const WATER: f64 = 1.333;
 
 /// A coated diffuse surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coated {
+pub struct CoatedDiffuse {
     pub(super) base: Reflectance,
     coat: Coat,
     /// Water that stands in low parts and smooths them; `None` for coats of their own roughness only.
     puddles: Option<Puddles>,
 }
 
-impl Coated {
+impl CoatedDiffuse {
     /// A base of reflectance `base` under a coat of index `n` and roughness `alpha` (GGX α, 0 to 1).
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Coated {
     }
 }
 
-impl SurfaceModel for Coated {
+impl SurfaceModel for CoatedDiffuse {
     type Bsdf<'a, const N: usize> = CoatedBsdf<'a, N>;
 
     fn parameters(&self) -> Vec<Parameter<'_>> {

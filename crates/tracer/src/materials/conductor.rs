@@ -2,7 +2,7 @@
 //!
 //! f = F · D · G₂ / (4 cos θₒ cos θᵢ), 1/sr (Cook and Torrance 1982, with the 4 that energy conservation requires), D GGX or Beckmann with
 //! height-correlated Smith shadowing, see `microfacet` and `beckmann`; visible facets are sampled. F is that of a complex index n + ik, or of a real
-//! one. Light that enters is absorbed (a diffuse base under such a surface is [`super::Coated`]). A roughness α below [`super::MIRROR_ALPHA`] is an
+//! one. Light that enters is absorbed (a diffuse base under such a surface is [`super::CoatedDiffuse`]). A roughness α below [`super::MIRROR_ALPHA`] is an
 //! exact mirror: the lobe would be narrower than a hundredth of a degree. The roughness may be a texture, and so may the reflectance of a metal at
 //! normal incidence. F is then Schlick's approximation (1994), F₀ + (1 − F₀)(1 − cos θ)⁵, as for all metals in glTF.
 //!

@@ -24,7 +24,7 @@ fn grey(reflectance: f64) -> Reflectance {
 }
 
 fn coated(n: f64, alpha: f64) -> Surface {
-    Surface::Coated(Box::new(Coated::new(grey(0.1), n, alpha).expect("a coat")))
+    Surface::Coated(Box::new(CoatedDiffuse::new(grey(0.1), n, alpha).expect("a coat")))
 }
 
 fn metal(distribution: Distribution, alpha: f64) -> Surface {

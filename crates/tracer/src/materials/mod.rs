@@ -55,7 +55,7 @@ mod thin_sheet;
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
 pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
 pub use cloth::{Cloth, ClothBsdf, ClothError};
-pub use coated::{COAT_INDICES, Coated, CoatedBsdf, WATER};
+pub use coated::{COAT_INDICES, CoatedBsdf, CoatedDiffuse, WATER};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
 pub use diffuse::DiffuseBsdf;
@@ -94,7 +94,7 @@ surfaces! {
     /// A smooth or rough metal.
     Conductor(Box<Conductor>) from Conductor => ConductorBsdf<N>,
     /// A diffuse base under a clear coat.
-    Coated(Box<Coated>) from Coated => CoatedBsdf<'a, N>,
+    Coated(Box<CoatedDiffuse>) from CoatedDiffuse => CoatedBsdf<'a, N>,
     /// A diffuse base with generalised cosine lobes.
     Lafortune(Box<Lafortune>) from Lafortune => LafortuneBsdf<'a, N>,
     /// A diffuse base with a glossy lobe about the half vector.

@@ -5,7 +5,7 @@ use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths, maths::f64::exp};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::medium::{ForwardPeak, Medium, MediumOptics};
-use super::{phase::Phase, shape::Hollow};
+use super::{phase::Phase, shape::HollowRegion};
 
 /// Weight of a medium relative to the part of a ray that lies in it, if light is sampled at the middles of longer parts.
 const OUTSIDE_WEIGHT: f32 = 0.05;
@@ -53,7 +53,7 @@ pub(super) struct PlacedMedium<'a> {
     /// Transform from the render frame to the medium's own, if it does not move.
     to_local: Option<DAffine3>,
     /// Parts of it that are left out near the origin of the render frame.
-    pub(super) hollow: Option<Hollow>,
+    pub(super) hollow: Option<HollowRegion>,
 }
 
 /// A part of a ray, in lengths of its direction.
@@ -81,7 +81,7 @@ impl<'a> Media<'a> {
 
     /// Leaves out parts of one medium, by its index in the list, near the origin of the render frame. Its density must be uniform.
     #[must_use]
-    pub fn with_hollow(mut self, medium: usize, hollow: Hollow) -> Self {
+    pub fn with_hollow(mut self, medium: usize, hollow: HollowRegion) -> Self {
         self.placed[medium].hollow = Some(hollow);
         self
     }

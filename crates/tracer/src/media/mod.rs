@@ -23,7 +23,7 @@ pub use medium::{DensityVariation, ForwardPeak, Medium, MediumError};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;
-pub use shape::{Hollow, HollowPart, MediumRegion};
+pub use shape::{HollowPart, HollowRegion, MediumRegion};
 
 pub(crate) use media::RaySpan;
 #[cfg(test)]

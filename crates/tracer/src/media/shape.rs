@@ -95,12 +95,12 @@ pub struct HollowPart {
 
 /// Parts of a uniform medium, each of which begins at a distance of its own: nearer, particles are modelled one by one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hollow {
+pub struct HollowRegion {
     /// By increasing starting distance.
     parts: Vec<HollowPart>,
 }
 
-impl Hollow {
+impl HollowRegion {
     /// From the parts, whose fractions sum to 1.
     #[must_use]
     pub fn new(mut parts: Vec<HollowPart>) -> Self {
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn the_way_is_the_integral_of_the_density() {
-        let hollow = Hollow::new(
+        let hollow = HollowRegion::new(
             [(5.0, 0.3), (0.0, 0.5), (2.0, 0.2)].map(|(from_m, fraction)| HollowPart { from_m, fraction }).to_vec(),
         );
         let (origin, direction) = (DVec3::new(0.3, -1.0, 0.2), DVec3::new(1.0, 2.0, -0.5));

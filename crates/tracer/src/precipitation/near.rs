@@ -15,7 +15,7 @@ use super::change_over::{ChangeOver, VisibleRegion};
 use super::field::{Particle, PrecipitationField};
 use crate::accel::{Simd, Streak, Streaks};
 use crate::materials::fresnel;
-use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, MediumRegion, Phase, SpectralTable};
+use crate::media::{HollowPart, HollowRegion, Media, Medium, MediumError, MediumRegion, Phase, SpectralTable};
 
 /// Mean cosine of scattering by an ice crystal, without diffraction: that of snow grains by geometric optics (Warren, Rev. Geophys. 20,
 /// 1982: 0.89 with the half that is diffracted straight on).
@@ -41,13 +41,13 @@ impl PrecipitationField {
 
     /// The parts of the medium that are left out near a camera.
     #[must_use]
-    pub fn hollow(&self, change_over: &ChangeOver) -> Hollow {
+    pub fn hollow(&self, change_over: &ChangeOver) -> HollowRegion {
         let total_per_m = self.extinction_per_m();
         let part = |(class, radius_m): (&super::SizeClass, &f64)| HollowPart {
             from_m: *radius_m,
             fraction: class.extinction_per_m / total_per_m,
         };
-        Hollow::new(self.classes().iter().zip(&change_over.radii_m).map(part).collect())
+        HollowRegion::new(self.classes().iter().zip(&change_over.radii_m).map(part).collect())
     }
 
     /// A particle as a spheroid in the render frame of a view.

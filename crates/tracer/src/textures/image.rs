@@ -302,7 +302,7 @@ fn probes(across: f32, along: f32) -> u32 {
 
 fn check_size(width: u32, height: u32, actual: usize) -> Result<(), TextureError> {
     let fits = actual > 0 && actual as u64 == u64::from(width) * u64::from(height);
-    if fits { Ok(()) } else { Err(TextureError::Size { width, height, found: actual }) }
+    if fits { Ok(()) } else { Err(TextureError::Size { width, height, actual }) }
 }
 
 /// The resolutions that a filter needs.
@@ -416,7 +416,7 @@ mod tests {
     #[test]
     fn faulty_images_are_refused() {
         let size = ImageTexture::new(2, 2, Texels::Linear8(vec![[0; 3]; 3]), Sampling::default());
-        assert_eq!(size.err(), Some(TextureError::Size { width: 2, height: 2, found: 3 }));
+        assert_eq!(size.err(), Some(TextureError::Size { width: 2, height: 2, actual: 3 }));
         let nan = Texels::Float(vec![[0.0; 3], [f32::NAN; 3]]);
         assert_eq!(ImageTexture::new(2, 1, nan, Sampling::default()).err(), Some(TextureError::NonFinite { texel: 1 }));
     }

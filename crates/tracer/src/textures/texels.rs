@@ -178,14 +178,14 @@ impl Channel {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
     /// The texels do not fill the image.
-    #[error("the texture has {found} texels, but its size is {width} × {height}; correct its size")]
+    #[error("the texture has {actual} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
         /// Number of texels given.
-        found: usize,
+        actual: usize,
     },
     /// A texel is not a finite number.
     #[error("texel {texel} of the texture is not a finite number; correct the file")]

@@ -6,13 +6,13 @@ use etendue::Error;
 use etendue_core::quantity::{Quantity, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::exr::{
-    ExrChannel, ExrFile, ExrSamples as Stored, SpectralImage, WithVariance, band_weights, parse_channel_name, read_exr,
-    spectral_of,
+    CubeWithVariance, ExrChannel, ExrFile, ExrSamples as Stored, SpectralImage, band_weights, parse_channel_name,
+    read_exr, spectral_of,
 };
 
 use super::facts::{self, FileLayers, SideCar};
-use crate::found::ResultFile;
 use crate::layer::{Layer, LayerKind, NamedPlane, Role, Samples};
+use crate::result_files::ResultFile;
 
 /// Parts of a digital number, in the order of the signal path; others follow in their own order.
 const PARTS: [&str; 10] =
@@ -161,7 +161,7 @@ fn spectrum(file: &ResultFile, exr: &ExrFile, stated: &str) -> Result<Layer, Err
     Ok(Layer { name: file.stem.clone(), kind, unit, meaning, size: (exr.width, exr.height), planes })
 }
 
-fn cube<Q: Quantity<Sample = f32>>(image: WithVariance<Q>) -> (Bands, Vec<NamedPlane>) {
+fn cube<Q: Quantity<Sample = f32>>(image: CubeWithVariance<Q>) -> (Bands, Vec<NamedPlane>) {
     let bands = image.cube.bands();
     let name = |band: usize| format!("{} nm", bands.centre_nm(band));
     let values = image.cube.planes().iter().map(Plane::samples).enumerate();

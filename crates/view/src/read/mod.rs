@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use etendue::Error;
 use etendue_io::correspondence::read_flow;
 
-use crate::found::ResultFile;
+use crate::result_files::ResultFile;
 
 pub(crate) use facts::{FileLayers, SideCar};
 

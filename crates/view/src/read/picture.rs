@@ -8,8 +8,8 @@ use etendue_io::photograph::{Encoding, Photograph, PhotographChannel, read_photo
 use serde_json::{Value, json};
 
 use super::facts::{self, SideCar};
-use crate::found::ResultFile;
 use crate::layer::{Layer, LayerKind, NamedPlane, Samples};
+use crate::result_files::ResultFile;
 
 pub(super) fn picture_layer(file: &ResultFile, side_car: &SideCar) -> Result<Layer, Error> {
     let photograph = read_photograph(&file.path).map_err(Error::input)?;

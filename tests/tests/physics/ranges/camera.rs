@@ -172,7 +172,7 @@ fn refused(extreme: &str, expected: &str, job: &Job, named: &str) -> Row {
         extreme: extreme.to_owned(),
         expected: expected.to_owned(),
         holds: message.contains(named) && message.lines().count() == 1,
-        found: message.replace('|', "\\|"),
+        actual: message.replace('|', "\\|"),
     }
 }
 
@@ -259,13 +259,13 @@ fn electronics() -> Vec<Row> {
         Row {
             extreme: "a pixel that holds one electron".to_owned(),
             expected: "0 or 1 electron: at most 64 + 10 DN".to_owned(),
-            found: format!("largest {} DN", figure(one_electron.iter().copied().fold(0.0, f64::max))),
+            actual: format!("largest {} DN", figure(one_electron.iter().copied().fold(0.0, f64::max))),
             holds: one_electron.iter().all(|dn| *dn <= 74.0 && *dn >= 64.0),
         },
         Row {
             extreme: format!("{expected:.2} photons in a frame of 65 536 pixels"),
             expected: "an integer, Poisson: within four deviations".to_owned(),
-            found: format!("{actual} electrons"),
+            actual: format!("{actual} electrons"),
             holds: actual.fract() == 0.0 && (actual - expected).abs() <= 4.0 * expected.sqrt() + 1.0,
         },
         Row::at_most(

@@ -169,13 +169,13 @@ fn degenerate() -> Vec<Row> {
         Row {
             extreme: "triangles without area, collinear, needles of 10⁻⁶ of their length".to_owned(),
             expected: "hit or miss; no pixel is dark or not finite".to_owned(),
-            found: dark(unlit_or_not_finite(&needles)),
+            actual: dark(unlit_or_not_finite(&needles)),
             holds: unlit_or_not_finite(&needles) == 0,
         },
         Row {
             extreme: "10⁵ coincident triangles".to_owned(),
             expected: "the image of one: hit once, no self-shadowing".to_owned(),
-            found: format!("{differing} pixels differ"),
+            actual: format!("{differing} pixels differ"),
             holds: differing == 0,
         },
         Row::at_most(
@@ -257,7 +257,7 @@ fn strange_places() -> Vec<Row> {
         Row {
             extreme: "the camera in a sphere that emits outwards only".to_owned(),
             expected: "black: such a light is opaque and dark inside".to_owned(),
-            found: format!("brightest pixel {}", figure(f64::from(inside.iter().copied().fold(0.0, f32::max)))),
+            actual: format!("brightest pixel {}", figure(f64::from(inside.iter().copied().fold(0.0, f32::max)))),
             holds: inside.iter().all(|v| *v == 0.0),
         },
     ]

@@ -92,7 +92,7 @@ fn image_points_are_the_images_of_what_they_see() {
         Row {
             extreme: format!("{name}, to {edge_deg:.1}°"),
             expected: "≤ 10⁻⁹, 0 lost".to_owned(),
-            found: format!("{farthest:.0e}, {lost} lost"),
+            actual: format!("{farthest:.0e}, {lost} lost"),
             holds: farthest <= 1e-9 && lost == 0,
         }
     };

@@ -117,7 +117,7 @@ fn row(name: &str, bits: u32, bound: f64, (error, at): &(f64, Vec<f64>)) -> Row 
     Row {
         extreme: format!("`{name}`, {bits} bits"),
         expected: format!("≤ {bound} ULP"),
-        found: format!("{error:.2} at {}", at.join(", ")),
+        actual: format!("{error:.2} at {}", at.join(", ")),
         holds: *error <= bound,
     }
 }

@@ -16,7 +16,7 @@ fn measured(extreme: &str, expected: &str, image: &str, folder: &Path) -> Row {
     Row {
         extreme: extreme.to_owned(),
         expected: expected.to_owned(),
-        found: format!("{refusal_count} refuse, {answered} answer; `sfr`: {}", table_text(first, &[folder])),
+        actual: format!("{refusal_count} refuse, {answered} answer; `sfr`: {}", table_text(first, &[folder])),
         holds: refusal_count + answered == MEASUREMENTS.len(),
     }
 }

@@ -19,7 +19,7 @@ fn after(before: &str, arguments: &[&str]) -> CommandOutput {
 fn refused_without_files(status: i32, extreme: &str, output: &CommandOutput, place: &Path) -> Row {
     let row = ended(status, extreme, "no file under a final name", output, &[place]);
     let left = contents(place).len();
-    Row { found: format!("{}; {left} files", row.found), holds: row.holds && left == 0, ..row }
+    Row { actual: format!("{}; {left} files", row.actual), holds: row.holds && left == 0, ..row }
 }
 
 #[test]
@@ -34,8 +34,8 @@ fn runs_that_cannot_go_on() {
     let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
     let memory = refused_without_files(2, "a film for which there is no memory", &memory, place.path());
     // Free memory depends on the addresses given by the system.
-    let needed = memory.found.split(", but ").next().unwrap_or_default().to_owned();
-    let memory = Row { found: format!("{needed}, and less is free"), ..memory };
+    let needed = memory.actual.split(", but ").next().unwrap_or_default().to_owned();
+    let memory = Row { actual: format!("{needed}, and less is free"), ..memory };
     let caption = "With real limits of the system. Small failed allocations and panics of workers have their own tests (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs).";
     check("Runs that cannot continue", caption, &[full, memory]);
 }

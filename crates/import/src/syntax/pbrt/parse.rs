@@ -144,7 +144,7 @@ impl<'a> Parser<'a> {
         let closed = !bracketed || matches!(self.tokens.take()?, Some((_, Token::Close)));
         match numbers.len() == count && closed {
             true => Ok(numbers),
-            false => Err((line, format!("`{subject}` has {} numbers; expected {count}", numbers.len()))),
+            false => Err((line, format!("`{subject}`: expected {count} numbers, found {}", numbers.len()))),
         }
     }
 

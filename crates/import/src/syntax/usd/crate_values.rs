@@ -12,7 +12,7 @@ const OVERHEAD: u64 = 128;
 
 /// Table that an index of a list refers to.
 #[derive(Clone, Copy)]
-enum Indexed {
+enum IndexedTable {
     Token,
     String,
     Path,
@@ -51,20 +51,20 @@ impl Crate<'_> {
             return Ok(());
         }
         match kind {
-            10 | 12 | 57 if value & ARRAY != 0 => self.indexed(&mut self.from(place)?, Indexed::String),
+            10 | 12 | 57 if value & ARRAY != 0 => self.indexed(&mut self.from(place)?, IndexedTable::String),
             11 if value & ARRAY != 0 => {
                 let mut reader = self.from(place)?;
                 let count = self.array_length(&mut reader, place)?;
-                self.indices(&mut reader, count, Indexed::Token)
+                self.indices(&mut reader, count, IndexedTable::Token)
             }
             48 => self.array(9, value, place),
             _ if value & ARRAY != 0 => self.array(kind, value, place),
             31 => self.dictionary(&mut self.from(place)?, depth),
             46 => self.samples(place, depth),
             32..=39 | 54 | 55 => self.list_edits(kind, place, depth),
-            40 => self.indexed(&mut self.from(place)?, Indexed::Path),
-            41 => self.indexed(&mut self.from(place)?, Indexed::Token),
-            50 => self.indexed(&mut self.from(place)?, Indexed::String),
+            40 => self.indexed(&mut self.from(place)?, IndexedTable::Path),
+            41 => self.indexed(&mut self.from(place)?, IndexedTable::Token),
+            50 => self.indexed(&mut self.from(place)?, IndexedTable::String),
             45 => self.counted(&mut self.from(place)?, 8, OVERHEAD),
             49 => self.counted(&mut self.from(place)?, 16, 16),
             58 => self.counted(&mut self.from(place)?, 8, OVERHEAD),
@@ -115,20 +115,20 @@ impl Crate<'_> {
         reader.take(count * size).map(drop)
     }
 
-    fn indexed(&mut self, reader: &mut Bytes<'_>, of: Indexed) -> Result<(), String> {
+    fn indexed(&mut self, reader: &mut Bytes<'_>, of: IndexedTable) -> Result<(), String> {
         let count = reader.count(4)?;
         self.indices(reader, count, of)
     }
 
     /// Reads 32-bit indices into a table, whose entries are copied.
-    fn indices(&mut self, reader: &mut Bytes<'_>, count: u64, of: Indexed) -> Result<(), String> {
+    fn indices(&mut self, reader: &mut Bytes<'_>, count: u64, of: IndexedTable) -> Result<(), String> {
         let raw = reader.take(count.checked_mul(4).ok_or("too many entries")?)?;
         for bytes in raw.as_chunks::<4>().0 {
             let index = u32::from_le_bytes(*bytes) as usize;
             let length = match of {
-                Indexed::Token => self.tokens.get(index),
-                Indexed::String => self.strings.get(index).and_then(|token| self.tokens.get(*token as usize)),
-                Indexed::Path => self.paths.get(index),
+                IndexedTable::Token => self.tokens.get(index),
+                IndexedTable::String => self.strings.get(index).and_then(|token| self.tokens.get(*token as usize)),
+                IndexedTable::Path => self.paths.get(index),
             };
             let length = *length.ok_or("an index refers to a missing string, token or path")?;
             self.spend(1, OVERHEAD + length)?;
@@ -178,9 +178,9 @@ impl Crate<'_> {
         // Explicit, added, deleted, ordered, prepended, appended: one list each.
         for _ in 0..(header & 0b111_1110).count_ones() {
             match kind {
-                32 => self.indexed(&mut reader, Indexed::Token)?,
-                33 | 54 => self.indexed(&mut reader, Indexed::String)?,
-                34 => self.indexed(&mut reader, Indexed::Path)?,
+                32 => self.indexed(&mut reader, IndexedTable::Token)?,
+                33 | 54 => self.indexed(&mut reader, IndexedTable::String)?,
+                34 => self.indexed(&mut reader, IndexedTable::Path)?,
                 36 | 38 => self.counted(&mut reader, 4, 4)?,
                 37 | 39 => self.counted(&mut reader, 8, 8)?,
                 35 => self.references(&mut reader, depth)?,

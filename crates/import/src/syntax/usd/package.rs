@@ -20,7 +20,6 @@ pub(super) struct Entry {
     to: usize,
 }
 
-/// A package.
 pub(super) struct Package {
     bytes: Vec<u8>,
     entries: Vec<Entry>,
@@ -84,7 +83,8 @@ impl Package {
     pub(super) fn shown(&self) -> String {
         let mut shown = String::new();
         for entry in self.entries.iter().take(5) {
-            write!(shown, "{}\"{}\"", if shown.is_empty() { "" } else { ", " }, entry.name).expect("a text grows");
+            write!(shown, "{}\"{}\"", if shown.is_empty() { "" } else { ", " }, entry.name)
+                .expect("writing to a String succeeds");
         }
         if self.entries.len() > 5 { format!("{shown} and {} others", self.entries.len() - 5) } else { shown }
     }

@@ -1,15 +1,15 @@
-//! Refuses text layers on which `openusd` does not terminate: deep nesting, which exhausts the stack; nested lists, which it parses repeatedly; and braces in
-//! paths other than those of variants.
+//! Checks of text layers before `openusd` parses them. Refused are deep nesting, on which its parser exhausts the stack; deeply nested lists, which it parses
+//! repeatedly; and unbalanced braces in paths and names of prims, on which it does not terminate.
 
 /// Maximum depth of braces, and of brackets of an expression in a string.
 const MAX_DEPTH: usize = 64;
-/// Maximum depth of lists and tuples: matrices in an array have three.
+/// Maximum depth of lists and tuples; an array of matrices has three levels.
 const MAX_LISTS: usize = 8;
 
-/// Refuses a text that is nested too deep, or contains an impossible path.
+/// Refuses a text that is nested too deep, or has unbalanced braces in a path or in the name of a prim.
 pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
     // Depths of braces, parentheses, brackets.
-    let (mut depths, mut at, mut words) = ([0_usize; 3], 0, LastWords::default());
+    let (mut depths, mut at, mut words) = ([0_usize; 3], 0, WordEnds::default());
     let line = |at: usize| 1 + text[..at].iter().filter(|byte| **byte == b'\n').count();
     while at < text.len() {
         let opens = [b"{}", b"()", b"[]"].iter().position(|pair| pair.contains(&text[at]));
@@ -20,7 +20,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 check_expression(inner)?;
                 words.read_up_to(text, at);
                 if words.name_prim() && !is_balanced(inner) {
-                    return Err(format!("line {}: the name of a prim contains braces", line(at)));
+                    return Err(format!("line {}: the name of a prim contains unbalanced braces", line(at)));
                 }
                 at = end;
                 continue;
@@ -29,7 +29,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 let end =
                     text[at..].iter().position(|byte| matches!(byte, b'>' | b'\n')).map_or(text.len(), |n| at + n);
                 if !is_balanced(&text[at..end]) {
-                    return Err(format!("line {}: a path contains braces that do not belong to a variant", line(at)));
+                    return Err(format!("line {}: a path contains unbalanced braces", line(at)));
                 }
                 at = end;
             }
@@ -63,16 +63,16 @@ pub(super) fn is_balanced(text: &[u8]) -> bool {
     depth == 0
 }
 
-/// Ends of the last two words of a text that is read sequentially.
+/// The last two words before the current position of a text that is read sequentially.
 #[derive(Default)]
-struct LastWords {
-    /// As long as the longest word searched for.
+struct WordEnds {
+    /// Last five bytes of each word: the length of the longest keyword, `class`.
     ends: [[u8; 5]; 2],
     is_within: bool,
     read: usize,
 }
 
-impl LastWords {
+impl WordEnds {
     fn read_up_to(&mut self, text: &[u8], at: usize) {
         for byte in &text[self.read..at] {
             if byte.is_ascii_whitespace() {
@@ -88,7 +88,7 @@ impl LastWords {
         self.read = at;
     }
 
-    /// Returns true if the quoted text after them is the name of a prim: `def`, `over` or `class` precedes it, with at most a type between.
+    /// Returns true if the quoted text that follows is the name of a prim: one of the two words is `def`, `over` or `class`, as a type may stand between.
     fn name_prim(&self) -> bool {
         self.ends.iter().any(|end| [&b"def"[..], b"over", b"class"].iter().any(|known| end.ends_with(known)))
     }

@@ -18,7 +18,7 @@ fn opacity(converted: &ConvertedScene) -> Option<f64> {
 #[test]
 fn opacity_that_is_presence_makes_no_glass() {
     let presence = ball("float inputs:opacity = 0.3 token inputs:opacityMode = \"presence\"");
-    assert!(matches!(presence.material("a").surface.0, Surface::Coated(_)), "{}", presence.report_text);
+    assert!(matches!(presence.material("a").surface.0, Surface::CoatedDiffuse(_)), "{}", presence.report_text);
     assert_eq!(opacity(&presence), Some(0.3));
     assert!(!presence.reports("opacity"), "as it is meant: {}", presence.report_text);
     for mode in ["", "token inputs:opacityMode = \"transparent\""] {
@@ -38,7 +38,7 @@ fn opacity_that_is_presence_makes_no_glass() {
 fn an_index_beyond_those_of_coats_is_the_nearest() {
     for (stated, expected) in [("0.8", 1.1), ("1.05", 1.1), ("5", 4.0), ("1.5", 1.5)] {
         let converted = ball(&format!("float inputs:ior = {stated}"));
-        let Surface::Coated(coated) = &converted.material("a").surface.0 else {
+        let Surface::CoatedDiffuse(coated) = &converted.material("a").surface.0 else {
             panic!("{stated}: {}", converted.report_text)
         };
         assert_eq!(coated.index.as_ref().map(|index| index.value), Some(expected));

@@ -70,7 +70,9 @@ fn the_file_says_whether_its_colours_are_encoded() {
 fn numbers_of_encoded_pictures_are_decoded() {
     let alphas = |file: &str, inputs: &str| {
         let converted = card_of(1.0, file, inputs, "float inputs:roughness.connect = </M/T.outputs:r>");
-        let Surface::Coated(coated) = &converted.material("a").surface.0 else { panic!("{}", converted.report_text) };
+        let Surface::CoatedDiffuse(coated) = &converted.material("a").surface.0 else {
+            panic!("{}", converted.report_text)
+        };
         let Factor::Texture(_) = &coated.alpha else { panic!("{}", converted.report_text) };
         let (name, bytes) = converted.files.iter().find(|(name, _)| name.ends_with(".exr")).expect("numbers");
         let image = etendue_io::picture::decode_image(std::path::Path::new(name), bytes).expect("a picture");
@@ -89,7 +91,9 @@ fn colours_by_different_rules_are_different_pictures() {
     let used = "color3f inputs:diffuseColor.connect = </M/T.outputs:rgb> color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>";
     let converted = card_of(1.0, "letter.png", "float4 inputs:scale = (3, 3, 3, 1)", used);
     let [a, b] = &converted.scene.textures[..] else { panic!("{}", converted.scene.textures.len()) };
-    let Surface::Coated(coated) = &converted.material("a").surface.0 else { panic!("{}", converted.report_text) };
+    let Surface::CoatedDiffuse(coated) = &converted.material("a").surface.0 else {
+        panic!("{}", converted.report_text)
+    };
     let Reflectance::Texture { name: reflectance, .. } = &coated.reflectance else {
         panic!("{}", converted.report_text)
     };

@@ -258,10 +258,10 @@ impl GltfMeshBuilder {
             return Err("a texture coordinate is not finite; correct the model".into());
         }
         if lines > 0 {
-            mesh.report.push(format!("{lines} primitives of points or lines are not used"));
+            mesh.report.push(format!("primitives of points or lines, which are not used: {lines}"));
         }
         if has_uvs && bare_vertices > 0 {
-            mesh.report.push(format!("{bare_vertices} vertices without texture coordinates use u = v = 0"));
+            mesh.report.push(format!("vertices without texture coordinates, which use u = v = 0: {bare_vertices}"));
         }
         Ok(mesh)
     }

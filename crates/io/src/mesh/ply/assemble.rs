@@ -178,7 +178,7 @@ fn fill_normals(mesh: &mut MeshAsset) {
     }
     normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // vertex of no triangle
     if mended > 0 {
-        report.push(format!("{mended} vertices without a usable normal use that of a face"));
+        report.push(format!("vertices without a usable normal, which use that of a face: {mended}"));
     }
 }
 
@@ -198,7 +198,9 @@ fn notes(header: &PlyHeader, unused: &[String], elements: &[(String, usize)]) ->
             shortened(image)
         ));
     }
-    notes.extend(elements.iter().map(|(name, count)| format!("{count} elements `{}` are not used", shortened(name))));
+    notes.extend(
+        elements.iter().map(|(name, count)| format!("elements `{}`, which are not used: {count}", shortened(name))),
+    );
     notes
 }
 

@@ -36,7 +36,7 @@ impl<'a> PlyInput<'a> {
         match element.count.checked_mul(row) {
             Some(bytes) if bytes <= rest => Ok(()),
             _ => Err(format!(
-                "the header states {} elements `{}`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again",
+                "the header states {} × element `{}`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again",
                 element.count,
                 shortened(&element.name)
             ).into()),
@@ -91,7 +91,6 @@ impl<'a> PlyInput<'a> {
         self.advance(length.saturating_mul(property.number.bytes()))
     }
 
-    /// Skips an element.
     pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Problem> {
         self.check_rows(element)?;
         let is_even = element.properties.iter().all(|p| p.count.is_none());

@@ -61,13 +61,13 @@ pub fn encode_ply(mesh: &PlacedTriangles) -> Vec<u8> {
     let has_uvs = mesh.uvs.len() == mesh.positions.len();
     let mut head = format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.len());
     let mut add = |kind: &str, names: &[&str]| {
-        names.iter().for_each(|name| writeln!(head, "property {kind} {name}").expect("a text grows"));
+        names.iter().for_each(|name| writeln!(head, "property {kind} {name}").expect("writing to a String succeeds"));
     };
     add("double", &["x", "y", "z"]);
     add("float", if has_normals { &["nx", "ny", "nz"] } else { &[] });
     add("float", if has_uvs { &["u", "v"] } else { &[] });
     write!(head, "element face {}\nproperty list uchar uint vertex_indices\nend_header\n", mesh.triangles.len())
-        .expect("a text grows");
+        .expect("writing to a String succeeds");
     let mut bytes = head.into_bytes();
     for (vertex, position) in mesh.positions.iter().enumerate() {
         bytes.extend(position.iter().flat_map(|v| v.to_le_bytes()));
@@ -90,11 +90,11 @@ pub fn encode_ply(mesh: &PlacedTriangles) -> Vec<u8> {
 pub fn encode_obj(mesh: &PlacedTriangles) -> Vec<u8> {
     let mut text = String::new();
     for [x, y, z] in &mesh.positions {
-        writeln!(text, "v {x} {y} {z}").expect("a text grows");
+        writeln!(text, "v {x} {y} {z}").expect("writing to a String succeeds");
     }
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|i| u64::from(i) + 1);
-        writeln!(text, "f {a} {b} {c}").expect("a text grows");
+        writeln!(text, "f {a} {b} {c}").expect("writing to a String succeeds");
     }
     text.into_bytes()
 }

@@ -165,7 +165,7 @@ fn factors_of_tilts_are_stored_and_reported() {
     std::fs::write(&path, lamp.text()).expect("write");
     let message = read_asset(folder.path(), &path).expect_err("no such file");
     assert!(
-        message.starts_with("tilts/a.tlt: no such tilt file; check the path (named at lamp.ies:5: TILT;"),
+        message.starts_with("tilts/a.tlt: no such tilt file; check the path (referenced at lamp.ies:5: TILT;"),
         "{message}"
     );
     std::fs::write(folder.path().join("tilts/a.tlt"), table).expect("write");

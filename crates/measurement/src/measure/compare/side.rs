@@ -43,7 +43,9 @@ pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<us
     let matches =
         |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
     let position = p.channels.iter().position(|c| matches(&c.name));
-    position.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
+    position.ok_or_else(|| {
+        format!("the measurement is of channel '{name}', but the channels of the camera file are {}", names())
+    })
 }
 
 /// The first place of a channel in the tile, which measurements use.

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use clap::Args;
-use etendue_arguments::whole;
+use etendue_arguments::integer;
 
 /// Range of the number of field heights.
 pub(super) const FIELDS: RangeInclusive<u32> = 2..=1000;
@@ -22,7 +22,7 @@ pub struct LensRequest {
     #[arg(long, value_name = "N")]
     pub f_number: Option<f64>,
     /// Number of field heights, from the axis to the edge of the image
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(FIELDS))]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = integer(FIELDS))]
     pub fields: u32,
     /// For a lens without a sensor: radius of the image from the axis, mm [default: the largest field that a lens file states,
     /// otherwise 21.64; or as far as there is light]

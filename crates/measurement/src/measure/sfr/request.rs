@@ -66,7 +66,6 @@ impl SfrRequest {
     }
 }
 
-/// A measured edge.
 pub(super) struct MeasuredEdge<'a> {
     pub(super) region: &'a EdgeRegion,
     pub(super) field: f64,

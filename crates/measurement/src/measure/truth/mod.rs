@@ -132,7 +132,7 @@ impl Truth {
 
     /// Refuses a sheet that does not fill the camera's view.
     pub(crate) fn filled(&self) -> Result<(), Error> {
-        match self.content.seen.fills_the_field {
+        match self.content.view.fills_the_field {
             true => Ok(()),
             false => {
                 Err(self

@@ -13,7 +13,8 @@ type ImagePoints = Vec<Option<[f64; 2]>>;
 pub(crate) struct TruthFile {
     pub chart: String,
     pub sizes: Map<String, Value>,
-    pub seen: ViewRecord,
+    #[serde(rename = "seen")]
+    pub view: ViewRecord,
     pub light: LightRecord,
     pub inks: Vec<InkRecord>,
     #[serde(default)]

@@ -35,7 +35,7 @@ impl ViewsRequest {
         self.calibrate_with(|_| options, observer)
     }
 
-    /// The same with the principal point at the image centre, with its uncertainty.
+    /// Fit with the principal point assumed at the image centre; its uncertainty is added to the covariance.
     pub(crate) fn calibrate_centred(
         &self,
         options: CalibrationOptions,
@@ -137,7 +137,7 @@ impl ViewsRequest {
         Ok(CalibratedViews { model: model.name().to_owned(), views, camera: robust.camera, notes })
     }
 
-    /// The same with a warning if another model would fit the points much better.
+    /// Adds a warning if the model does not describe the points.
     fn advised(
         &self,
         model: CameraModel,
@@ -166,9 +166,12 @@ pub(crate) struct CandidateModel {
 /// Standard uncertainty of a principal point at the image centre, relative to the wider side.
 pub(crate) const PRINCIPAL_UNCERTAINTY: f64 = 0.01;
 
-/// Adds two uncertainties to a camera's covariance: the unknown principal point, and possible distortion beyond the model. The
-/// first is half the change between plus and minus one standard uncertainty, and the second-order remainder (z² of a normal z has
-/// the mean square 3). The second is the change to a model with one more term, where that exceeds the noise that the term adds.
+/// Adds two uncertainties to the covariance of a camera: that of the assumed principal point, and that of distortion beyond the model.
+///
+/// For the first, the camera is fitted with the principal point moved by ± one standard uncertainty along each axis. Half the
+/// difference of the two fits is the linear change; their mean less the original fit is the quadratic change, which counts three
+/// times (the mean of z⁴ of a standard normal z is 3). The second applies to the focal length: its change in a fit with more radial
+/// terms, less the variance that these terms add.
 fn widen(
     calibrated: &mut CalibratedViews,
     sightings: &[Sightings],
@@ -206,7 +209,7 @@ fn widen(
     Ok(())
 }
 
-/// The same family with one more radial term.
+/// A model family with more radial terms; `None` if there is none.
 fn richer(family: Family) -> Option<Family> {
     match family {
         Family::Perspective { radial: RadialTerms::Polynomial(n), tangential } if n < 3 => {
@@ -242,7 +245,7 @@ impl CalibratedViews {
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
         let view = PixelDirections::Projection(Box::new(stated_projection(&self.camera.calibration)));
-        let lens = Lens::Calibrated(Box::new(record::lens::Calibrated::new(view, f_number.unwrap_or(4.0))));
+        let lens = Lens::Calibrated(Box::new(record::lens::CalibratedLens::new(view, f_number.unwrap_or(4.0))));
         let camera = Camera::new(lens, Sensor::new(width, height, pixel_pitch_um));
         let count = self.views.len();
         let views = if count == 1 { "view" } else { "views" };
@@ -258,12 +261,13 @@ impl CalibratedViews {
     }
 }
 
-/// Residuals of this many times the points' own uncertainty, and this much, are checked.
+/// Minimum residual, as a multiple of the uncertainty of the points, from which other models are tried.
 const MIN_RESIDUAL_RATIO: f64 = 5.0;
+/// Minimum residual from which other models are tried, px.
 const MIN_RESIDUAL_PX: f64 = 0.05;
-/// Another model is suggested if it leaves less than this fraction of the residual. Without such a model, a warning is given if
-/// the residual exceeds the limits above by the second factor.
+/// Maximum residual of another model, as a fraction of that of the fitted model, at which the other model is suggested.
 const MAX_REMAINING_FRACTION: f64 = 0.5;
+/// Multiple of both minimum residuals above which a warning is given although no other model fits better.
 const CLEAR_FACTOR: f64 = 4.0;
 /// Candidate models.
 const CANDIDATES: [CameraModel; 5] = [

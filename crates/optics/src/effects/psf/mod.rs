@@ -47,7 +47,7 @@ const UNIFORM_RATIO: f64 = 1.05;
 pub struct ZernikeTerm {
     /// The polynomial.
     pub zernike: Zernike,
-    /// Distances from the axis, mm, rising; empty if the term is constant over the field.
+    /// Distances from the axis, mm, increasing; empty if the term is constant over the field.
     pub field_mm: Vec<f64>,
     /// Root mean square at each distance, µm; a single value if the term is constant.
     pub rms_um: Vec<f64>,

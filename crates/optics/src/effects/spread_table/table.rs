@@ -28,7 +28,7 @@ pub struct WavelengthTable {
 /// Point-spread functions over the field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpreadTableParameters {
-    /// By rising wavelength; a single entry, or all with a wavelength.
+    /// By increasing wavelength; a single entry, or all with a wavelength.
     pub wavelengths: Vec<WavelengthTable>,
     /// Patches across and down; `None`: as many as the functions need.
     pub patches: Option<[usize; 2]>,
@@ -53,7 +53,7 @@ impl SpreadTable {
     /// Prepares the functions for an image.
     ///
     /// # Errors
-    /// If distances or wavelengths do not rise or differ in number, or a function cannot be sampled on the pixels.
+    /// If distances or wavelengths do not increase or differ in number, or a function cannot be sampled on the pixels.
     pub fn new(parameters: SpreadTableParameters, image: &Raster) -> Result<Self, EffectsError> {
         let SpreadTableParameters { wavelengths, patches } = parameters;
         check_grid(&wavelengths)?;
@@ -79,13 +79,13 @@ impl SpreadTable {
         self.keeps_shapes
     }
 
-    /// Distances from the axis, mm, rising; those of the shortest wavelength where they differ by wavelength.
+    /// Distances from the axis, mm, increasing; those of the shortest wavelength where they differ by wavelength.
     #[must_use]
     pub fn radii_mm(&self) -> Vec<f64> {
         self.wavelengths[0].functions.iter().map(|function| function.radius_mm).collect()
     }
 
-    /// Wavelengths, nm, rising; empty if the functions hold for all.
+    /// Wavelengths, nm, increasing; empty if the functions hold for all.
     #[must_use]
     pub fn wavelengths_nm(&self) -> Vec<f64> {
         self.wavelengths.iter().filter_map(|wavelength| wavelength.nm).collect()

@@ -22,15 +22,15 @@ const OVERSCAN: f64 = 1.02;
 
 /// Slopes and field angles of principal rays by height.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Chiefs {
+pub(super) struct ChiefRays {
     step_mm: f64,
     /// Slope at the sensor, by height.
     slopes: Vec<f64>,
-    /// Field angle in front of the lens, rad, by height; rising.
+    /// Field angle in front of the lens, rad, by height; increasing.
     angles: Vec<f64>,
 }
 
-impl Chiefs {
+impl ChiefRays {
     /// Traces slightly beyond `picture_mm` from the axis, or as far as principal rays exist and their angle grows.
     pub(super) fn new(lens: &Prescription, picture_mm: f64) -> Self {
         Self::traced(lens, OVERSCAN * picture_mm, PRINCIPAL_NM, KNOTS)

@@ -28,7 +28,7 @@ use crate::overlap::{PRINCIPAL_NM, positive};
 use crate::prescription::coating::{Coating, InterferenceFilter};
 use crate::prescription::{Prescription, PrescriptionError, Surface};
 use crate::{error::OpticsError, lens::FieldAngles, lens::paraxial_properties::Conjugates, pupil::MM};
-use chief::Chiefs;
+use chief::ChiefRays;
 use region::Regions;
 
 pub use report::{FieldReport, ImageReport, LateralShift, LensReport};
@@ -41,7 +41,7 @@ pub(crate) use light::DIRECTIONS;
 pub struct PrescriptionLens {
     prescription: Prescription,
     filter: Option<InterferenceFilter>,
-    chiefs: Chiefs,
+    chiefs: ChiefRays,
     regions: Regions,
 }
 
@@ -57,7 +57,7 @@ impl PrescriptionLens {
         picture_radius_mm: f64,
     ) -> Result<Self, OpticsError> {
         let picture_mm = positive("picture_radius_mm", picture_radius_mm)?;
-        let chiefs = Chiefs::new(&prescription, picture_mm);
+        let chiefs = ChiefRays::new(&prescription, picture_mm);
         let regions = Regions::new(&prescription, picture_mm, |s_mm| chiefs.slope(&prescription, s_mm))
             .ok_or(PrescriptionError::Dark { nm: PRINCIPAL_NM })?;
         Ok(Self { prescription, filter, chiefs, regions })
@@ -110,7 +110,7 @@ impl PrescriptionLens {
 
     /// Field angles of chief rays (through the centre of the stop) of a wavelength at `knots` radii up to `reach_mm`, or as far as they exist.
     pub(crate) fn field_angles(&self, reach_mm: f64, nm: f64, knots: usize) -> FieldAngles {
-        Chiefs::traced(&self.prescription, reach_mm, nm, knots).into_field_angles()
+        ChiefRays::traced(&self.prescription, reach_mm, nm, knots).into_field_angles()
     }
 
     /// The sensor point of a direction of the camera frame, mm.

@@ -27,7 +27,7 @@ use crate::lens::search::{GAUSS, towards};
 use crate::overlap::{PRINCIPAL_NM, positive};
 use crate::pupil::{MM, concentric_disc};
 use crate::ray_transfer::{RayTransfer, RayTransferError, TransferRay};
-use near_axis::NearAxis;
+use near_axis::FirstOrderProperties;
 use pupils::{Oval, Pupils};
 use sight::PupilQuery;
 
@@ -45,9 +45,9 @@ pub enum SensorPlace {
 pub struct RayTransferLens {
     transfer: RayTransfer,
     transmittance: f64,
-    near: NearAxis,
+    near: FirstOrderProperties,
     pupils: Pupils,
-    /// Field angles of principal rays at equal steps of the distance from the axis, up to where they stop rising.
+    /// Field angles of principal rays at equal steps of the distance from the axis, up to where they stop increasing.
     angles: Vec<f64>,
 }
 
@@ -72,8 +72,8 @@ impl RayTransferLens {
         let reach_mm = OVERSCAN * positive("picture_radius_mm", picture_radius_mm)?;
         let transmittance = ParaxialProperties::new(transmittance)?.transmittance;
         let near = match place {
-            SensorPlace::Distance(sensor_mm) => NearAxis::at(&transfer, sensor_mm, reach_mm),
-            SensorPlace::Focus(focus_m) => NearAxis::focused(&transfer, focus_m, reach_mm),
+            SensorPlace::Distance(sensor_mm) => FirstOrderProperties::at(&transfer, sensor_mm, reach_mm),
+            SensorPlace::Focus(focus_m) => FirstOrderProperties::focused(&transfer, focus_m, reach_mm),
         }?;
         let sight = PupilQuery { transfer: &transfer, sensor_mm: near.sensor_mm, of: None };
         let dark = RayTransferError::Dark { sensor_mm: near.sensor_mm };

@@ -8,7 +8,7 @@ use crate::{lens::paraxial_properties::Conjugates, lens::search::towards, overla
 
 /// First-order properties for a sensor position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NearAxis {
+pub(super) struct FirstOrderProperties {
     /// Distance from the rear vertex to the sensor, mm.
     pub(super) sensor_mm: f64,
     pub(super) focal_length_mm: f64,
@@ -34,7 +34,7 @@ const EDGE_DIRECTIONS: usize = 32;
 const MAX_SENSOR_DISTANCE: f64 = 6.0;
 const HALVINGS: usize = 80;
 
-impl NearAxis {
+impl FirstOrderProperties {
     /// Properties for a sensor at a distance from the rear vertex; `reach_mm` is the distance from the axis up to which the lens is used.
     pub(super) fn at(transfer: &RayTransfer, sensor_mm: f64, reach_mm: f64) -> Result<Self, RayTransferError> {
         let plane_mm = transfer.input_offset_mm();
@@ -48,7 +48,7 @@ impl NearAxis {
         let sight = PupilQuery { transfer, sensor_mm, of: Some(transfer.nearest(PRINCIPAL_NM)) };
         let known_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.max_height_mm();
         let chiefs =
-            Chiefs::near_axis(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
+            ChiefRays::near_axis(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
         let oval = Oval::about(&sight, 0.0).ok_or_else(dark)?;
         let radius_mm = oval.axes_mm.x;
         let heights = |zone: f64| {
@@ -139,13 +139,13 @@ fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
 }
 
 /// Axis crossing of chief rays near the axis, and the scale of tangents.
-struct Chiefs {
+struct ChiefRays {
     entrance_mm: f64,
     exit_mm: f64,
     principal_distance_mm: f64,
 }
 
-impl Chiefs {
+impl ChiefRays {
     fn near_axis(sight: &PupilQuery<'_>, reach_mm: f64) -> Option<Self> {
         let distance_mm = sight.distance_mm();
         // Sums of squares of slopes in front and of their products with the axis crossings; of slopes behind; of heights and slopes.

@@ -196,7 +196,6 @@ pub(super) struct SheetFigures {
     pub(super) gain_dn_e: f64,
     /// σ_d, e⁻, without quantisation.
     pub(super) dark_noise_e: f64,
-    /// Black level, DN.
     pub(super) black_level_dn: f64,
 }
 

@@ -16,7 +16,7 @@ use etendue_core::maths::f64::sin_cos;
 use etendue_core::quantity::Cover;
 use etendue_core::{Plane, Ray, TimeInterval};
 use etendue_tracer::accel::Streak;
-use etendue_tracer::media::{Hollow, Media};
+use etendue_tracer::media::{HollowRegion, Media};
 use etendue_tracer::precipitation::ChangeOver;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -38,7 +38,7 @@ pub(super) struct ParticleStreaks {
     /// In order of increasing distance.
     streaks: Vec<Streak>,
     exposure_s: f64,
-    hollow: Hollow,
+    hollow: HollowRegion,
     /// Index of the medium beyond them.
     medium: usize,
 }

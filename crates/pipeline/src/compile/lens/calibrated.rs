@@ -10,13 +10,13 @@ use etendue_scene::Place;
 use etendue_scene::asset::{LensNumbers, LensQuantity};
 use etendue_scene::record::Sensor;
 use etendue_scene::record::lens::calibrated::{
-    Calibrated, IlluminationSource, PixelDirections, Pupil, RelativeIllumination,
+    CalibratedLens, IlluminationSource, PixelDirections, Pupil, RelativeIllumination,
 };
 use etendue_scene::record::lens::projection::CalibrationFile;
 
 /// Lens, and the raster around the calibration's principal point.
 pub(super) fn lens(
-    record: &Calibrated,
+    record: &CalibratedLens,
     sensor: &Sensor,
     raster: &Raster,
     context: &mut Context<'_>,
@@ -59,7 +59,7 @@ pub(super) fn lens(
 }
 
 fn parameters(
-    record: &Calibrated,
+    record: &CalibratedLens,
     calibration: Calibration,
     raster: &Raster,
     relative_illumination: Option<Falloff>,
@@ -131,7 +131,7 @@ fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsErro
 const FAR_FRACTION: f64 = 0.25;
 
 /// Warns of a principal point outside the image, or far from its centre, as with a calibration of another resolution.
-fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut Context<'_>) {
+fn warn_of_principal_point(record: &CalibratedLens, raster: &Raster, context: &mut Context<'_>) {
     let size = glam::DVec2::new(raster.width() as f64, raster.height() as f64);
     let principal = raster.principal_px();
     let off = ((principal - 0.5 * size) / size).abs().max_element();
@@ -151,7 +151,7 @@ fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut C
 }
 
 /// Refuses a second principal point: a calibration has its own.
-fn one_principal_point(record: &Calibrated, sensor: &Sensor, context: &mut Context<'_>) -> Option<()> {
+fn one_principal_point(record: &CalibratedLens, sensor: &Sensor, context: &mut Context<'_>) -> Option<()> {
     let Some(principal_point) = &sensor.principal_point_px else { return Some(()) };
     let by: Option<&Place> = match &record.view {
         PixelDirections::Projection(projection) => projection::stated_centre(projection),

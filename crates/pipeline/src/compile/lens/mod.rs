@@ -86,7 +86,7 @@ fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> 
 
 /// A pinhole, thin or thick lens; the other kinds have no added distortion.
 fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
-    let (place, focus, made, distortion) = match record {
+    let (place, focus, lens, distortion) = match record {
         record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),
         record::Lens::Thin(r) => (&r.place, Some(&r.focus_distance_m), thin(r), &r.distortion),
         record::Lens::Thick(r) => (&r.place, Some(&r.focus_distance_m), thick(r), &r.distortion),
@@ -95,11 +95,11 @@ fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -
         | record::Lens::Calibrated(_)
         | record::Lens::Telecentric(_) => return None,
     };
-    let place = match (&made, focus) {
+    let place = match (&lens, focus) {
         (Err(OpticsError::FocusTooNear { .. }), Some(description::FocusDistance::Metres(metres))) => &metres.place,
         _ => place,
     };
-    let lens = context.accept(place, made)?;
+    let lens = context.accept(place, lens)?;
     let Some(distortion) = distortion else {
         context.accept(place, lens.check(raster))?;
         return Some(lens);

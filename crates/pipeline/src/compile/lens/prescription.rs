@@ -249,8 +249,8 @@ fn focused(
     let Defaults { reference_nm, other_apertures, .. } = *defaults;
     let distance_m = record.focus_distance_m.as_ref().map_or(defaults.distance_m, focus_m);
     let focus = match &record.focus_by {
-        None | Some(record::FocusBy::Sensor) => Focus::Sensor { distance_m },
-        Some(record::FocusBy::Group(group)) => {
+        None | Some(record::FocusingPart::Sensor) => Focus::Sensor { distance_m },
+        Some(record::FocusingPart::Group(group)) => {
             let [first, last] = group.value.map(|number| number as usize - 1);
             Focus::Group { distance_m, first, last }
         }
@@ -276,7 +276,7 @@ fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mu
             record.f_number.iter().for_each(|n| refuse_lens(&n.place, context));
         }
         (PrescriptionError::Group { .. } | PrescriptionError::GroupRange { .. }, _) => match &record.focus_by {
-            Some(record::FocusBy::Group(group)) => refuse_lens(&group.place, context),
+            Some(record::FocusingPart::Group(group)) => refuse_lens(&group.place, context),
             _ => refuse_lens(&record.place, context),
         },
         (_, SurfaceListSource::Surfaces(surfaces)) => {

@@ -4,7 +4,7 @@ use super::super::context::{Context, ErrorCode};
 use super::projection_models::{Scaling, model, scale};
 use etendue_core::maths::f64::tan;
 use etendue_projection::{Calibration, CameraMatrix, Model, Raster};
-use etendue_scene::asset::{LensNumbers, LensQuantity, Undistorted};
+use etendue_scene::asset::{LensNumbers, LensQuantity, UndistortedProjection};
 use etendue_scene::record::lens::projection::{Centre, Matrix, Projection, Scale, Table, TableSource};
 use etendue_scene::{Place, Placed};
 use glam::{DVec2, DVec3};
@@ -114,8 +114,8 @@ pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f6
         return None;
     };
     let ideal = |angle: f64| match reference {
-        Undistorted::Tangent => f * tan(angle),
-        Undistorted::Angle => f * angle,
+        UndistortedProjection::Tangent => f * tan(angle),
+        UndistortedProjection::Angle => f * angle,
     };
     let beyond = asset.points.iter().filter(|(field, _)| *field > 0.0);
     Some(beyond.map(|(field, ratio)| (field.to_radians(), ratio * ideal(field.to_radians()))).collect())

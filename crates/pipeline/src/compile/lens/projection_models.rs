@@ -3,7 +3,7 @@
 
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FTheta, FThetaSense, FieldOfView, Ideal, KannalaBrandt, ModelError, Ocam,
-    Panorama, Perspective, Tabulated, ThinPrismFisheye, Unified,
+    Panorama, Perspective, TabulatedProjection, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
 use etendue_projection::{Calibration, CameraMatrix, DistortionDirection, Model, RadialDistortion};
@@ -60,7 +60,7 @@ pub(super) fn model(record: &Projection, points: &[(f64, f64)]) -> Result<Model,
         Projection::DoubleSphere(r) => Model::DoubleSphere(DoubleSphere::new(r.xi.value, r.alpha.value)?),
         Projection::Ocam(r) => Model::Ocam(Ocam::new(numbers(&r.polynomial), affine(&r.stretch))?),
         Projection::FTheta(r) => Model::FTheta(f_theta(r)?),
-        Projection::Table(_) => Model::Tabulated(Tabulated::new(points)?),
+        Projection::Table(_) => Model::Tabulated(TabulatedProjection::new(points)?),
         Projection::Equidistant(_) => Model::Ideal(Ideal::Equidistant),
         Projection::Equisolid(_) => Model::Ideal(Ideal::Equisolid),
         Projection::Stereographic(_) => Model::Ideal(Ideal::Stereographic),
@@ -153,9 +153,11 @@ pub fn stated_projection(calibration: &Calibration) -> Projection {
         Model::Ocam(m) => Projection::Ocam(stated_ocam(m, centre)),
         Model::FTheta(m) => Projection::FTheta(stated_f_theta(m, centre)),
         Model::Tabulated(m) => Projection::Table(stated_table(m, centre)),
-        Model::Ideal(m) => stated_ideal(*m, record::Scaled::new(matrix)),
-        Model::Panorama(Panorama::Cylindrical) => Projection::Cylindrical(record::Scaled::new(matrix)),
-        Model::Panorama(Panorama::Equirectangular) => Projection::Equirectangular(record::Scaled::new(matrix)),
+        Model::Ideal(m) => stated_ideal(*m, record::ScaledProjection::new(matrix)),
+        Model::Panorama(Panorama::Cylindrical) => Projection::Cylindrical(record::ScaledProjection::new(matrix)),
+        Model::Panorama(Panorama::Equirectangular) => {
+            Projection::Equirectangular(record::ScaledProjection::new(matrix))
+        }
     }
 }
 
@@ -217,13 +219,13 @@ fn stated_f_theta(m: &FTheta, centre: Centre) -> record::FTheta {
 }
 
 /// Radii are in mm, because all tables come from camera files.
-fn stated_table(m: &Tabulated, centre: Centre) -> record::Table {
+fn stated_table(m: &TabulatedProjection, centre: Centre) -> record::Table {
     let angles = list(m.points().map(|(angle, _)| angle.to_degrees()));
     let radii = list(m.points().map(|(_, radius)| radius));
     record::Table { radius_mm: Some(radii), ..record::Table::new(centre, record::TableSource::Angles(angles)) }
 }
 
-fn stated_ideal(m: Ideal, scaled: record::Scaled) -> Projection {
+fn stated_ideal(m: Ideal, scaled: record::ScaledProjection) -> Projection {
     match m {
         Ideal::Equidistant => Projection::Equidistant(scaled),
         Ideal::Equisolid => Projection::Equisolid(scaled),

@@ -24,12 +24,12 @@ pub(super) fn lens(
     let transfer = context.accept(&record.file.place, functions(asset))?;
     let (sensor, place) = sensor(&record.sensor, &record.place);
     let transmittance = transmittance(record.transmittance.as_ref());
-    let made = RayTransferLens::new(transfer, sensor, transmittance, film.max_radius_mm());
-    let at = match &made {
+    let lens = RayTransferLens::new(transfer, sensor, transmittance, film.max_radius_mm());
+    let at = match &lens {
         Err(OpticsError::RayTransfer(RayTransferError::Focus { .. } | RayTransferError::SensorTooNear { .. })) => place,
         _ => &record.file.place,
     };
-    let lens = context.accept(at, made)?;
+    let lens = context.accept(at, lens)?;
     asset.notes.iter().for_each(|note| context.note_on(record.file.value.display(), note));
     context.note_on(record.file.value.display(), domain_text(&lens));
     let (lit_mm, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());

@@ -249,24 +249,24 @@ fn calibrated_cameras_take_their_numbers_as_they_are_written() {
                 projection = { type = \"kannala_brandt\", fx_px = 20, fy_px = 21, cx_px = 30, cy_px = 25, k = [0.01, 0, 0, 0] }\n";
     let plan = camera(lens);
     assert_eq!(plan.body.raster.principal_px().to_array(), [30.0, 25.0]);
-    let Lens::Calibrated(made) = &plan.body.lens else { panic!("calibrated") };
-    assert_eq!(made.parameters().calibration.matrix().fy, 21.0);
+    let Lens::Calibrated(lens) = &plan.body.lens else { panic!("calibrated") };
+    assert_eq!(lens.parameters().calibration.matrix().fy, 21.0);
     let prism = camera(
         "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"thin_prism_fisheye\", fx_px = 20, k = [0.01, 0, 0, 0, 0, 0], \
          p = [0.001, 0.002], s = [0.003, 0, 0.004, 0] }\n",
     );
-    let Lens::Calibrated(made) = &prism.body.lens else { panic!("calibrated") };
+    let Lens::Calibrated(lens) = &prism.body.lens else { panic!("calibrated") };
     // r = θ (1 + k1 θ²) = 1.01 along x at θ = 1: x′ = r + 3 p2 r² + s1 r², y′ = p1 r² + s3 r².
     let (sin, cos) = etendue_core::maths::f64::sin_cos(1.0);
-    let image_mm = made.parameters().calibration.project(glam::DVec3::new(sin, 0.0, cos)).expect("seen");
+    let image_mm = lens.parameters().calibration.project(glam::DVec3::new(sin, 0.0, cos)).expect("seen");
     let square = 1.01 * 1.01;
     let expected = glam::DVec2::new(1.01 + 0.009 * square, 0.005 * square) * 20.0 + glam::DVec2::new(32.0, 24.0);
     assert!((image_mm - expected).length() < 1e-12, "{image_mm} for {expected}");
     let full = camera(
         "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"equirectangular\", field_of_view_deg = 360 }\n",
     );
-    let Lens::Calibrated(made) = &full.body.lens else { panic!("calibrated") };
-    assert!((made.parameters().calibration.matrix().fx * 2.0 * core::f64::consts::PI / 64.0 - 1.0).abs() < 1e-11);
+    let Lens::Calibrated(lens) = &full.body.lens else { panic!("calibrated") };
+    assert!((lens.parameters().calibration.matrix().fx * 2.0 * core::f64::consts::PI / 64.0 - 1.0).abs() < 1e-11);
 }
 
 #[test]

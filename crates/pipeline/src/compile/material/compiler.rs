@@ -49,7 +49,6 @@ pub(super) enum ImageUse {
     Number,
     /// Opacity of the image as a number.
     Alpha,
-    /// Normals.
     Normal,
 }
 

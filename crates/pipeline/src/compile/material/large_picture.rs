@@ -71,7 +71,7 @@ pub(super) fn texture_in_memory(image: &LargeImage, usage: TexelUse) -> Result<I
         Ok(())
     })?;
     let texels =
-        all.ok_or_else(|| TextureError::Size { width: image.width, height: image.height, found: 0 }.to_string())?;
+        all.ok_or_else(|| TextureError::Size { width: image.width, height: image.height, actual: 0 }.to_string())?;
     ImageTexture::new(image.width, image.height, texels, sampling).map_err(|error| error.to_string())
 }
 

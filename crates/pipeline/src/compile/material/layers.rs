@@ -12,8 +12,8 @@ use etendue_scene::asset::{
 use etendue_spectra::colour::BT709;
 use etendue_spectra::{metal, upsample};
 use etendue_tracer::materials::{
-    Cloth, Coated, Conductor, Dielectric, Emission, EmissionSides, Factor, GreenDirection, Material, Mix, NormalMap,
-    Reflectance, Surface, ThinSheet, absorption_of,
+    Cloth, CoatedDiffuse, Conductor, Dielectric, Emission, EmissionSides, Factor, GreenDirection, Material, Mix,
+    NormalMap, Reflectance, Surface, ThinSheet, absorption_of,
 };
 use etendue_tracer::textures::{Channel, Sampling, TextureId, Wrap};
 
@@ -123,15 +123,15 @@ impl Layering<'_, '_, '_> {
         match &layers.top_layer {
             SlotTopLayer::Nothing => Some(base.into()),
             SlotTopLayer::Coat { index } => {
-                self.context.accept(self.place, Coated::new(base, *index, alpha)).map(Surface::from)
+                self.context.accept(self.place, CoatedDiffuse::new(base, *index, alpha)).map(Surface::from)
             }
             SlotTopLayer::Sheen { colour, alpha } => {
                 let sheen = upsample::reflectance_spectrum(colour.map(|v| v as f32));
                 self.context.accept(self.place, Cloth::new(base, sheen, *alpha)).map(Surface::from)
             }
             SlotTopLayer::TwoCoats { index, fraction, alpha: second } => {
-                let own = self.context.accept(self.place, Coated::new(base.clone(), *index, alpha))?;
-                let clear = self.context.accept(self.place, Coated::new(base, *index, *second))?;
+                let own = self.context.accept(self.place, CoatedDiffuse::new(base.clone(), *index, alpha))?;
+                let clear = self.context.accept(self.place, CoatedDiffuse::new(base, *index, *second))?;
                 if *fraction >= 1.0 {
                     return Some(clear.into());
                 }

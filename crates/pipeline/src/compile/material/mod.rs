@@ -6,13 +6,13 @@ mod large_picture;
 mod layers;
 mod metal;
 mod picture;
+mod reflectance;
 mod road;
-mod share;
 mod slot;
 mod surface;
 mod texels;
 
 pub(super) use builder::MaterialTableBuilder;
 pub(super) use metal::complex_index;
-pub(super) use share::reflectance_spectrum;
+pub(super) use reflectance::reflectance_spectrum;
 pub(super) use slot::has_picture;

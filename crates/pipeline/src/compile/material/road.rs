@@ -1,7 +1,7 @@
 //! Retro-reflective sheeting and road markings.
 
 use super::compiler::MaterialCompiler;
-use super::share::reflectance_spectrum;
+use super::reflectance::reflectance_spectrum;
 use etendue_scene::asset::RetroTableAsset;
 use etendue_scene::record::Colour;
 use etendue_scene::record::material::{

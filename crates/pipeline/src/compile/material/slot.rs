@@ -5,7 +5,7 @@ use super::picture::Pictures;
 use etendue_scene::Place;
 use etendue_scene::asset::{SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_spectra::upsample;
-use etendue_tracer::materials::{Coated, Reflectance, Surface};
+use etendue_tracer::materials::{CoatedDiffuse, Reflectance, Surface};
 use std::path::Path;
 
 /// Reflection of a slot. Records an error at `place` if the file does not state it.
@@ -35,7 +35,7 @@ pub(super) fn surface(
     match surface {
         SlotSurface::Diffuse { .. } | SlotSurface::Layers(_) => Some(base.into()),
         SlotSurface::Coated { index, alpha, .. } => {
-            context.accept(place, Coated::new(base, *index, *alpha)).map(Surface::from)
+            context.accept(place, CoatedDiffuse::new(base, *index, *alpha)).map(Surface::from)
         }
     }
 }

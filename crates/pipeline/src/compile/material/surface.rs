@@ -3,7 +3,7 @@
 use super::super::spectrum::curve;
 use super::compiler::MaterialCompiler;
 use super::metal::{self, complex_index};
-use super::share::reflectance_spectrum;
+use super::reflectance::reflectance_spectrum;
 use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::Placed;
 use etendue_scene::record::material::{
@@ -11,8 +11,8 @@ use etendue_scene::record::material::{
 };
 use etendue_spectra::{Extrapolation, Spectrum};
 use etendue_tracer::materials::{
-    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, GroundRelief, Lafortune,
-    Leaf, Lobe, Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
+    BlinnPhong, CarPaint, CarPaintParts, Cloth, CoatedDiffuse, Conductor, Dielectric, Distribution, GroundRelief,
+    Lafortune, Leaf, Lobe, Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
 };
 
 /// Default refractive index of a coat or a pane.
@@ -32,7 +32,7 @@ impl MaterialCompiler<'_, '_> {
         match record {
             Record::Diffuse(r) => self.reflectance(&r.reflectance).map(Surface::from),
             Record::Conductor(r) => self.conductor(r),
-            Record::Coated(r) => self.coated(r),
+            Record::CoatedDiffuse(r) => self.coated(r),
             Record::WetGround(r) => self.wet_ground(r),
             Record::CookTorrance(r) => self.cook_torrance(r),
             Record::CarPaint(r) => self.car_paint(r),
@@ -67,18 +67,18 @@ impl MaterialCompiler<'_, '_> {
         Some(with_facets(conductor, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
     }
 
-    fn coated(&mut self, r: &record::Coated) -> Option<Surface> {
+    fn coated(&mut self, r: &record::CoatedDiffuse) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let alpha = self.factor(&r.alpha)?;
         let index = number(r.index.as_ref(), DEFAULT_INDEX);
-        self.context.accept(&r.place, Coated::new(base, index, alpha)).map(Surface::from)
+        self.context.accept(&r.place, CoatedDiffuse::new(base, index, alpha)).map(Surface::from)
     }
 
     fn wet_ground(&mut self, r: &record::WetGround) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let film_alpha = number(r.film_alpha.as_ref(), FILM_ALPHA);
         let Some(puddles) = &r.puddles else {
-            return self.context.accept(&r.place, Coated::new(base, WATER, film_alpha)).map(Surface::from);
+            return self.context.accept(&r.place, CoatedDiffuse::new(base, WATER, film_alpha)).map(Surface::from);
         };
         let height = self.factor(&record::Factor::Texture(puddles.height.clone()))?;
         let relief = GroundRelief {
@@ -88,7 +88,7 @@ impl MaterialCompiler<'_, '_> {
         };
         let rain_mm_h = number(puddles.rain_mm_h.as_ref(), 0.0);
         let puddles = self.context.accept(&puddles.place, Puddles::new(height, relief, film_alpha, rain_mm_h))?;
-        Some(Surface::from(Coated::under_water(base, puddles)))
+        Some(Surface::from(CoatedDiffuse::under_water(base, puddles)))
     }
 
     fn car_paint(&mut self, r: &record::CarPaint) -> Option<Surface> {

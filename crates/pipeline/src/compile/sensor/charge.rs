@@ -5,7 +5,7 @@ use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_sensor::ChargeEffects;
 use etendue_sensor::effects::brighter_fatter::BrighterFatter;
-use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
+use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, HotPixels, SpreadDistribution};
 use etendue_sensor::effects::dead_pixels::DeadPixels;
 use etendue_sensor::effects::full_well::{Blooming, FullWell};
 use etendue_sensor::effects::lag::{Lag, Trap};
@@ -42,7 +42,7 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
             column: value_or(d.spread_column.as_ref(), 0.0),
             distribution,
         },
-        hot: d.hot.as_ref().map(|hot| Hot { fraction: hot.fraction.value, mean_e_s: hot.mean_e_s.value }),
+        hot: d.hot.as_ref().map(|hot| HotPixels { fraction: hot.fraction.value, mean_e_s: hot.mean_e_s.value }),
         dark_current_rts: d.dark_current_rts.as_ref().map(|b| TwoLevel {
             fraction: b.fraction.value,
             mean: b.mean_e_s.value,

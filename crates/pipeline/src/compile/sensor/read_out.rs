@@ -76,8 +76,8 @@ fn layout(e: &record::Electronics) -> Layout {
             columns: b.columns.value as usize,
             rows: b.rows.value as usize,
             of: match b.of.value {
-                description::BinningOf::Charge => BinningMode::Charge,
-                description::BinningOf::Numbers => BinningMode::Numbers,
+                description::BinnedQuantity::Charge => BinningMode::Charge,
+                description::BinnedQuantity::Numbers => BinningMode::Numbers,
             },
         }),
         skipping: e.skipping.as_ref().map(|s| {

@@ -15,7 +15,7 @@ const MARGIN_FRACTION: f64 = 0.1;
 const MARGIN_PX: f64 = 1.0;
 
 /// The image of an object.
-pub(super) struct Amodal<'w> {
+pub(super) struct AmodalImage<'w> {
     /// Box around the images of its points; `None` if none has one.
     pub(super) image: Option<PixelBox>,
     /// True if some points have no image.
@@ -23,7 +23,7 @@ pub(super) struct Amodal<'w> {
     edges: ObjectEdges<'w>,
 }
 
-impl<'w> Amodal<'w> {
+impl<'w> AmodalImage<'w> {
     /// Image of an instance in a frame; the outline of a sphere is that seen at `time_s`.
     pub(super) fn new(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
         let image = |own: OwnPoint<'_>| {

@@ -32,7 +32,7 @@ pub use world::{WorldObject, world_objects};
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::look_at::GroundTruthView;
-use amodal::Amodal;
+use amodal::AmodalImage;
 use etendue_core::Plane;
 use etendue_core::quantity::Identity;
 use etendue_tracer::accel::Simd;
@@ -88,7 +88,7 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
     let pose = frame.pose_at(time_s);
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     let boxes = numbered.collect::<Vec<_>>().into_par_iter().filter_map(|(index, instance)| {
-        let amodal = Amodal::new(plan, frame, instance, time_s);
+        let amodal = AmodalImage::new(plan, frame, instance, time_s);
         if amodal.image.is_none() && !visible_boxes.contains_key(&instance.instance_id) {
             return None; // Behind the camera, as far as its edges show, and not visible: no pixel is tested.
         }
@@ -140,7 +140,7 @@ pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, si
         .for_each(|(at, id)| pixels_by_instance.entry(*id).or_default().push(at));
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     for (index, instance) in numbered {
-        let amodal = Amodal::new(plan, frame, instance, time_s);
+        let amodal = AmodalImage::new(plan, frame, instance, time_s);
         if amodal.image.is_none() && !pixels_by_instance.contains_key(&instance.instance_id) {
             continue;
         }
@@ -160,7 +160,7 @@ pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, si
 fn box_if_alone(
     views: &GroundTruthView<'_>,
     index: u32,
-    amodal: &Amodal,
+    amodal: &AmodalImage,
     ids: &Plane<Identity>,
 ) -> Option<(usize, PixelBox)> {
     let counted = alone_pixels(views, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::from_pixel(x, y)));
@@ -172,7 +172,7 @@ fn box_if_alone(
 fn alone_pixels<'a>(
     views: &'a GroundTruthView<'_>,
     index: u32,
-    amodal: &Amodal,
+    amodal: &AmodalImage,
     ids: &Plane<Identity>,
 ) -> Option<impl ParallelIterator<Item = (usize, usize)> + use<'a>> {
     let [columns, rows] = amodal.pixels(ids.width(), ids.height())?;

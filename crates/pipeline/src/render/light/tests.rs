@@ -1,7 +1,7 @@
 //! Films of one frame: pixels, tiles, shards, and the noise of bands.
 
 use super::*;
-use crate::render::observer::Unobserved;
+use crate::render::observer::NullObserver;
 use crate::render::test_job::{sampling, still_job};
 use etendue_core::Bands;
 use etendue_core::ray::ConstantField;
@@ -23,7 +23,7 @@ fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static> {
 }
 
 fn film(tile_px: u32, shard: Shard) -> Film {
-    exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, None, &Unobserved).expect("not cancelled")
+    exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, None, &NullObserver).expect("not cancelled")
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn bands(spp: u32, replicates: u32, spread: SpectrumSpread) -> Vec<f64> {
     let (low_nm, high_nm) = (380.0, 780.0);
     exposure.sampling =
         Sampling { pass: NumberedPass::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
-    let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &Unobserved).expect("not cancelled");
+    let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &NullObserver).expect("not cancelled");
     let cube = film.cube().expect("a cube");
     let bands_at =
         |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();

@@ -10,7 +10,6 @@ use glam::DVec3;
 /// A point of a surface, which moves with its instance, or a direction of the background.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SurfacePath<'w> {
-    /// A point.
     Point {
         /// In the instance's own frame.
         own: OwnPoint<'w>,
@@ -28,9 +27,7 @@ pub(crate) enum OwnPoint<'w> {
     Fixed(DVec3),
     /// A point of a triangle with moving vertices, by barycentric weights.
     Between {
-        /// The mesh.
         mesh: &'w Mesh,
-        /// Its vertices.
         vertices: [u32; 3],
         /// Their weights, with sum 1.
         weights: [f64; 3],

@@ -16,7 +16,7 @@ use crate::render::exposure::FilmExposure;
 use crate::render::film::Film;
 use crate::render::light::{RaySource, RenderJob, Sampling};
 use crate::render::near_precipitation::near;
-use crate::render::observer::Unobserved;
+use crate::render::observer::NullObserver;
 use crate::render::truth::is_there;
 use crate::render::{FrameCapture, LightRequest};
 use crate::sizes::film::FilmLayout;
@@ -86,7 +86,7 @@ impl SourceJob for LayersJob<'_> {
             }
         };
         let fractions_of = |of| {
-            let film = job(uniform).gather::<1>(&field_of(of), None, &Unobserved).expect("nobody cancels");
+            let film = job(uniform).gather::<1>(&field_of(of), None, &NullObserver).expect("nobody cancels");
             radiance(&film).planes()[0].samples().to_vec()
         };
         let lights = lights(plan, camera, &view);
@@ -97,9 +97,9 @@ impl SourceJob for LayersJob<'_> {
         let bands = camera.settings.bands.unwrap_or_else(|| single_band(camera));
         let job = job(FilmLayout { bands: Some(bands), accumulates_electrons: false, watched: false });
         let airlight = match camera.settings.wavelengths {
-            1 => job.gather::<1>(&tracer, None, &Unobserved),
-            8 => job.gather::<8>(&tracer, None, &Unobserved),
-            _ => job.gather::<4>(&tracer, None, &Unobserved),
+            1 => job.gather::<1>(&tracer, None, &NullObserver),
+            8 => job.gather::<8>(&tracer, None, &NullObserver),
+            _ => job.gather::<4>(&tracer, None, &NullObserver),
         };
         WeatherLayers {
             transmittance: plane(camera, fractions_of(WeatherFraction::Transmittance)),

@@ -43,7 +43,7 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
     let effect = PlannedEffect::new(GROUP, "distortion", status).described_by("lens.distortion");
     match distortion_px(&camera.body) {
         Some(shift_px) => {
-            effect.dropped_by([without(camera, "lens.distortion")]).with_error("shift up to", shift_px, "px")
+            effect.dropped_by([without(camera, "lens.distortion")]).with_error("displacement up to", shift_px, "px")
         }
         None => effect,
     }
@@ -57,7 +57,7 @@ fn vignetting(camera: &CameraPlan) -> PlannedEffect {
     );
     let effect = PlannedEffect::new(GROUP, "vignetting", status).described_by("lens.type");
     match vignetting_percent(&camera.body) {
-        Some(percent) => effect.with_error("corner not darkened by", percent, "%"),
+        Some(percent) => effect.with_error("missing corner darkening", percent, "%"),
         None => effect,
     }
 }
@@ -140,7 +140,7 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
     let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
     match lateral_colour_px(&camera.body, camera.settings.range) {
         Some(px) => {
-            effect.dropped_by([without(camera, "lens.lateral_colour")]).with_error("colour separation up to", px, "px")
+            effect.dropped_by([without(camera, "lens.lateral_colour")]).with_error("missing lateral colour", px, "px")
         }
         None => effect,
     }
@@ -160,7 +160,7 @@ fn route(camera: &CameraPlan, cost: &FrameCost) -> PlannedEffect {
     let text = "radiance is rendered at the centre of the entrance pupil, and the lens is applied to the image";
     let status = required_if(is_there, text, "each sample is traced through the lens");
     let effect = PlannedEffect::new(GROUP, "lens applied after rendering", status).described_by("render.route");
-    PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "the lens on the picture")), ..effect }
+    PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "lens applied to the image")), ..effect }
         .dropped_by([camera_change(camera, "render.route", "lens")])
 }
 

@@ -33,9 +33,9 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
 }
 
 fn first_surfaces(paths: f64) -> PlannedEffect {
-    let status = EffectStatus::Modelled("the first surface that each sample hits is shaded".to_owned());
+    let status = EffectStatus::Modelled("the first surface that each camera ray hits is shaded".to_owned());
     let cpu_s = paths * FLAT_PATH_CPU_S;
-    PlannedEffect { cpu_s: Some(cpu_s), ..PlannedEffect::new(GROUP, "first surfaces", status) }
+    PlannedEffect { cpu_s: Some(cpu_s), ..PlannedEffect::new(GROUP, "primary rays and shading", status) }
 }
 
 fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
@@ -58,7 +58,7 @@ fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let settings = &camera.settings;
     let status = required_if(
         settings.paths.integrator == Integrator::Path && settings.paths.max_bounces > 1,
-        format!("paths continue from surface to surface, over at most {} surfaces", settings.paths.max_bounces),
+        format!("paths continue by BSDF sampling, over at most {} surfaces", settings.paths.max_bounces),
         match settings.paths.integrator {
             Integrator::Path => "a path of one bounce ends at the first surface",
             Integrator::Flat | Integrator::Direct => "requires integrator = \"path\"",
@@ -123,7 +123,7 @@ fn regularization(camera: &CameraPlan) -> PlannedEffect {
     let status = required_if(
         camera.settings.paths.regularize,
         "metals, coats, glass and paint that a path hits after a wider lobe are roughened (biased)".to_owned(),
-        "lobes have the width of their models",
+        "BSDF lobes are not roughened",
     );
     let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
     effect.dropped_by([camera_change(camera, "render.regularize", "false")])
@@ -133,8 +133,8 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
     let paths = if camera.settings.guiding { training::paths_of(camera) } else { 0 };
     let status = required_if(
         paths > 0,
-        format!("directions at diffuse surfaces are sampled from a distribution learned by {paths} training paths"),
-        "directions at diffuse surfaces are sampled by the cosine only",
+        format!("directions at diffuse surfaces are sampled from a distribution learned from {paths} training paths"),
+        "directions at diffuse surfaces are cosine-weighted samples",
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
     effect
@@ -167,14 +167,15 @@ fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
     let status = match camera.settings.paths.light_sampling {
         LightSampling::Gloss => {
-            let text = "at glossy surfaces, lights are also sampled by their reflected radiance";
+            let text = "at glossy surfaces, lights are also sampled by the radiance that the BSDF reflects";
             EffectStatus::WhereNeeded(text.to_owned())
         }
         LightSampling::Irradiance => EffectStatus::LeftOut(
-            "lights are sampled by their irradiance only: mirror images of lights are noisier".to_owned(),
+            "lights are sampled by their irradiance only: reflections of lights are noisier".to_owned(),
         ),
     };
-    let effect = PlannedEffect::new(GROUP, "light sampling by gloss", status).described_by("render.light_sampling");
+    let effect =
+        PlannedEffect::new(GROUP, "BSDF-weighted light sampling", status).described_by("render.light_sampling");
     effect.dropped_by([camera_change(camera, "render.light_sampling", "irradiance")])
 }
 
@@ -182,7 +183,7 @@ fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
     let blocks = camera.settings.blocks;
     let status = required_if(
         blocks != Blocks::SINGLE,
-        format!("{} pixels share the tails of their paths, so their errors are correlated", blocks.len_px()),
+        format!("blocks of {} pixels share path tails, so their errors are correlated", blocks.len_px()),
         "each pixel has its own paths",
     );
     let effect = PlannedEffect::new(GROUP, "path reuse", status).described_by("render.path_reuse_px");

@@ -84,5 +84,5 @@ fn with_truth(p: &Products) -> Vec<&'static str> {
 }
 
 fn weather_s(cost: &FrameCost) -> f64 {
-    cost.parts.iter().filter(|part| part.name == "layers of weather").map(|part| part.cpu_s).sum()
+    cost.parts.iter().filter(|part| part.name == "weather layers").map(|part| part.cpu_s).sum()
 }

@@ -75,9 +75,9 @@ fn white_balance(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
         Some(WhiteBalance::Gains(gains)) => gains.iter().any(|gain| *gain != 1.0),
     };
     let text = if matches!(balance, Some(WhiteBalance::GreyWorld)) {
-        "the mean of each image is made grey"
+        "grey world: the mean of each image becomes neutral"
     } else {
-        "gains of the channels"
+        "one gain per channel"
     };
     step(camera, "white balance", "isp.white_balance", is_there, text)
 }
@@ -113,7 +113,7 @@ fn quantisation(format: PictureFormat) -> PlannedEffect {
         PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
     };
     let effect = PlannedEffect::new(GROUP, "image bit depth", EffectStatus::Modelled(text));
-    effect.described_by("isp.picture_bits").with_error("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
+    effect.described_by("isp.picture_bits").with_error("missing quantisation noise", 1.0 / 12.0_f64.sqrt(), "DN")
 }
 
 fn never(name: &'static str) -> PlannedEffect {

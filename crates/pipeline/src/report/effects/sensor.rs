@@ -37,7 +37,7 @@ fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
         }
     };
     PlannedEffect::new(GROUP, "rolling shutter", status).described_by("sensor.shutter").dropped_by([global]).with_error(
-        "last row earlier by",
+        "last row exposed early by",
         1e3 * rows.shutter.length_s(rows.rows, 0.0),
         "ms",
     )

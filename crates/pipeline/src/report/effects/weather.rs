@@ -19,7 +19,7 @@ fn layers(plan: &Plan, is_last: bool) -> impl Iterator<Item = String> {
 
 fn media(plan: &Plan) -> PlannedEffect {
     let count = plan.media.len() - usize::from(plan.precipitation.is_some());
-    let text = format!("{count} between the surfaces: scattering distances are sampled along rays");
+    let text = format!("{count} participating media: scattering distances are sampled along rays");
     let status = required_if(count > 0, text, "the air is clear");
     let set = std::iter::once("scene.media=null".to_owned()).chain(layers(plan, plan.precipitation.is_none()));
     PlannedEffect::new(GROUP, "fog and other media", status).described_by("scene.media").dropped_by(set)

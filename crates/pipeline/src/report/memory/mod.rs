@@ -56,7 +56,7 @@ impl RunMemory {
 
     /// Returns the memory as a plan states it.
     #[must_use]
-    pub fn of_plan(plan: &Plan) -> Self {
+    pub fn from_plan(plan: &Plan) -> Self {
         Self::new(plan, PLANNED_THREADS)
     }
 

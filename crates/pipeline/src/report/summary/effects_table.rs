@@ -59,13 +59,13 @@ fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Resu
 /// Result of dropping it, part by part; the removal of a product changes nothing else.
 fn dropped(group: EffectGroup, omission: &OmissionResult) -> Vec<String> {
     let saving = match (&omission.set, omission.cpu_saved_s) {
-        (None, _) => Some("no key".to_owned()),
+        (None, _) => Some("always on".to_owned()),
         (Some(_), Some(s)) => Some(format!("saves {} s", seconds(s))),
         (Some(_), None) => None,
     };
     let is_unknown = omission.errors.is_empty() && omission.set.is_some() && group != EffectGroup::Output;
     let errors = omission.errors.iter().map(ToString::to_string);
-    saving.into_iter().chain(errors).chain(is_unknown.then(|| "error ?".to_owned())).collect()
+    saving.into_iter().chain(errors).chain(is_unknown.then(|| "error unknown".to_owned())).collect()
 }
 
 /// Parts separated by commas, in lines that begin at a column and end within the width.

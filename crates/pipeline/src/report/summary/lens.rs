@@ -11,7 +11,7 @@ use std::fmt::{self, Formatter};
 pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let lens = &camera.body.lens;
     let focus = match lens.focus_distance_m() {
-        None => "everything sharp".to_owned(),
+        None => "everything in focus".to_owned(),
         Some(m) if m.is_infinite() => "focused at infinity".to_owned(),
         Some(m) => format!("focused at {m} m"),
     };
@@ -134,10 +134,10 @@ pub(in crate::report) fn field_of_view_rad(camera: &CameraPlan) -> Option<f64> {
 
 fn distortion(lens: &Lens) -> String {
     match (lens.distortion(), lens) {
-        (None, Lens::Prescription(_)) => "that of the lens surfaces".to_owned(),
-        (None, Lens::RayTransfer(_)) => "that of the ray transfer functions".to_owned(),
+        (None, Lens::Prescription(_)) => "given by the lens surfaces".to_owned(),
+        (None, Lens::RayTransfer(_)) => "given by the ray transfer functions".to_owned(),
         (None, Lens::Calibrated(_)) => {
-            "that of the calibrated projection; pixels outside it are dark and have no ray".to_owned()
+            "given by the calibrated projection; pixels outside it are dark and have no ray".to_owned()
         }
         (None, _) => "none".to_owned(),
         (Some(d), _) => {

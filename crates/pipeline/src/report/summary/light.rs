@@ -20,12 +20,12 @@ pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
     if !camera.is_first_with_light() {
         let owner = &camera.light.camera;
         return Some(match light_provider(plan, camera) {
-            Some(_) => format!("that of camera {owner}, with the same errors: the light is equal and is rendered once"),
+            Some(_) => format!("that of camera {owner}: rendered once, with the same Monte Carlo errors"),
             None => format!("equal to that of camera {owner} of the job, with the same random numbers"),
         });
     }
     own_light_reason(plan, camera)
-        .map(|(other, unlike)| format!("its own: camera {other} has the same view, but differs in {}", list(&unlike)))
+        .map(|(other, unlike)| format!("separate: camera {other} has the same view, but differs in {}", list(&unlike)))
 }
 
 /// Further cameras that a film serves, as a part of a sentence.
@@ -50,18 +50,25 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
     let gain = camera.settings.spectral_gain.as_ref();
     Some(match (camera.settings.wavelength_sampling, gain) {
         (WavelengthSampling::Uniform, _) => "uniform over the range, as requested".to_owned(),
-        (_, None) => "sampled by the pixel's response".to_owned(),
+        (_, None) => "sampled in proportion to the pixel's response".to_owned(),
         (WavelengthSampling::ResponseAndSource, Some(gain)) => {
-            format!("sampled by the pixel's response and the light's spectrum, which divides {}", saves(gain))
+            format!(
+                "sampled in proportion to the pixel's response and the source spectrum, which divides {}",
+                saves(gain)
+            )
         }
         (WavelengthSampling::Response, Some(gain)) => {
             let why = match (gain.should_apply(), camera.settings.bands) {
                 (false, _) if gain.is_gain() => "which may cost more than it saves",
-                (false, _) => "which saves too little",
+                (false, _) => "too little to be used",
                 (true, Some(_)) => "but bands are stored, too",
                 (true, None) => "but it is left out as requested",
             };
-            format!("sampled by the pixel's response; the light's spectrum would divide {}, {why}", saves(gain))
+            format!(
+                "sampled in proportion to the pixel's response; the source spectrum as a further factor would divide \
+                 {}, {why}",
+                saves(gain)
+            )
         }
     })
 }

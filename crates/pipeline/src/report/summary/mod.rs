@@ -9,7 +9,7 @@ mod processing;
 mod time;
 mod words;
 
-use crate::plan::remark::{Severity, grouped};
+use crate::plan::note::{Severity, grouped};
 use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{light_counts, training};
 use crate::report::FrameCost;
@@ -53,7 +53,7 @@ impl Display for Summary<'_> {
 
 /// Writes the memory of the whole run.
 fn memory(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
-    let memory = RunMemory::of_plan(plan);
+    let memory = RunMemory::from_plan(plan);
     line(f, "memory", format!("{:.0} MB for the whole run: {}", memory.bytes() / 1e6, memory.parts()))
 }
 
@@ -65,8 +65,13 @@ fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::R
 }
 
 /// Explanation of the tables.
-const LEGEND: &str = "no key: no key leaves it out. error ?: unknown; etendue tradeoff JOB --ablate renders with and \
-                      without it.\nKeys, reasons and all skipped effects: etendue plan JOB --json";
+const LEGEND: &str = "required: the scene or camera needs the effect; it always runs.\n\
+                      guarded: a fast test for each ray or pixel decides whether the effect runs.\n\
+                      if dropped: CPU time saved per frame, and the error that results.\n\
+                      always on: no key of the job disables the effect.\n\
+                      error unknown: no closed form; the tradeoff command measures it (`ablate`).\n\
+                      –: unknown. Shares overlap, as some effects are parts of others.\n\
+                      Keys, reasons and all skipped effects: JSON output (`json`)";
 
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "\nscene")?;
@@ -130,7 +135,7 @@ fn meshes(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     match sizes.len().saturating_sub(LISTED_MESHES) {
         0 => Ok(()),
-        more => line(f, "mesh", format!("and {more} more: etendue plan JOB --json")),
+        more => line(f, "mesh", format!("and {more} more, listed in the JSON output (`json`)")),
     }
 }
 
@@ -228,7 +233,8 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     line(f, "paths", path_depth(s))?;
     if s.blocks != Blocks::SINGLE {
-        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are correlated", s.blocks.len_px()))?;
+        let text = format!("blocks of {} pixels share path tails, so their errors are correlated", s.blocks.len_px());
+        line(f, "path reuse", text)?;
     }
     if !s.paths.caustics {
         line(
@@ -239,7 +245,7 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     if s.guiding {
         let paths = count(training::paths_of(camera) as usize, "path");
-        line(f, "guided", format!("directions at diffuse surfaces, learned by {paths} before rendering"))?;
+        line(f, "path guiding", format!("directions at diffuse surfaces, learned from {paths} before rendering"))?;
     }
     if s.paths.branches > 1 {
         line(
@@ -249,7 +255,8 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         )?;
     }
     if s.paths.regularize {
-        line(f, "widened", "lobes of metals, coats, glass and paint after wider ones (biased), as requested")?;
+        let text = "lobes of metals, coats, glass and paint are roughened after a wider lobe (biased), as requested";
+        line(f, "regularised", text)?;
     }
     let cube = |bands: Bands| {
         let noise = light::band_noise(camera, bands);
@@ -257,8 +264,8 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     let storage = match (s.bands, s.accumulates_electrons) {
         (Some(bands), false) => cube(bands),
-        (Some(bands), true) => format!("{}; electrons are summed as well", cube(bands)),
-        (None, true) => "not stored: pixels sum electrons directly".to_owned(),
+        (Some(bands), true) => format!("{}; electrons are accumulated as well", cube(bands)),
+        (None, true) => "not stored: pixels accumulate electrons directly".to_owned(),
         (None, false) => "not stored".to_owned(),
     };
     line(f, "spectrum", format!("{} to {} nm; {storage}", s.range.low_nm, s.range.high_nm))
@@ -285,13 +292,13 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let effects = &camera.body.effects;
     let [columns, rows] = effects.margin_px();
     let area = match (effects.is_idle(), columns + rows) {
-        (true, _) => "none on the irradiance".to_owned(),
-        (false, 0) => "on the irradiance; light from outside the image is missing".to_owned(),
+        (true, _) => "none applied to the image irradiance".to_owned(),
+        (false, 0) => "applied to the image irradiance; light from outside the image is missing".to_owned(),
         (false, _) => {
-            format!("on the irradiance, with {columns} columns and {rows} rows rendered beyond each edge of the image")
+            format!("applied to the image irradiance, with {columns} columns and {rows} rows rendered beyond each edge")
         }
     };
-    line(f, "effects", area)?;
+    line(f, "lens effects", area)?;
     for effect in Effect::ALL {
         let status = irradiance_effect_status(camera, effect);
         line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
@@ -368,7 +375,7 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
         f,
         "cost",
         format!(
-            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the rate of the street scene{served}; film {}",
+            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the path rate of the street scene{served}; film {}",
             cost.paths / 1e6,
             cost.paths_cpu_s,
             film(cost.film)
@@ -400,5 +407,5 @@ fn write_further_cost(film_work: &[FilmWork], whole_s: f64, f: &mut Formatter<'_
     if list.is_empty() {
         return Ok(());
     }
-    line(f, "", format!("on the film: {}; about {} CPU seconds in total", list.join(", "), seconds(whole_s)))
+    line(f, "", format!("further CPU seconds: {}; about {} in total", list.join(", "), seconds(whole_s)))
 }

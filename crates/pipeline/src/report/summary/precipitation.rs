@@ -9,7 +9,7 @@ pub(super) fn field(precipitation: &Precipitation) -> String {
     let law = precipitation.field.law();
     let (what, number) = if law.is_snow() { ("snow", "flakes") } else { ("rain", "drops") };
     format!(
-        "{what} of {} mm/h (its {number} carry {} mm/h), {} {number} per m³; meteorological visibility {} m (2 %) and \
+        "{what} of {} mm/h ({} mm/h by its size distribution), {} {number} per m³; meteorological visibility {} m (2 %) and \
          extinction {} 1/km, extinction in an image {} 1/km; falls from {} m",
         significant(law.rate_mm_h()),
         significant(law.water_rate_mm_h()),
@@ -36,10 +36,10 @@ pub(super) fn near(plan: &Plan, camera: &CameraPlan) -> Option<String> {
         )
     };
     if change_over.expected < 0.5 {
-        return Some(format!("a medium at all distances: no {number} are resolved"));
+        return Some(format!("a participating medium at all distances: no {number} are resolved"));
     }
     Some(format!(
-        "about {:.0} {number} at a time, resolved individually up to {}, {} and {}, a medium beyond",
+        "about {:.0} {number} at a time, resolved individually up to {}, {} and {}, a participating medium beyond",
         change_over.expected,
         of(1e-3),
         of(2e-3),

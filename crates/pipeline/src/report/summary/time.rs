@@ -58,7 +58,7 @@ pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
     }
     let effect = match (camera.time, rows.is_even()) {
         (TimeDependence::None, true) => "; no effect, as nothing depends on time",
-        (TimeDependence::None, false) => "; no effect except on the light of rows",
+        (TimeDependence::None, false) => "; no effect except on the exposure of each row",
         _ => "",
     };
     let captures = match rows.captures.len() {

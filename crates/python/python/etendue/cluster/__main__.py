@@ -33,7 +33,7 @@ def parser():
     made.add_argument("--threads", type=int, metavar="N", help="processors of a task [default: those of the smallest machine]; no bit depends on it")
     made.add_argument("--retries", type=int, default=3, metavar="N", help="how often a task is done again whose worker was lost [default: 3]")
     made.add_argument("--resume", action="store_true", help="go on where the same run was interrupted")
-    made.add_argument("--overwrite", action="store_true", help="replace results that are already there")
+    made.add_argument("--overwrite", action="store_true", help="replace existing results")
     same = made.add_argument_group("as of `etendue render`")
     same.add_argument("--set", action="append", metavar="KEY=VALUE")
     same.add_argument("--spp", type=int, metavar="N")

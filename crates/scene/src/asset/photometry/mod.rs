@@ -77,9 +77,9 @@ pub struct PhotometryAsset {
     pub format: String,
     /// The system of angles.
     pub axes: PhotometryAxes,
-    /// Vertical angles, degrees, rising; at least one.
+    /// Vertical angles, degrees, increasing; at least one.
     pub vertical_deg: Vec<f64>,
-    /// Horizontal angles, degrees, rising; at least two. Type C: 0 … 360.
+    /// Horizontal angles, degrees, increasing; at least two. Type C: 0 … 360.
     pub horizontal_deg: Vec<f64>,
     /// Intensity, cd, with every factor applied: all vertical angles of the first horizontal one, then of the next.
     pub candela: Vec<f64>,
@@ -163,7 +163,7 @@ impl PhotometryAsset {
     }
 }
 
-/// Cell of a rising grid that contains `at`, and the position in it (0 … 1).
+/// Cell of an increasing grid that contains `at`, and the position in it (0 … 1).
 fn cell(grid: &[f64], at: f64) -> Option<(usize, f64)> {
     let above = grid.partition_point(|g| *g <= at);
     let last = grid.len() - 1;

@@ -4,7 +4,7 @@ use etendue_core::ExactTime;
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{flag, keyed, number, record, time, vector, whole};
+use crate::reader::{flag, integer, keyed, number, record, time, vector};
 use crate::record::render::MAX_SEED;
 
 record! {
@@ -28,7 +28,7 @@ record! {
         /// Dispersion of water (one wavelength per path); without it the index at 587.56 nm. Default: true.
         optional dispersion: Placed<bool> = flag();
         /// Seed of positions and sizes. Default: 0.
-        optional seed: Placed<u64> = whole(0, MAX_SEED);
+        optional seed: Placed<u64> = integer(0, MAX_SEED);
         /// Simulated time at which the drops lie as they fell; later states are simulated from it. Default: 0.
         optional start_s: Placed<ExactTime> = time();
         /// Drying time of a drop of "max_radius_mm"; r² falls linearly. Default: no drying.
@@ -58,7 +58,7 @@ record! {
     pub struct Wiper check(check_wiper) {
         /// Position of the axis, as "offset_mm" of drops.
         required pivot_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
-        /// Distances from the axis between which the blade wipes, rising.
+        /// Distances from the axis between which the blade wipes, increasing.
         required blade_mm: Placed<[f64; 2]> = vector::<2>(number("mm").at_least(0.0));
         /// Rest and turning angles of the blade, clockwise from up as seen from the camera.
         required angles_deg: Placed<[f64; 2]> = vector::<2>(number("°").at_least(-360.0).at_most(360.0));
@@ -75,7 +75,7 @@ keyed! {
     /// Number of fallen drops, before touching drops merge.
     pub enum DropCount {
         /// Drops in the rectangle; 0 only with "arrivals_per_s".
-        count => Count(Placed<u64>) = whole(0, 1_000_000);
+        count => Count(Placed<u64>) = integer(0, 1_000_000);
         /// Drops per dm²; 1 … 1 000 000 in all.
         count_per_dm2 => Density(Placed<f64>) = number("").above(0.0);
     }

@@ -12,7 +12,7 @@ use crate::reader::{choice, keyed, list, number, path, record, words};
 
 record! {
     /// A calibrated or ideal projection with the photometry of a lens.
-    pub struct Calibrated check(check) {
+    pub struct CalibratedLens check(check) {
         /// Viewing directions of the pixels.
         inside view: PixelDirections;
         /// f-number: irradiance on the axis is E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
@@ -84,12 +84,12 @@ keyed! {
     pub enum IlluminationSource {
         /// Zemax "Relative Illumination" text, fields in degrees or mm, at least to the farthest corner.
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Distances from the principal point, rising from 0 to at least the farthest corner.
+        /// Distances from the principal point, increasing from 0 to at least the farthest corner.
         radius_mm => Radii(Vec<Placed<f64>>) = list(number("mm").at_least(0.0), 1);
     }
 }
 
-fn check(lens: &Calibrated, errors: &mut DescriptionErrors) {
+fn check(lens: &CalibratedLens, errors: &mut DescriptionErrors) {
     if let (Some(pupil), Some(_), None) = (&lens.pupil, &lens.relative_illumination, &lens.focus_distance_m) {
         let problem = "\"pupil\" has no effect here: the relative illumination is measured, and there is no defocus";
         errors.add(ErrorCode::NoEffect, &pupil.place, problem, "remove it");
@@ -122,12 +122,12 @@ fn check_illumination(table: &RelativeIllumination, errors: &mut DescriptionErro
     };
     let ratios = table.ratio.as_deref().unwrap_or_default();
     if radii.len() != ratios.len() {
-        let problem = format!("found {} radii and {} ratios", radii.len(), ratios.len());
-        errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+        let problem = format!("the numbers of radii ({}) and ratios ({}) differ", radii.len(), ratios.len());
+        errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers");
     }
     if let Some(pair) = radii.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
-        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising radii");
+        errors.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give increasing radii");
     }
     for (list, start, name) in [(&radii[..], 0.0, "radius"), (ratios, 1.0, "ratio")] {
         if let Some(first) = list.first().filter(|first| first.value != start) {

@@ -15,7 +15,7 @@ mod thin;
 
 use crate::reader::variants;
 
-pub use calibrated::Calibrated;
+pub use calibrated::CalibratedLens;
 pub use distortion::{Direction, Distortion, RadiusUnit};
 pub use focus::{FocusDistance, InfinityWord};
 pub use lateral_colour::LateralColour;
@@ -40,7 +40,7 @@ variants! {
         /// A lens given by its ray-transfer functions.
         "ray_transfer" => RayTransfer(RayTransfer),
         /// A calibrated or ideal projection.
-        "calibrated" => Calibrated(Box<Calibrated>),
+        "calibrated" => Calibrated(Box<CalibratedLens>),
         /// Object-side telecentric rays; everything is sharp.
         "telecentric" => Telecentric(Telecentric),
     }

@@ -23,7 +23,7 @@ record! {
         optional focus_distance_m: FocusDistance = focus_distance();
         /// Part that moves to focus: the sensor, or a group by its first and last surface, counted from 1 at the scene; the sensor then stays at infinity
         /// focus. Default: "sensor".
-        optional focus_by: FocusBy = focus_by();
+        optional focus_by: FocusingPart = focus_by();
         /// Distance of the sensor behind the paraxial image at 587.56 nm, or the file's primary wavelength. Default: the file's, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
         /// Coating of surfaces in air without their own. Default: "uncoated".
@@ -129,7 +129,7 @@ keyed! {
 
 /// The part that moves to focus.
 #[derive(Clone, Debug)]
-pub enum FocusBy {
+pub enum FocusingPart {
     /// The sensor.
     Sensor,
     /// From the first to the last surface of a group, counted from 1.
@@ -176,9 +176,9 @@ pub(crate) fn coating() -> impl Rule<Out = Coating> {
     either(variant!(choice::<UncoatedWord>(), UncoatedWord::Uncoated == Coating::Uncoated), either(fraction, layer))
 }
 
-fn focus_by() -> impl Rule<Out = FocusBy> {
-    let group = variant!(vector::<2>(number("").at_least(1.0)), FocusBy::Group);
-    either(variant!(choice::<FocusMechanism>(), FocusMechanism::Sensor == FocusBy::Sensor), group)
+fn focus_by() -> impl Rule<Out = FocusingPart> {
+    let group = variant!(vector::<2>(number("").at_least(1.0)), FocusingPart::Group);
+    either(variant!(choice::<FocusMechanism>(), FocusMechanism::Sensor == FocusingPart::Sensor), group)
 }
 
 fn check(lens: &Prescription, errors: &mut DescriptionErrors) {
@@ -201,7 +201,7 @@ fn check(lens: &Prescription, errors: &mut DescriptionErrors) {
             "remove it; a surface states its own \"semi_aperture_mm\"",
         );
     }
-    if let Some(FocusBy::Group(group)) = &lens.focus_by
+    if let Some(FocusingPart::Group(group)) = &lens.focus_by
         && !(group.value.iter().all(|i| i.fract() == 0.0) && group.value[0] <= group.value[1])
     {
         let problem = format!("{} to {} is not a range of surfaces", group.value[0], group.value[1]);

@@ -57,25 +57,25 @@ variants! {
         /// A table of radii over field angles, given here or from Zemax's "Field Curvature/Distortion".
         "table" => Table(Table),
         /// r = θ: up to 360°.
-        "equidistant" => Equidistant(Scaled),
+        "equidistant" => Equidistant(ScaledProjection),
         /// r = 2 sin(θ/2): up to 360°.
-        "equisolid" => Equisolid(Scaled),
+        "equisolid" => Equisolid(ScaledProjection),
         /// r = 2 tan(θ/2): below 360°.
-        "stereographic" => Stereographic(Scaled),
+        "stereographic" => Stereographic(ScaledProjection),
         /// r = sin θ: up to 180°.
-        "orthographic" => Orthographic(Scaled),
+        "orthographic" => Orthographic(ScaledProjection),
         /// r = tan θ: below 180°.
-        "rectilinear" => Rectilinear(Scaled),
+        "rectilinear" => Rectilinear(ScaledProjection),
         /// x = azimuth, y = tan of the elevation: up to 360° about the camera's y axis.
-        "cylindrical" => Cylindrical(Scaled),
+        "cylindrical" => Cylindrical(ScaledProjection),
         /// x = azimuth, y = elevation: the whole sphere.
-        "equirectangular" => Equirectangular(Scaled),
+        "equirectangular" => Equirectangular(ScaledProjection),
     }
 }
 
 record! {
     /// A projection without parameters of its own.
-    pub struct Scaled {
+    pub struct ScaledProjection {
         /// Its scale.
         inside matrix: Matrix;
     }
@@ -280,7 +280,7 @@ record! {
         inside centre: Centre;
         /// Source of the points.
         inside source: TableSource;
-        /// With "angle_deg": rising radii on the sensor.
+        /// With "angle_deg": increasing radii on the sensor.
         optional radius_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 2);
         /// With "file": focal length of its distortion. Default: the file's.
         optional focal_length_mm: Placed<f64> = number("mm").above(0.0);
@@ -292,7 +292,7 @@ keyed! {
     pub enum TableSource {
         /// Zemax "Field Curvature/Distortion" text, fields in degrees.
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Rising field angles, without the axis.
+        /// Increasing field angles, without the axis.
         angle_deg => Angles(Vec<Placed<f64>>) = list(number("degrees").above(0.0).at_most(180.0), 2);
     }
 }
@@ -321,8 +321,8 @@ fn check_table(table: &Table, errors: &mut DescriptionErrors) {
             errors.add(ErrorCode::NoEffect, &focal_length.place, problem, "remove it");
         }
         (TableSource::Angles(angles), Some(radii), None) if angles.len() != radii.len() => {
-            let problem = format!("found {} angles and {} radii", angles.len(), radii.len());
-            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
+            let problem = format!("the numbers of angles ({}) and radii ({}) differ", angles.len(), radii.len());
+            errors.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers");
         }
         _ => {}
     }

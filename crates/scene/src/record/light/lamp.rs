@@ -174,7 +174,7 @@ fn check_head_lamp(lamp: &HeadLamp, errors: &mut DescriptionErrors) {
         (Beam::Low, None) => errors.add(
             ErrorCode::MissingKey,
             &lamp.beam.place,
-            "the side of the road towards which the low beam rises is missing",
+            "the side of the road towards which the cut-off of the low beam rises is missing",
             "add traffic = \"right\" or \"left\"",
         ),
         (Beam::High, Some(traffic)) => {

@@ -11,7 +11,7 @@ use crate::asset::request::AssetKind;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{
-    NumberRule, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words,
+    NumberRule, choice, flag, integer, keyed, list, number, path, record, time, variants, vector, words,
 };
 
 variants! {
@@ -43,7 +43,7 @@ record! {
         /// Fall time. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
         /// For a surface: panel rows pulsed in sequence, top (v = 1) to bottom. Default: all at once.
-        optional multiplexed_rows: Placed<u64> = whole(2, 4096);
+        optional multiplexed_rows: Placed<u64> = integer(2, 4096);
         /// Delay and phases.
         inside timing: ModulationTiming;
     }
@@ -94,9 +94,9 @@ record! {
 keyed! {
     /// Source of the levels.
     pub enum TableRows {
-        /// Rows of rising time (s) and level (0 … 1 000 000).
+        /// Rows of increasing time (s) and level (0 … 1 000 000).
         points => Points(Vec<Placed<[f64; 2]>>) = list(vector::<2>(number("")), 2);
-        /// Two columns: rising time in s, level (0 … 1 000 000).
+        /// Two columns: increasing time in s, level (0 … 1 000 000).
         file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }

@@ -63,7 +63,7 @@ impl NamesFiles for Absorption {
     fn name_files(&self, files: &mut FileList) {
         match self {
             Self::Coefficient(curve) => curve.name_file(SpectrumValues::Light, files),
-            Self::Transmittance(share) => share.name_files(files),
+            Self::Transmittance(transmittance) => transmittance.name_files(files),
         }
     }
 }

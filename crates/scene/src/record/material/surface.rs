@@ -43,7 +43,7 @@ surfaces! {
     /// A bare metal, smooth or rough.
     "conductor" => Conductor,
     /// A diffuse base under a clear dielectric coat.
-    "coated" => Coated,
+    "coated" => CoatedDiffuse,
     /// Ground under a film of water, with puddles in its low parts.
     "wet_ground" => WetGround,
     /// Cook and Torrance: microfacets of any refractive index, without a base.
@@ -182,7 +182,7 @@ words! {
 
 record! {
     /// A diffuse base under a dielectric coat with a GGX microfacet distribution.
-    pub struct Coated {
+    pub struct CoatedDiffuse {
         /// Reflectance of the base.
         required reflectance: Reflectance = any_reflectance();
         /// Refractive index of the coat. Default: 1.5.
@@ -192,7 +192,7 @@ record! {
     }
 }
 
-impl NamesFiles for Coated {
+impl NamesFiles for CoatedDiffuse {
     fn name_files(&self, files: &mut FileList) {
         let Self { place: _, reflectance, index: _, alpha: _ } = self;
         reflectance.name_files(files);

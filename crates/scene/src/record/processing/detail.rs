@@ -2,7 +2,7 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{keyed, number, record, whole};
+use crate::reader::{integer, keyed, number, record};
 
 keyed! {
     /// Noise reduction method.
@@ -10,7 +10,7 @@ keyed! {
         /// Bilateral filter (Tomasi & Manduchi 1998): spatial σ; with "range".
         bilateral_px => Bilateral(Placed<f64>) = number("px").above(0.0).at_most(10.0);
         /// Median over a square of 2 r + 1 pixels: r.
-        median_px => Median(Placed<u64>) = whole(1, 3);
+        median_px => Median(Placed<u64>) = integer(1, 3);
     }
 }
 

@@ -4,7 +4,7 @@ use super::tone::{ToneCurve, tone_curve};
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
 use crate::reader::{
-    RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole, words,
+    RuleExt as _, choice, exactly, integer, keyed, list, number, percentile, record, variants, vector, words,
 };
 
 variants! {
@@ -59,7 +59,7 @@ record! {
     /// Raindrops painted on the image: each disc shows its surroundings upside down. Drops on a windscreen are traced instead.
     pub struct PaintedDrops check(check_drops) {
         /// Number of drops.
-        required count: Placed<u64> = whole(1, 100_000);
+        required count: Placed<u64> = integer(1, 100_000);
         /// Smallest radius.
         required min_radius_px: Placed<f64> = number("px").above(0.0);
         /// Largest radius; radii are uniformly distributed.
@@ -71,7 +71,7 @@ record! {
         /// With "fade_frames": downward flow per frame.
         optional flow_px_per_frame: Placed<f64> = number("px").above(0.0);
         /// Lifetime in frames, fading linearly. Default: permanent.
-        optional fade_frames: Placed<u64> = whole(1, 1_000_000);
+        optional fade_frames: Placed<u64> = integer(1, 1_000_000);
     }
 }
 

@@ -9,7 +9,7 @@ pub mod tone;
 
 use crate::fault::DescriptionErrors;
 use crate::place::Placed;
-use crate::reader::{among, choice, list, number, path, record, whole};
+use crate::reader::{among, choice, integer, list, number, path, record};
 use std::path::PathBuf;
 
 pub use colour::{ColourMatrix, Demosaic, WhiteBalance};
@@ -51,7 +51,7 @@ record! {
         /// Image format; "jpeg" with 8 bits. Default: "png".
         optional picture_format: Placed<PictureFormat> = choice();
         /// JPEG quality. Default: 90.
-        optional jpeg_quality: Placed<u64> = whole(1, 100);
+        optional jpeg_quality: Placed<u64> = integer(1, 100);
     }
 }
 

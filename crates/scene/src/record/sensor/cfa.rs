@@ -1,7 +1,7 @@
 //! `cfa`: the colour filter array.
 
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, list, record, text, variant, whole, words};
+use crate::reader::{Rule, choice, either, integer, list, record, text, variant, words};
 
 /// A colour filter array.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ record! {
     /// A tile of filters, repeated over the image from its top-left pixel.
     pub struct Tile {
         /// Columns of the tile.
-        required columns: Placed<u64> = whole(1, 64);
+        required columns: Placed<u64> = integer(1, 64);
         /// Channels, row by row, each with its "quantum_efficiency".
         required channels: Vec<Placed<String>> = list(text("the name of a channel"), 1);
     }

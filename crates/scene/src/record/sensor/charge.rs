@@ -2,13 +2,13 @@
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{choice, number, record, variants, whole, words};
+use crate::reader::{choice, integer, number, record, variants, words};
 
 record! {
     /// Non-uniformity: fixed differences between pixels, equal in all frames. Spreads are standard deviations.
     pub struct NonUniformity {
         /// Seed of the unit: equal numbers give equal patterns. Default: one for each camera.
-        optional seed: Placed<u64> = whole(0, 9_007_199_254_740_991);
+        optional seed: Placed<u64> = integer(0, 9_007_199_254_740_991);
         /// PRNU between pixels, as a fraction. Default: 0.
         optional prnu: Placed<f64> = spread();
         /// The same between rows. Default: 0.
@@ -50,7 +50,7 @@ record! {
         /// Shape of the spread between pixels. Default: "normal".
         optional distribution: Placed<SpreadDistribution> = choice();
         /// Hot pixels.
-        optional hot: Hot = record();
+        optional hot: HotPixels = record();
         /// Pixels with a two-level current.
         optional dark_current_rts: DarkCurrentRts = record();
     }
@@ -68,7 +68,7 @@ words! {
 
 record! {
     /// Hot pixels.
-    pub struct Hot {
+    pub struct HotPixels {
         /// Fraction of pixels.
         required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean additional current (exponential).

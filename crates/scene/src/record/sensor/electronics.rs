@@ -8,7 +8,7 @@ use super::hdr::{Companding, Hdr};
 use super::read_out::{Binning, OpticalBlack, Response, RtsNoise, Skipping};
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{flag, list, number, record, vector, whole};
+use crate::reader::{flag, integer, list, number, record, vector};
 
 record! {
     /// Conversion of light to digital numbers.
@@ -30,7 +30,7 @@ record! {
         /// Digital number without signal, below the ADC's maximum.
         required black_level_dn: Placed<f64> = number("DN").at_least(0.0);
         /// Bits of the ADC.
-        required bits: Placed<u64> = whole(1, 24);
+        required bits: Placed<u64> = integer(1, 24);
         /// Adds temporal noise. Default: true.
         optional noise: Placed<bool> = flag();
         /// Time between frames, at least the exposure; for "smear" (interline) and "lag".

@@ -22,7 +22,7 @@ record! {
 record! {
     /// Response of the micro-lenses as a function of the angle between the chief ray and the sensor's normal.
     pub struct AngleResponse {
-        /// Pairs of angle (degrees, rising from 0) and response (0 … 1, first 1), linear in the squared angle.
+        /// Pairs of angle (degrees, increasing from 0) and response (0 … 1, first 1), linear in the squared angle.
         required table: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("").at_least(0.0)), 1);
         /// Distance from the sensor to the exit pupil. Default: the lens's; for pinhole, thin and calibrated lenses the focal length.
         optional exit_pupil_mm: Placed<f64> = number("mm").above(0.0);

@@ -1,15 +1,15 @@
 //! Several captures per frame, and companding.
 
 use crate::place::Placed;
-use crate::reader::{flag, list, number, record, vector, whole};
+use crate::reader::{flag, integer, list, number, record, vector};
 
 record! {
     /// Several captures per frame, merged: each pixel takes the first that is not saturated.
     pub struct Hdr {
-        /// Captures after the first, by falling sensitivity.
+        /// Captures after the first, by decreasing sensitivity.
         required captures: Vec<Capture> = list(record(), 1);
         /// Bits of the merged number, at least the ADC's.
-        required merged_bits: Placed<u64> = whole(1, 24);
+        required merged_bits: Placed<u64> = integer(1, 24);
         /// Fraction of a capture's range above which the next is used. Default: 0.9.
         optional transition_level: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
@@ -43,8 +43,8 @@ record! {
     /// Piecewise linear compression to fewer bits, from (0, 0).
     pub struct Companding {
         /// Bits of the companded number.
-        required bits: Placed<u64> = whole(1, 24);
-        /// Ends of segments: rising linear and companded numbers, to the largest linear number; slopes fall from at most 1.
+        required bits: Placed<u64> = integer(1, 24);
+        /// Ends of segments: increasing linear and companded numbers, to the largest linear number; slopes decrease from at most 1.
         required knees: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("DN").above(0.0)), 1);
     }
 }

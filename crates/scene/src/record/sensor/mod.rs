@@ -12,7 +12,7 @@ pub mod shutter;
 
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
-use crate::reader::{number, record, vector, whole};
+use crate::reader::{integer, number, record, vector};
 
 pub use efficiency::QuantumEfficiency;
 pub use electronics::Electronics;
@@ -23,9 +23,9 @@ record! {
     /// A sensor: its geometry, and optionally its electronics.
     pub struct Sensor check(check) {
         /// Image width.
-        required width_px: Placed<u64> = whole(1, 65_536);
+        required width_px: Placed<u64> = integer(1, 65_536);
         /// Image height.
-        required height_px: Placed<u64> = whole(1, 65_536);
+        required height_px: Placed<u64> = integer(1, 65_536);
         /// Pixel pitch; pixels are square.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
         /// Image size over the sensor's, with an equal field of view: each pixel replaces k × k. Default: 1.

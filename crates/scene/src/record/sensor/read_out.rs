@@ -1,7 +1,7 @@
 //! From charge to digital numbers.
 
 use crate::place::Placed;
-use crate::reader::{choice, list, number, record, variants, vector, whole, words};
+use crate::reader::{choice, integer, list, number, record, variants, vector, words};
 
 variants! {
     /// Voltage as a function of charge.
@@ -45,9 +45,9 @@ record! {
     /// Optical black: pixels that receive no light.
     pub struct OpticalBlack {
         /// Rows above the image. Default: 0.
-        optional rows_px: Placed<u64> = whole(0, 4096);
+        optional rows_px: Placed<u64> = integer(0, 4096);
         /// Columns left of the image. Default: 0.
-        optional columns_px: Placed<u64> = whole(0, 4096);
+        optional columns_px: Placed<u64> = integer(0, 4096);
     }
 }
 
@@ -55,11 +55,11 @@ record! {
     /// Pixels of the same colour that are read out together.
     pub struct Binning {
         /// Pixels in a row.
-        required columns: Placed<u64> = whole(1, 64);
+        required columns: Placed<u64> = integer(1, 64);
         /// Pixels in a column.
-        required rows: Placed<u64> = whole(1, 64);
+        required rows: Placed<u64> = integer(1, 64);
         /// "charge" is added before it is read; digital "numbers" are averaged.
-        required of: Placed<BinningOf> = choice();
+        required of: Placed<BinnedQuantity> = choice();
     }
 }
 
@@ -68,15 +68,15 @@ record! {
     /// black.
     pub struct Skipping {
         /// One of this many adjacent tiles in a row is read. Default: 1.
-        optional columns: Placed<u64> = whole(1, 64);
+        optional columns: Placed<u64> = integer(1, 64);
         /// One of this many adjacent tiles in a column is read, which saves shutter time. Default: 1.
-        optional rows: Placed<u64> = whole(1, 64);
+        optional rows: Placed<u64> = integer(1, 64);
     }
 }
 
 words! {
     /// The binned quantity.
-    pub enum BinningOf {
+    pub enum BinnedQuantity {
         /// Charge is added before it is read: read noise is added once.
         "charge" => Charge,
         /// Digital numbers are averaged.

@@ -1,7 +1,7 @@
 //! Timing of the exposure of a sensor's rows.
 
 use crate::place::Placed;
-use crate::reader::{choice, number, record, variants, whole, words};
+use crate::reader::{choice, integer, number, record, variants, words};
 
 variants! {
     /// Timing of the exposure of a sensor's rows. In a static scene only "global_reset" changes the image.
@@ -32,7 +32,7 @@ record! {
         /// Read-out direction in the erect image. Default: "down".
         optional direction: Placed<Direction> = choice();
         /// Fields of a frame; with 2, even rows (from 0) are read before odd ones. Default: 1.
-        optional fields: Placed<u64> = whole(1, 16);
+        optional fields: Placed<u64> = integer(1, 16);
         /// Exposure time without electronics. Default: 0.
         optional exposure_s: Placed<f64> = number("s").at_least(0.0);
     }

@@ -82,8 +82,8 @@ fn the_tree_finds_what_f64_finds() {
     for ray in rays(4000, 3.0, 5) {
         let expected =
             (0..150).filter_map(|p| cramer(mesh.corners(p), &ray).map(|t| (t, p))).min_by(|a, b| a.0.total_cmp(&b.0));
-        let found = view.closest(&ray).map(|h| (f64::from(h.t), h.primitive));
-        let same = match (expected, found) {
+        let actual = view.closest(&ray).map(|h| (f64::from(h.t), h.primitive));
+        let same = match (expected, actual) {
             (Some((t, p)), Some((u, q))) => p == q && (t - u).abs() < 1e-4 * t,
             (a, b) => a.is_none() && b.is_none(),
         };

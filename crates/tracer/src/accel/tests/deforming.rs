@@ -118,16 +118,16 @@ fn vertices_are_hit_where_they_are_at_the_ray_s_time() {
         let interval = interval(0.3 * f64::from(seed), 0.1 + 0.6 * f64::from(seed));
         let view = world.render_space_with(DVec3::ZERO, interval, Simd::Auto);
         for ray in rays(1000, 100 + seed, interval) {
-            let (expected, found) = (oracle(&world, interval, &ray), view.closest(&ray));
-            let same = match (expected, found) {
+            let (expected, actual) = (oracle(&world, interval, &ray), view.closest(&ray));
+            let same = match (expected, actual) {
                 (Some((t, instance, primitive)), Some(hit)) => {
                     (instance, primitive) == (hit.instance, hit.primitive) && (t - f64::from(hit.t)).abs() < 1e-4 * t
                 }
                 (a, b) => a.is_none() && b.is_none(),
             };
-            assert_eq!(view.occluded(&ray), found.is_some());
+            assert_eq!(view.occluded(&ray), actual.is_some());
             differences += u32::from(!same);
-            hits += u32::from(found.is_some());
+            hits += u32::from(actual.is_some());
         }
     }
     assert!(differences <= 4 && hits > 1000 && hits < 4000, "{differences} of 4000 rays differ, {hits} hit");

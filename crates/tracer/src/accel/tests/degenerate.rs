@@ -110,7 +110,7 @@ fn worlds_that_are_none_are_refused() {
     );
     assert_eq!(
         build(Shape::Mesh(MeshId(0)), still, 0),
-        Some(WorldError::MissingMaterials { instance: 0, found: 0, expected: 1 })
+        Some(WorldError::MissingMaterials { instance: 0, actual: 0, expected: 1 })
     );
     let flat = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0)));
     assert_eq!(build(Shape::Mesh(MeshId(0)), flat, 1), Some(WorldError::Transform { instance: 0 }));
@@ -123,7 +123,7 @@ fn worlds_that_are_none_are_refused() {
 }
 
 /// A triangle of 1 m about (0, 0, `away_m`), from a mesh whose unit is `unit_m`.
-fn of_unit(unit_m: f64, away_m: f64) -> crate::accel::World {
+fn triangle_world(unit_m: f64, away_m: f64) -> crate::accel::World {
     let half = (0.5 / unit_m) as f32;
     let corners = vec![Vec3::new(-half, -half, 0.0), Vec3::new(half, -half, 0.0), Vec3::new(0.0, half, 0.0)];
     let placement = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(unit_m)), DVec3::Z * away_m);
@@ -134,17 +134,17 @@ fn of_unit(unit_m: f64, away_m: f64) -> crate::accel::World {
 fn rays_that_would_overflow_are_refused_and_all_others_meet() {
     let along = Ray::new(Vec3::ZERO, Vec3::Z, 0.0);
     for (unit_m, away_m) in [(1.0, 1e3), (1e-6, 9e5), (1e-11, 9.0), (1e9, 1e6)] {
-        let world = of_unit(unit_m, away_m);
+        let world = triangle_world(unit_m, away_m);
         assert_eq!(world.check_reach(DVec3::ZERO, TimeInterval::default()), Ok(()));
         let t = world.render_space(DVec3::ZERO).closest(&along).map(|hit| hit.t);
         // A few roundings of f32.
         assert!(t.is_some_and(|t| (f64::from(t) / away_m - 1.0).abs() < 1e-6), "{unit_m} {away_m}: {t:?}");
     }
     for (unit_m, away_m) in [(1e-11, 11.0), (1e-9, 1e5)] {
-        let refused = of_unit(unit_m, away_m).check_reach(DVec3::ZERO, TimeInterval::default());
+        let refused = triangle_world(unit_m, away_m).check_reach(DVec3::ZERO, TimeInterval::default());
         assert!(matches!(refused, Err(WorldError::Reach { instance: 0, .. })), "{refused:?}");
     }
-    let here = of_unit(1e-11, 0.0);
+    let here = triangle_world(1e-11, 0.0);
     assert_eq!(here.check_reach(DVec3::X, TimeInterval::default()), Ok(()));
     assert!(here.check_reach(DVec3::X * 20.0, TimeInterval::default()).is_err(), "the camera is too far away");
 }

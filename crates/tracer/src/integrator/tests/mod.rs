@@ -5,7 +5,6 @@
 
 mod agreement;
 mod branching;
-mod carried;
 mod closed_forms;
 mod glossy;
 mod guided;
@@ -15,6 +14,7 @@ mod levels;
 mod media;
 mod modulation;
 mod motion;
+mod moving_lamps;
 mod near_lights;
 mod openings;
 mod passages;
@@ -29,7 +29,9 @@ use crate::geometry::{Instance, Mesh, Shape};
 use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
 use crate::materials::MaterialTable;
-use crate::materials::{Coated, Conductor, Emission, EmissionQuery, EmissionSides, Material, Reflectance, Surface};
+use crate::materials::{
+    CoatedDiffuse, Conductor, Emission, EmissionQuery, EmissionSides, Material, Reflectance, Surface,
+};
 use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
@@ -172,7 +174,7 @@ fn diffuse_surface(reflectance: f64) -> Surface {
 
 fn paint(base: f64, alpha: f64) -> Surface {
     let base = Reflectance::Spectrum(Spectrum::constant(base));
-    Surface::Coated(Box::new(Coated::new(base, 1.5, alpha).expect("a paint")))
+    Surface::Coated(Box::new(CoatedDiffuse::new(base, 1.5, alpha).expect("a paint")))
 }
 
 fn aluminium(alpha: f64) -> Surface {

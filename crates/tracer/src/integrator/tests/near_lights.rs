@@ -20,7 +20,7 @@ fn under_a_strip() -> BuiltScene {
 }
 
 /// Irradiance at a point of the floor from a polygon of radiance 1 above it (Lambert 1760).
-fn of_polygon(point: DVec3, corners: &[DVec3]) -> f64 {
+fn polygon_irradiance(point: DVec3, corners: &[DVec3]) -> f64 {
     let rays: Vec<DVec3> = corners.iter().map(|corner| *corner - point).collect();
     let edge = |i: usize| {
         let (a, b) = (rays[i], rays[(i + 1) % rays.len()]);
@@ -38,7 +38,7 @@ fn measure(at: [f32; 3], strategies: Strategies, samples: u32) -> ReplicateEstim
 #[test]
 fn a_strip_close_by_gives_its_closed_form_with_little_noise() {
     for at in [[0.0, 0.1, 0.0], [0.02, 1.15, 0.0]] {
-        let expected = ALBEDO / PI * of_polygon(Vec3::from(at).as_dvec3(), &strip());
+        let expected = ALBEDO / PI * polygon_irradiance(Vec3::from(at).as_dvec3(), &strip());
         for strategies in [Strategies::Both, Strategies::Lights] {
             let estimate = measure(at, strategies, 64);
             agrees(&estimate, expected);

@@ -37,11 +37,11 @@ pub enum OpeningError {
     #[error(
         "{:.1} % of the light is emitted along the plane of the flat opening, where the opening has no projected area: turn the \
          opening towards the emission, or give a body (sphere, tube)",
-        100.0 * share
+        100.0 * fraction
     )]
     EdgeOn {
         /// Fraction of the flux that would be lost.
-        share: f64,
+        fraction: f64,
     },
 }
 
@@ -94,7 +94,7 @@ impl Opening {
     /// If more than a hundredth of the light would leave along the plane of a flat opening.
     pub fn check(&self, profile: &Profile) -> Result<(), OpeningError> {
         let fraction = self.lost_fraction(profile);
-        if fraction > MAX_LOST_FRACTION { Err(OpeningError::EdgeOn { share: fraction }) } else { Ok(()) }
+        if fraction > MAX_LOST_FRACTION { Err(OpeningError::EdgeOn { fraction }) } else { Ok(()) }
     }
 
     /// Fraction of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine

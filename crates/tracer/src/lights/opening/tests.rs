@@ -135,7 +135,10 @@ fn a_beam_along_the_plane_of_a_flat_opening_is_refused() {
         PhotometricGrid::new(PhotometricAxes::A, vertical, horizontal, values).expect("a grid"),
     );
     let refused = edge_on.check(&beam);
-    assert!(matches!(refused, Err(OpeningError::EdgeOn { share }) if (0.05..0.06).contains(&share)), "{refused:?}");
+    assert!(
+        matches!(refused, Err(OpeningError::EdgeOn { fraction }) if (0.05..0.06).contains(&fraction)),
+        "{refused:?}"
+    );
     assert_eq!(opening(OpeningBody::Box, [0.0, 0.2, 0.2]).check(&beam), Ok(()));
     assert_eq!(opening(OpeningBody::Box, [0.2, 0.2, 0.01]).check(&beam), Ok(()), "a body has area everywhere");
 }

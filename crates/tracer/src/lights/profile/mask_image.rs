@@ -16,14 +16,14 @@ use super::spread::{DirectionalExtent, GAUSS, ProfileNode};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaskImageError {
     /// The texels do not fill the image.
-    #[error("the mask has {found} texels, but its size is {width} × {height}; correct its size")]
+    #[error("the mask has {actual} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
         /// Number of texels given.
-        found: usize,
+        actual: usize,
     },
     /// A texel is negative or not finite.
     #[error("texel {texel} of the mask is negative or not a finite number; correct the image")]
@@ -79,7 +79,7 @@ impl MaskImage {
         vertical_rad: f64,
     ) -> Result<Self, MaskImageError> {
         if texels.is_empty() || texels.len() != width * height {
-            return Err(MaskImageError::Size { width, height, found: texels.len() });
+            return Err(MaskImageError::Size { width, height, actual: texels.len() });
         }
         if let Some(texel) = texels.iter().position(|t| !(t.is_finite() && *t >= 0.0)) {
             return Err(MaskImageError::Texel { texel });

@@ -72,7 +72,7 @@ struct GridCell {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PhotometricGridError {
     /// Angles are missing, out of order or out of range.
-    #[error("the {which} angles of the grid must rise, lie between {low}° and {high}°, and span at most {span}°")]
+    #[error("the {which} angles of the grid must increase, lie between {low}° and {high}°, and span at most {span}°")]
     Angles {
         /// "vertical" or "horizontal".
         which: &'static str,
@@ -85,7 +85,7 @@ pub enum PhotometricGridError {
     },
     /// The values do not fill the grid.
     #[error(
-        "the grid of {vertical} vertical × {horizontal} horizontal angles has {found} values; give one for each pair of angles"
+        "the grid of {vertical} vertical × {horizontal} horizontal angles has {actual} values; give one for each pair of angles"
     )]
     Size {
         /// Vertical angles.
@@ -93,7 +93,7 @@ pub enum PhotometricGridError {
         /// Horizontal angles.
         horizontal: usize,
         /// Number of values given.
-        found: usize,
+        actual: usize,
     },
     /// A value is negative or not finite.
     #[error("value {value} of the grid is negative or not a finite number; correct it")]
@@ -138,7 +138,7 @@ impl PhotometricGrid {
     ) -> Result<Self, PhotometricGridError> {
         let (vertical, horizontal) = (vertical_deg.len(), horizontal_deg.len());
         if values.len() != vertical * horizontal || values.is_empty() {
-            return Err(PhotometricGridError::Size { vertical, horizontal, found: values.len() });
+            return Err(PhotometricGridError::Size { vertical, horizontal, actual: values.len() });
         }
         if let Some(value) = values.iter().position(|v| !(v.is_finite() && *v >= 0.0)) {
             return Err(PhotometricGridError::Value { value });

@@ -100,8 +100,9 @@ impl Sheeting {
         let cut = self.cut_off_deg();
         let why = if cut < MAX_CUT_OFF_DEG - 0.01 { " (limited by energy conservation)" } else { "" };
         format!(
-            "R_A is constant below an observation angle of {first}° and from {last}° to {cut:.2}°{why}, and 0 beyond. It is \
-             constant beyond an entrance angle of {deepest}°, up to {}° from the normal, where it begins to fall",
+            "the coefficient of retro-reflection R_A is constant below an observation angle of {first}° and from \
+             {last}° to {cut:.2}°{why}, and 0 beyond; it is constant for entrance angles from {deepest}° to {}°, and \
+             decreases beyond",
             deepest.max(GRAZING_DEG)
         )
     }

@@ -39,7 +39,7 @@ impl RetroTable {
         }
         let expected = observation_deg.len() * entrance_deg.len();
         if values.len() != expected {
-            return Err(RetroTableError::Count { found: values.len(), expected });
+            return Err(RetroTableError::Count { actual: values.len(), expected });
         }
         if let Some(value) = values.iter().find(|v| !(v.is_finite() && **v >= 0.0)) {
             return Err(RetroTableError::Value { value: *value });
@@ -140,7 +140,7 @@ pub enum RetroTableError {
         most_deg: f64,
     },
     /// Angles do not rise.
-    #[error("the {kind} angle {second}° follows {first}°, but angles must rise; sort the table")]
+    #[error("the {kind} angle {second}° follows {first}°, but angles must increase; sort the table")]
     Order {
         /// Kind of the angles.
         kind: &'static str,
@@ -156,10 +156,10 @@ pub enum RetroTableError {
         deg: f64,
     },
     /// The number of values does not fit the angles.
-    #[error("the table has {found} values, but its angles require {expected}; give one for each pair of angles")]
+    #[error("the table has {actual} values, but its angles require {expected}; give one for each pair of angles")]
     Count {
         /// Number of values.
-        found: usize,
+        actual: usize,
         /// Number of pairs of angles.
         expected: usize,
     },
@@ -211,7 +211,7 @@ mod tests {
         assert!(matches!(of(&[0.2], &[90.0], &[1.0]), RetroTableError::Range { kind: "entrance", .. }));
         assert!(matches!(of(&[0.5, 0.2], &[5.0], &[1.0, 1.0]), RetroTableError::Order { .. }));
         assert!(matches!(of(&[0.0, 0.005], &[5.0], &[1.0, 1.0]), RetroTableError::TooFine { .. }));
-        assert_eq!(of(&[0.2], &[5.0], &[1.0, 2.0]), RetroTableError::Count { found: 2, expected: 1 });
+        assert_eq!(of(&[0.2], &[5.0], &[1.0, 2.0]), RetroTableError::Count { actual: 2, expected: 1 });
         assert_eq!(of(&[0.2], &[5.0], &[-1.0]), RetroTableError::Value { value: -1.0 });
     }
 }

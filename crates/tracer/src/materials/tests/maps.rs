@@ -85,7 +85,7 @@ fn a_roughness_map_is_that_roughness_at_each_point() {
 
 #[test]
 fn a_white_base_under_a_mapped_coat_keeps_all_light() {
-    let coated = Coated::new(grey(1.0), 1.5, RAMP).expect("a paint");
+    let coated = CoatedDiffuse::new(grey(1.0), 1.5, RAMP).expect("a paint");
     let material_table =
         MaterialTable::new(vec![Material::new(Surface::Coated(Box::new(coated)))], vec![ramp()]).expect("a map");
     for u in [0.125, 0.2, 0.3, 0.6, 0.875] {

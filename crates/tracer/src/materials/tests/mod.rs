@@ -48,7 +48,7 @@ fn perfect_metal(alpha: f64) -> Surface {
 }
 
 fn paint(albedo: f64, n: f64, alpha: f64) -> Surface {
-    Surface::Coated(Box::new(Coated::new(grey(albedo), n, alpha).expect("a paint")))
+    Surface::Coated(Box::new(CoatedDiffuse::new(grey(albedo), n, alpha).expect("a paint")))
 }
 
 fn glass(n: f64, alpha: f64) -> Surface {

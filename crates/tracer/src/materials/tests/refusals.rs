@@ -9,8 +9,8 @@ fn faulty_materials_are_refused() {
     assert!(matches!(of(Surface::Diffuse(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
     let textured = Surface::Diffuse(Reflectance::Texture(crate::textures::TextureId(2)));
     assert_eq!(of(textured), Some(MaterialError::UnknownTexture { material: 0, texture: 2, textures: 0 }));
-    assert_eq!(Coated::new(grey(0.5), 1.0, 0.1), Err(MaterialError::CoatIndex { n: 1.0 }));
-    assert_eq!(Coated::new(grey(0.5), 1.5, 1.5), Err(MaterialError::Roughness { alpha: 1.5 }));
+    assert_eq!(CoatedDiffuse::new(grey(0.5), 1.0, 0.1), Err(MaterialError::CoatIndex { n: 1.0 }));
+    assert_eq!(CoatedDiffuse::new(grey(0.5), 1.5, 1.5), Err(MaterialError::Roughness { alpha: 1.5 }));
     assert_eq!(Dielectric::new(0.99, 0.1, None), Err(MaterialError::GlassIndex { n: 0.99 }));
     assert_eq!(Dielectric::new(1.5, 2.0, None), Err(MaterialError::Roughness { alpha: 2.0 }));
     let gain = Some(Spectrum::constant(-1.0));

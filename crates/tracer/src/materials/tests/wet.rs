@@ -29,7 +29,7 @@ fn a_puddle_mirrors_by_fresnel() {
         0.0,
     )
     .expect("legal");
-    let surface = Surface::from(Coated::under_water(grey(0.1), puddles));
+    let surface = Surface::from(CoatedDiffuse::under_water(grey(0.1), puddles));
     let material_table = MaterialTable::new(vec![Material::new(surface)], vec![heights]).expect("a map");
     let at = |u: f32| material_table.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);
     let (deep, film) = (at(0.25), at(0.75));

@@ -33,7 +33,7 @@ fn alpha_is_read_like_any_channel() {
     assert!((at(0.5) - 0.5).abs() < 1e-6);
     assert!(leaf.has_alpha() && leaf.channel_range(Channel::Alpha) == (0.0, 1.0));
     let faulty = ImageTexture::with_alpha(2, 1, Texels::Linear8(vec![[0; 3]; 2]), vec![0], Sampling::default());
-    assert_eq!(faulty.err(), Some(TextureError::Size { width: 2, height: 1, found: 1 }));
+    assert_eq!(faulty.err(), Some(TextureError::Size { width: 2, height: 1, actual: 1 }));
 }
 
 fn triplanar(size_m: f32, sharpness: f32) -> Sampling {

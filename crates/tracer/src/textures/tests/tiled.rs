@@ -152,7 +152,7 @@ fn what_is_no_image_is_refused_as_in_memory() {
     let push = |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut MemoryBlocks| {
         writer.push(&Texels::Float(texels), out)
     };
-    let size = |actual| TiledError::Texture(TextureError::Size { width: 2, height: 2, found: actual });
+    let size = |actual| TiledError::Texture(TextureError::Size { width: 2, height: 2, actual });
     let mut short = writer();
     push(&mut short, vec![[0.0; 3]; 2], &mut nowhere).expect("a row");
     assert_eq!(short.finish(&mut nowhere), Err(size(2)));
@@ -165,6 +165,6 @@ fn what_is_no_image_is_refused_as_in_memory() {
     assert_eq!(refused, Err(TextureError::NonFinite { texel: 3 }.into()));
     assert_eq!(
         PyramidWriter::new(0, 2, TexelEncoding::Float).err(),
-        Some(TextureError::Size { width: 0, height: 2, found: 0 })
+        Some(TextureError::Size { width: 0, height: 2, actual: 0 })
     );
 }

@@ -30,7 +30,7 @@ impl PyramidWriter {
     /// If it has no texels.
     pub fn new(width: u32, height: u32, encoding: TexelEncoding) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
-            return Err(TextureError::Size { width, height, found: 0 });
+            return Err(TextureError::Size { width, height, actual: 0 });
         }
         let layouts = layout(width, height, encoding);
         let nexts = layouts.iter().skip(1).copied().map(Some).chain([None]);
@@ -86,7 +86,7 @@ impl PyramidWriter {
 
     fn wrong_size(&self, more: usize) -> TextureError {
         let LevelLayout { width, height, .. } = self.levels[0].layout;
-        TextureError::Size { width, height, found: self.texels + more }
+        TextureError::Size { width, height, actual: self.texels + more }
     }
 
     /// One row of the finest resolution: its values, and its bytes in tiles.

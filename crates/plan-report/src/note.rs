@@ -1,7 +1,7 @@
 //! Notes and warnings of compilation.
 
 use etendue_pipeline::Plan;
-use etendue_pipeline::remark::{Severity, grouped};
+use etendue_pipeline::note::{Severity, grouped};
 
 /// A note or warning, without duplicates.
 #[derive(Clone, Debug, serde::Serialize)]

@@ -4,7 +4,7 @@ use etendue_projection::{Calibration, CalibrationError, CameraMatrix};
 
 use super::yaml::TreeNode;
 use crate::ErrorCode;
-use crate::tree::{Read, TreeError};
+use crate::tree::{TreeError, TreeResult};
 
 /// Result of a reader.
 pub(super) struct ReaderResult {
@@ -15,7 +15,7 @@ pub(super) struct ReaderResult {
 
 impl ReaderResult {
     /// The camera, if it is the requested one.
-    pub(super) fn chosen(self, camera: Option<&str>) -> Read<(String, Calibration, Vec<String>)> {
+    pub(super) fn chosen(self, camera: Option<&str>) -> TreeResult<(String, Calibration, Vec<String>)> {
         match camera {
             Some(requested) if requested != self.name && self.name.is_empty() => {
                 Err(TreeError::at(0, format!("contains one camera, which has no name; do not request \"{requested}\"")))
@@ -36,7 +36,7 @@ pub(super) fn camera_error(line: usize) -> impl Fn(CalibrationError) -> TreeErro
 }
 
 /// The numbers of a matrix, by rows: OpenCV's rows, cols and data, or plain (nested) lists.
-pub(super) fn numbers(node: &TreeNode) -> Read<Vec<f64>> {
+pub(super) fn numbers(node: &TreeNode) -> TreeResult<Vec<f64>> {
     let Some(data) = node.find("data") else { return node.numbers() };
     let (rows, columns) = (node.key("rows")?.count()?, node.key("cols")?.count()?);
     let numbers = data.numbers()?;
@@ -44,16 +44,19 @@ pub(super) fn numbers(node: &TreeNode) -> Read<Vec<f64>> {
         return Ok(numbers);
     }
     let actual = numbers.len();
-    Err(TreeError::at(data.line, format!("found {actual} numbers; expected rows × cols = {rows} × {columns}")))
+    Err(TreeError::at(
+        data.line,
+        format!("the number of values is {actual}; expected rows × cols = {rows} × {columns}"),
+    ))
 }
 
 /// A camera matrix with the centre of the top-left pixel at (0, 0), in raster coordinates.
-pub(super) fn camera(node: &TreeNode) -> Read<CameraMatrix> {
+pub(super) fn camera(node: &TreeNode) -> TreeResult<CameraMatrix> {
     let numbers = numbers(node)?;
     let [fx, skew, cx, zero, fy, cy, rest @ ..] = &numbers[..] else {
         return Err(TreeError::at(
             node.line,
-            format!("found {} numbers; expected a 3 × 3 camera matrix", numbers.len()),
+            format!("the number of values is {}; expected a 3 × 3 camera matrix", numbers.len()),
         ));
     };
     if *zero != 0.0 || rest != [0.0, 0.0, 1.0] {
@@ -63,7 +66,7 @@ pub(super) fn camera(node: &TreeNode) -> Read<CameraMatrix> {
 }
 
 /// `image_width` and `image_height`, or `image_size` as a list of both.
-pub(super) fn size(root: &TreeNode) -> Read<[usize; 2]> {
+pub(super) fn size(root: &TreeNode) -> TreeResult<[usize; 2]> {
     if let Some(items) = root.find("image_size").and_then(TreeNode::items)
         && let [width, height] = items
     {
