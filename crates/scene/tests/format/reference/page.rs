@@ -98,7 +98,7 @@ impl Pages {
         if keys.is_empty() {
             return "No keys of its own.\n\n".to_owned();
         }
-        let mut text = "| key | must | value | meaning |\n| --- | --- | --- | --- |\n".to_owned();
+        let mut text = "| key | must | value | meaning |\n|---|---|---|---|\n".to_owned();
         for (key, schema) in keys {
             let value = value(&schema, self, section.file());
             let description = schema["description"].as_str().unwrap_or("");
