@@ -13,7 +13,6 @@ use crate::error::ChartError;
 pub struct CameraStation {
     /// Name in the job, and of its file.
     pub name: String,
-    /// Position, m.
     pub position_m: DVec3,
     /// Point looked at, m.
     pub target_m: DVec3,

@@ -40,7 +40,6 @@ impl FeatureKind {
 /// A feature that measurements detect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// Kind.
     pub kind: FeatureKind,
     /// Index of the panel.
     pub panel: usize,
@@ -69,20 +68,17 @@ impl Feature {
 /// An area of one ink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// Name.
     pub name: String,
     /// Index of the panel.
     pub panel: usize,
     /// Index of its ink in the list.
     pub ink: usize,
-    /// Outline, mm.
     pub outline_mm: Vec<DVec2>,
 }
 
 /// An image of reflectances, 16 bits, linear: 65 535 is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// Name.
     pub name: String,
     /// Name of its file; textures of the same numbers share one.
     pub file: String,
@@ -105,7 +101,6 @@ pub struct Cavity {
     pub panel: usize,
     /// Opening, mm, clockwise as seen.
     pub opening_mm: Vec<DVec2>,
-    /// Depth, mm.
     pub depth_mm: f64,
     /// Ink of its inside.
     pub ink: usize,
@@ -116,7 +111,6 @@ pub struct Cavity {
 pub struct Drawing {
     /// The sheets; the first is the chart itself.
     pub panels: Vec<Panel>,
-    /// The inks.
     pub inks: Vec<Ink>,
     /// Images used as inks.
     pub textures: Vec<Texture>,
@@ -124,7 +118,6 @@ pub struct Drawing {
     pub cavities: Vec<Cavity>,
     /// True if uniform light from all directions falls on it; otherwise it is self-luminous in the dark.
     pub is_illuminated: bool,
-    /// Features.
     pub features: Vec<Feature>,
     /// Areas of one ink.
     pub patches: Vec<Patch>,

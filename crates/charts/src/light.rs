@@ -84,7 +84,6 @@ impl CameraResponse<'_> {
 pub struct Panel {
     /// Name, which is that of its mesh.
     pub name: String,
-    /// The sheet.
     pub sheet: Sheet,
     /// Position of its centre, m.
     pub position_m: DVec3,

@@ -8,7 +8,6 @@ use crate::error::ChartError;
 /// The ray of a raster point, camera frame (x right, y down, z forward; m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RasterRay {
-    /// Origin.
     pub origin_m: DVec3,
     /// Unit direction.
     pub direction: DVec3,

@@ -130,7 +130,6 @@ pub enum Fill {
 pub struct Piece {
     /// Corners, mm, clockwise as seen.
     pub outline: Vec<DVec2>,
-    /// Fill.
     pub fill: Fill,
 }
 
@@ -139,7 +138,6 @@ pub struct Piece {
 pub struct Sheet {
     /// Width and height, mm.
     pub size_mm: DVec2,
-    /// The pieces.
     pub pieces: Vec<Piece>,
 }
 

@@ -26,9 +26,7 @@ pub enum ArgumentKind {
     Switch,
     /// A whole number.
     Integer,
-    /// A number.
     Number,
-    /// A path.
     Path,
     /// A text, or numbers written as one: `1,2`, `0..10`.
     Text,

@@ -35,7 +35,6 @@ pub trait BlockWriter {
 /// Writes all blocks to the given writer.
 pub type Fill<'a> = &'a mut dyn FnMut(&mut dyn BlockWriter) -> Result<(), String>;
 
-/// Store of blocks.
 pub trait BlockStore: Debug + Send + Sync {
     /// Returns the blocks of a key; `None` if there is no complete set. `lengths` are the bytes of each.
     fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>>;

@@ -21,13 +21,11 @@ impl TimeInterval {
         Self::new(time_s, time_s)
     }
 
-    /// Start, s.
     #[must_use]
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
 
-    /// End, s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
         self.end_s

@@ -67,22 +67,15 @@ pub enum TrackError {
     #[error(
         "key {key} of the track is not finite, or the motion from it to the next is too fast for floating-point numbers"
     )]
-    NotFinite {
-        /// The key.
-        key: usize,
-    },
+    NotFinite { key: usize },
     /// A quaternion of length 0.
     #[error("key {key} of the track has a rotation quaternion of length 0; give a unit quaternion")]
-    NoRotation {
-        /// The key.
-        key: usize,
-    },
+    NoRotation { key: usize },
     /// A key before its predecessor.
     #[error("key {key} of the track is at {time_s} s, before key {} at {before_s} s; give the keys in order of time", .key - 1)]
     Unordered {
         /// The later key of the two.
         key: usize,
-        /// Its time, s.
         time_s: f64,
         /// The time of the key before it, s.
         before_s: f64,

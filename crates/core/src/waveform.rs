@@ -61,16 +61,10 @@ pub enum TableInterpolation {
 pub enum WaveformError {
     /// The frequency is not above 0, or not finite.
     #[error("found a frequency of {frequency_hz} Hz; give one above 0")]
-    Frequency {
-        /// Frequency, Hz.
-        frequency_hz: f64,
-    },
+    Frequency { frequency_hz: f64 },
     /// The duty is outside (0, 1).
     #[error("found a duty of {duty}; give one above 0 and below 1")]
-    Duty {
-        /// Duty.
-        duty: f64,
-    },
+    Duty { duty: f64 },
     /// The edges do not fit.
     #[error(
         "half of the rise time plus half of the fall time is {edges_s} s, more than the shorter of pulse and pause, \
@@ -84,16 +78,10 @@ pub enum WaveformError {
     },
     /// The modulation depth is outside [0, 1].
     #[error("found a modulation depth of {depth}; give one from 0 to 1")]
-    Depth {
-        /// Depth.
-        depth: f64,
-    },
+    Depth { depth: f64 },
     /// A level is negative, too large or not finite.
     #[error("found the level {level}; give one from 0 to 1e6")]
-    Level {
-        /// Level.
-        level: f64,
-    },
+    Level { level: f64 },
     /// All levels are 0.
     #[error("the light is dark at all times; give at least one level above 0")]
     Dark,
@@ -110,10 +98,7 @@ pub enum WaveformError {
     },
     /// A duration is not above 0, or not finite.
     #[error("found a duration of {duration_s} s; give one above 0")]
-    Duration {
-        /// Duration, s.
-        duration_s: f64,
-    },
+    Duration { duration_s: f64 },
     /// The table does not fit into the period.
     #[error(
         "the table lasts {length_s} s, but its period is {period_s} s; the period must be longer with steps, else at least as long"
@@ -121,7 +106,6 @@ pub enum WaveformError {
     Period {
         /// Length from the table's first time to its last, s.
         length_s: f64,
-        /// Period, s.
         period_s: f64,
     },
 }

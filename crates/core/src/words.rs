@@ -56,7 +56,6 @@ macro_rules! words {
 pub struct Setting {
     /// The key, without its table.
     pub key: &'static str,
-    /// Its value.
     pub value: SettingValue,
     /// True if it has an effect only with path tracing.
     pub is_path_only: bool,

@@ -37,6 +37,8 @@
 //! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. Notes and warnings for the caller go to its
 //! [`Observer`].
 
+#![warn(missing_docs)]
+
 pub use etendue_core::observer::{FramePlace, ImageTile, Message, NullObserver, Observer, Progress, ProgressUnit};
 pub use etendue_import::{ImportRequest, import};
 pub use etendue_io::escape::{escaped, terminal_json, terminal_text};

@@ -36,7 +36,6 @@ impl VarianceOrigin {
 /// Channel present in both files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelPair {
-    /// Its name.
     pub name: String,
     /// Its samples.
     pub content: PairContent,
@@ -54,7 +53,6 @@ pub enum PairContent {
         /// Variances of the means.
         variance: Option<(Vec<f32>, Vec<f32>)>,
     },
-    /// Identities.
     Identity {
         /// Identities of the first file.
         a: Vec<u32>,

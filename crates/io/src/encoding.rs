@@ -37,7 +37,6 @@ pub enum Encoding {
 /// Encoding with its source, in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourcedEncoding {
-    /// The encoding.
     pub encoding: Encoding,
     /// Source of the encoding.
     pub reason: String,

@@ -69,7 +69,6 @@ pub enum DetailError {
     Range {
         /// Name of the number.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         range: &'static str,

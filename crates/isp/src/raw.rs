@@ -85,11 +85,8 @@ const MAX_REACH: usize = 4;
 /// Passband of a pixel's filter. The order is the order of channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Filter {
-    /// Red.
     Red,
-    /// Green.
     Green,
-    /// Blue.
     Blue,
     /// Everything the sensor sees: "C" of RCCC and RCCB, "W" of RGBW.
     Clear,

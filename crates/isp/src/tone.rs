@@ -109,7 +109,6 @@ pub enum ToneError {
     SCurve {
         /// Slope at the midpoint.
         contrast: f64,
-        /// The midpoint.
         midpoint: f64,
     },
     /// Too few points.

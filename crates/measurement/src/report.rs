@@ -35,7 +35,6 @@ pub enum Cell {
     Estimate(Estimate),
     /// A list of numbers, with a number of decimals.
     List(Vec<f64>, usize),
-    /// Text.
     Text(String),
     /// Unknown.
     Nothing,

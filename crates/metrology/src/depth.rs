@@ -130,7 +130,6 @@ pub enum DepthError {
     Setting {
         /// Name of the setting.
         name: &'static str,
-        /// Value.
         value: f64,
         /// Allowed minimum.
         least: &'static str,

@@ -10,7 +10,6 @@ use etendue_pipeline::report::FrameCost;
 /// A camera of a plan.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct CameraReport {
-    /// Its name.
     pub name: String,
     /// Index of the camera in the job, from 0.
     pub index: u32,
@@ -34,7 +33,6 @@ pub struct CameraReport {
     pub lights: LightsReport,
     /// Render settings.
     pub settings: Settings,
-    /// Its lens.
     pub lens: LensSummary,
     /// Dynamic range of a frame, dB; null for a camera without electronics.
     pub dynamic_range_db: Option<f64>,
@@ -61,7 +59,6 @@ pub struct LightsReport {
     pub surroundings: Option<&'static str>,
 }
 
-/// A lens.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct LensSummary {
     /// Kind of lens, as text.

@@ -35,7 +35,6 @@ pub struct EffectReport {
     pub name: &'static str,
     /// Stage of the frame to which it belongs.
     pub group: EffectGroup,
-    /// Status.
     pub status: EffectStatusReport,
     /// Reason for the status.
     pub reason: String,

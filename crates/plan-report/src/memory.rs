@@ -19,7 +19,6 @@ pub struct MemoryReport {
 /// The memory of a camera, bytes.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct CameraMemoryReport {
-    /// Its name.
     pub name: String,
     /// Peak.
     pub bytes: f64,
@@ -32,7 +31,6 @@ pub struct CameraMemoryReport {
 pub struct StageReport {
     /// Description of the stage, worded to follow "while".
     pub stage: &'static str,
-    /// Bytes.
     pub bytes: f64,
 }
 

@@ -15,9 +15,7 @@ pub struct SceneReport {
     pub stored_triangles: usize,
     /// Meshes of named objects; boxes and flat shapes are omitted.
     pub meshes: Vec<MeshReport>,
-    /// Spheres.
     pub spheres: usize,
-    /// Materials.
     pub materials: usize,
     /// Image textures.
     pub textures: usize,
@@ -38,7 +36,6 @@ pub struct MeshReport {
     pub object: String,
     /// Number of objects with this mesh.
     pub objects: usize,
-    /// Its triangles.
     pub triangles: usize,
     /// Length, width and height of the first object along its own axes (x forward, y left, z up), m.
     pub size_m: [f64; 3],

@@ -39,10 +39,7 @@ pub enum CalibrationError {
     },
     /// An invalid maximum angle.
     #[error("the greatest field angle is {}°; expected more than 0° and no more than 180°", angle_rad.to_degrees())]
-    Angle {
-        /// The angle, rad.
-        angle_rad: f64,
-    },
+    Angle { angle_rad: f64 },
     /// A fold inside the image.
     #[error(
         "the calibration folds the image over at a radius of {radius_px:.3} px from the principal point (field angle {:.3}°), inside the image, \

@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use crate::fault::{ErrorCode, Problem};
 use crate::suggest::nearest;
 
-/// A limit.
 #[derive(Debug)]
 pub struct Limit {
     /// Name on the command line; it ends in the unit of a size.

@@ -158,7 +158,6 @@ fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
 /// A value and its place. Equality ignores the place.
 #[derive(Clone, Debug)]
 pub struct Placed<T> {
-    /// The value.
     pub value: T,
     /// Place of the value.
     pub place: Place,

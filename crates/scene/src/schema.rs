@@ -10,11 +10,9 @@ use crate::record::{Camera, DataSheet, Job, Laboratory, Scene};
 /// The kinds of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// Scene.
     Scene,
     /// Lens, sensor, processing.
     Camera,
-    /// Job.
     Job,
     /// Data sheet of a camera's maker after EMVA 1288.
     DataSheet,

@@ -8,7 +8,6 @@ pub enum SensorError {
     Range {
         /// The parameter.
         key: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         expected: &'static str,

@@ -32,7 +32,6 @@ impl Sensor {
         Ok(Self { parameters, responsivities })
     }
 
-    /// The parameters.
     #[must_use]
     pub fn parameters(&self) -> &SensorParameters {
         &self.parameters

@@ -33,13 +33,9 @@ type Matrix = [[f64; 3]; 3];
 /// Chromaticities x, y of the primaries and of the white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Primaries {
-    /// Red.
     pub red: [f64; 2],
-    /// Green.
     pub green: [f64; 2],
-    /// Blue.
     pub blue: [f64; 2],
-    /// White.
     pub white: [f64; 2],
 }
 

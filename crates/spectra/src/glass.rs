@@ -69,7 +69,6 @@ pub enum GlassError {
     /// A name in no catalogue of the crate.
     #[error("no glass is called `{name}`{}; give a name of the Schott or Ohara catalogue, or n_d and V_d", hint(near))]
     Unknown {
-        /// The name.
         name: String,
         /// Similar names.
         near: Vec<&'static str>,
@@ -176,7 +175,6 @@ pub struct CatalogueGlass {
     pub maker: &'static str,
     /// Catalogue name.
     pub name: &'static str,
-    /// Dispersion.
     pub dispersion: Dispersion,
 }
 

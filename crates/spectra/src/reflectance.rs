@@ -72,7 +72,6 @@ pub fn names() -> &'static [&'static str] {
 pub struct Patch {
     /// The patch's name in the table: `dark_skin`, … `black_2_(1.5_D)`.
     pub name: &'static str,
-    /// Reflectance.
     pub reflectance: Spectrum,
 }
 

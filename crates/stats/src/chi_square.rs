@@ -23,7 +23,6 @@ pub fn p_value(x: f64, degrees_of_freedom: f64) -> f64 {
 pub struct ChiSquareTest {
     /// Pearson's statistic.
     pub statistic: f64,
-    /// Degrees of freedom.
     pub degrees_of_freedom: usize,
     /// Probability of a statistic this large or larger under the hypothesis.
     pub p: f64,

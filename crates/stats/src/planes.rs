@@ -69,7 +69,6 @@ pub struct PlaneTest {
     pub not_finite: usize,
     /// Probability that a family of tests of equal images has one as extreme as the worst here.
     pub p: f64,
-    /// Verdict.
     pub verdict: Verdict,
 }
 

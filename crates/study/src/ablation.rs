@@ -26,16 +26,13 @@ pub struct DroppedEffect {
 /// An effect that no key leaves out, or whose change of keys the job rejects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RetainedEffect {
-    /// The effect.
     pub effect: &'static str,
-    /// Reason.
     pub reason: String,
 }
 
 /// A frame with and without each of its effects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ablation {
-    /// The camera.
     pub camera: String,
     /// Samples per pixel for the errors.
     pub spp: u32,

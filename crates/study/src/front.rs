@@ -16,7 +16,6 @@ const FRONT_POWERS: std::ops::RangeInclusive<u32> = 2..=14;
 /// A configuration with a number of samples, and its estimated time and error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrontPoint {
-    /// Configuration.
     #[serde(rename = "way")]
     pub configuration: Configuration,
     /// Samples per pixel.
@@ -85,7 +84,6 @@ pub struct RecommendationTest {
 /// Recommended settings for a target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Recommendation {
-    /// The target.
     pub target: ErrorTarget,
     /// The estimate, with the time corrected by the test if there was one.
     pub point: FrontPoint,

@@ -89,7 +89,6 @@ pub enum Role {
 /// Measurements of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ConfigurationMeasurement {
-    /// The configuration.
     #[serde(rename = "way")]
     pub configuration: Configuration,
     /// Its role in the study.

@@ -63,7 +63,6 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Result of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Study {
-    /// The camera.
     pub camera: String,
     /// Quantity of its signal: `electrons`, `irradiance` or `radiance`.
     pub signal: &'static str,

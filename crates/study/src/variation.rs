@@ -25,7 +25,6 @@ pub struct VariationResult {
 /// A frame with each of the variations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VariationStudy {
-    /// The camera.
     pub camera: String,
     /// Samples per pixel for the errors.
     pub spp: u32,

@@ -42,9 +42,7 @@ impl Checkerboard {
 /// Size of a lattice of figures; omitted values follow from the available space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GridSize {
-    /// Columns.
     pub columns: Option<u32>,
-    /// Rows.
     pub rows: Option<u32>,
     /// Distance from centre to centre, mm.
     pub pitch_mm: Option<f64>,

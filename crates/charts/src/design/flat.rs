@@ -17,7 +17,6 @@ use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 /// A white sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatField {
-    /// Reflectance.
     pub reflectance: f64,
 }
 

@@ -25,7 +25,6 @@ const INNER: f64 = 0.05;
 const MEAN: f64 = 0.4;
 const MODULATION: f64 = 0.8;
 
-/// A Siemens star.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SiemensStar {
     /// Cycles around.

@@ -16,7 +16,6 @@ const INNER: f64 = 0.12;
 /// Reflectance of the light wedges and of the ground.
 const LIGHT: f64 = 0.72;
 
-/// Slanted stars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlantedStar {
     /// Number and spacing of the stars. Default: 3 columns over the fully visible width.

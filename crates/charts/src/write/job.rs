@@ -13,9 +13,7 @@ use crate::{camera_station::CameraStation, design::Chart};
 
 /// Everything that decides a chart's files.
 pub struct ChartSpecification<'a> {
-    /// The chart.
     pub chart: &'a Chart,
-    /// Its drawing.
     pub drawing: &'a Drawing,
     /// The camera's view of its plane.
     pub footprint: Footprint,
@@ -23,7 +21,6 @@ pub struct ChartSpecification<'a> {
     pub ray_camera: &'a RayCamera<'a>,
     /// The camera's response to light; `None` without electronics.
     pub response: Option<&'a CameraResponse<'a>>,
-    /// The light.
     pub light: &'a Light,
     /// The cameras of the job.
     pub stations: &'a [CameraStation],
@@ -33,7 +30,6 @@ pub struct ChartSpecification<'a> {
     pub remove: &'a [&'a str],
     /// Unit that all cameras of a series share (fixed patterns), if the camera file does not state one.
     pub unit_seed: Option<u64>,
-    /// The seed.
     pub seed: u64,
     /// Changes `key=value` to the job's keys, applied after the chart is drawn.
     pub changes: &'a [String],
@@ -42,7 +38,6 @@ pub struct ChartSpecification<'a> {
 /// Contents of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Contents {
-    /// Text.
     Text(String),
     /// A grey 16-bit image: columns, rows, values row by row.
     Grey16(usize, usize, Vec<u16>),
@@ -51,9 +46,7 @@ pub enum Contents {
 /// A file and its name in the chart's folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartFile {
-    /// Name.
     pub name: String,
-    /// Contents.
     pub contents: Contents,
 }
 

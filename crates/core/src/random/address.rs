@@ -29,7 +29,6 @@ pub struct FrameAddress {
 pub struct PixelAddress {
     /// Image.
     pub frame: FrameAddress,
-    /// The pixel.
     pub pixel: Pixel,
     /// The independently scrambled replicate.
     pub replicate: u32,

@@ -24,7 +24,6 @@ pub enum ExrSamples {
 /// Channel by its full name; in a file of several named parts the part's name precedes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExrChannel {
-    /// Name.
     pub name: String,
     /// Values.
     pub samples: ExrSamples,

@@ -16,7 +16,6 @@ use crate::{exr::EncodeError, png::encode_rgb8};
 /// Content of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
-    /// The file.
     pub file: PathBuf,
     /// Kind, in words.
     pub kind: String,
@@ -62,13 +61,11 @@ impl fmt::Display for FileReport {
 /// Channel with its statistics over finite values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelReport {
-    /// Name.
     pub name: String,
     /// Storage format of samples.
     pub stored_as: String,
     /// Minimum; `None` without any finite value, as for the next two.
     pub min: Option<f64>,
-    /// Mean.
     pub mean: Option<f64>,
     /// Maximum.
     pub max: Option<f64>,

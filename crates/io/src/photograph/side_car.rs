@@ -13,9 +13,7 @@ const NAMES: [&str; 2] = ["camera.json", "develop.json"];
 
 /// Side-car that lists an image.
 pub(super) struct SideCar {
-    /// Its file.
     pub file: PathBuf,
-    /// Its content.
     pub content: Value,
     /// Name of the image in its list.
     pub image: String,
@@ -88,7 +86,6 @@ pub struct RawFacts {
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// Exposure, s.
     pub exposure_s: f64,
     /// Colour filters; one channel of one column if there are none.
     pub filters: FilterTile,

@@ -28,7 +28,6 @@ pub(crate) use raster::{PixelStorage, decode_raster};
 /// The first bytes of every OpenEXR file.
 pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Reads an image.
 pub fn read_image(file: &Path) -> Result<ImageAsset, Error> {
     decode_image(file, &read_bytes(file, "image")?)
 }

@@ -9,7 +9,6 @@ use crate::{colour_matrix::ColourMatrix, demosaic::Demosaic, tone::ToneCurve, wh
 /// Conversion of camera colours to display colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Colour {
-    /// White balance.
     pub white_balance: WhiteBalance,
     /// From white-balanced camera colours to linear sRGB.
     pub matrix: ColourMatrix,
@@ -26,7 +25,6 @@ pub struct Processing {
     pub shading: Option<Shading>,
     /// Colour interpolation.
     pub demosaic: Demosaic,
-    /// Noise reduction.
     pub noise_reduction: Option<NoiseReduction>,
     /// Colour; `None` for a mono image, and only for one.
     pub colour: Option<Colour>,

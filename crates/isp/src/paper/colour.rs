@@ -96,7 +96,6 @@ impl Operation {
         }
     }
 
-    /// Its matrix.
     #[must_use]
     pub fn matrix(&self, stage: Stage) -> Affine {
         match self {

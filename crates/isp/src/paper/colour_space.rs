@@ -18,7 +18,6 @@ use etendue_spectra::colour::{D65_WHITE, XYZ_FROM_SRGB};
 
 use super::{FilterError, Stage};
 
-/// A colour space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColourSpace {
     /// Primaries of NTSC (1953).
@@ -39,7 +38,6 @@ impl ColourSpace {
     /// All spaces.
     pub const ALL: [Self; 6] = [Self::RgbNtsc, Self::RgbPal, Self::Yuv, Self::Yiq, Self::YCbCr, Self::Cmy];
 
-    /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -124,7 +122,6 @@ fn adaptation(from: [f64; 3], to: [f64; 3]) -> Affine {
 pub struct Affine(pub [[f64; 4]; 3]);
 
 impl Affine {
-    /// The identity.
     pub const IDENTITY: Self = Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
 
     /// Creates the map from a matrix and an offset.

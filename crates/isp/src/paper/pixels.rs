@@ -22,7 +22,6 @@ pub enum FilterError {
     Range {
         /// Name of the number.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         range: &'static str,

@@ -145,13 +145,11 @@ impl Legend {
 /// Mapping of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// Linear.
     Linear,
     /// Logarithmic; numbers that are not positive are left out.
     Log,
 }
 
-/// An axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
     /// Label, with its unit.
@@ -235,7 +233,6 @@ impl Series {
 /// A pair of axes with series.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// Title.
     pub title: String,
     /// Horizontal axis.
     pub x: Axis,

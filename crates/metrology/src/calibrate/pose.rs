@@ -8,7 +8,6 @@ use crate::{fit::null_vector, linear::Matrix};
 /// Transform from the chart's frame to the camera's: X_camera = turn · X_chart + place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// The rotation.
     pub rotation: DMat3,
     /// The chart's origin in the camera's frame, in the caller's unit of length.
     pub translation: DVec3,

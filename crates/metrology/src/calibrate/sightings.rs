@@ -17,7 +17,6 @@ pub struct Sighting {
 /// One image of the chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sightings {
-    /// Its points.
     pub points: Vec<Sighting>,
     /// Radius of discs whose centroids were observed, in the caller's unit of length.
     pub disc_radius: Option<f64>,
@@ -51,7 +50,6 @@ pub struct CalibrationOptions {
 /// Reason why views do not give a camera.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
-    /// No views.
     #[error("no views: give at least one image of the chart")]
     NoViews,
     /// A view with too few points.

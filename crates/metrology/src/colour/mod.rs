@@ -23,7 +23,6 @@ pub use processing::{ColourProcessing, colour_processing, white_balance};
 /// A patch of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourPatch {
-    /// Name.
     pub name: String,
     /// Pixels: red, green, blue.
     pub pixels: [Image; 3],
@@ -40,7 +39,6 @@ pub struct ColourError {
     pub differences: Vec<Estimate>,
     /// Their mean.
     pub mean: Estimate,
-    /// The largest.
     pub largest: f64,
     /// L*a*b* of each patch from the matrix, and of its reference.
     pub colours: Vec<[[f64; 3]; 2]>,

@@ -84,7 +84,6 @@ fn point(
 pub struct LineBow {
     /// True for a row (horizontal), false for a column.
     pub is_row: bool,
-    /// Index.
     pub index: usize,
     /// Maximum distance of its points from the chord through its ends, relative to the image height; positive if it bows towards
     /// the centre (pincushion), negative away from it (barrel).

@@ -62,10 +62,7 @@ pub enum DistortionError {
         "the chart does not cover the image centre, ({:.1}, {:.1}) px, where the ideal scale is determined: centre the chart, or \
          state another centre", centre_px[0], centre_px[1]
     )]
-    Centre {
-        /// The centre, px.
-        centre_px: [f64; 2],
-    },
+    Centre { centre_px: [f64; 2] },
     /// A fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),

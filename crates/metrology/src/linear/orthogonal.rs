@@ -15,7 +15,6 @@ pub struct Orthogonal {
 /// Solution of a least-squares problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// The parameters.
     pub parameters: Vec<f64>,
     /// The sum of squared residuals.
     pub residual_squares: f64,

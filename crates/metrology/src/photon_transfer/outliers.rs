@@ -43,9 +43,7 @@ pub struct Outliers {
 /// Frames without light at one exposure.
 #[derive(Clone, Copy, Debug)]
 pub struct DarkStack<'a> {
-    /// Frames.
     pub frames: &'a Stack,
-    /// Exposure, s.
     pub exposure_s: f64,
 }
 

@@ -37,7 +37,6 @@ use crate::{Estimate, fourier::transform};
 /// Variances, DN², of a pattern and its components.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VarianceComponents<T> {
-    /// Total.
     pub total: T,
     /// Row to row.
     pub row: T,
@@ -61,7 +60,6 @@ pub struct Pattern {
     rows: f64,
     columns: f64,
     frames: f64,
-    /// Mean, DN.
     pub mean_dn: Estimate,
     /// Mean squares of rows, columns and residual, DN², over their degrees of freedom.
     squares: [f64; 3],

@@ -23,7 +23,6 @@ const BOLTZMANN_EV_PER_K: f64 = 8.617_333_262e-5;
 /// 0 °C in kelvin.
 pub const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// A growth law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GrowthLaw {
     /// Doubling per constant temperature step.
@@ -53,7 +52,6 @@ impl GrowthLaw {
 /// A law fitted to dark currents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DarkCurrentFit {
-    /// Law.
     pub law: GrowthLaw,
     /// Dark current at the reference temperature, e⁻/s.
     pub reference_e_per_s: Estimate,

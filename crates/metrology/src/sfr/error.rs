@@ -14,7 +14,6 @@ pub enum SfrError {
     /// A reading is NaN or infinite.
     #[error("the image contains readings that are not finite: give finite values")]
     NotFinite,
-    /// No edge.
     #[error(
         "no slanted edge was found in this region of the image: expected one straight edge between two uniform surfaces ({0})"
     )]

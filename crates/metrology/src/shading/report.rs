@@ -18,7 +18,6 @@ use crate::linear::{Cholesky, Matrix};
 /// Reason why a flat field cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShadingError {
-    /// Saturated.
     #[error("{percent:.1} % of the pixels of the flat field are saturated: expose less")]
     Saturated {
         /// Percentage of saturated pixels.

@@ -48,7 +48,6 @@ pub enum TargetError {
     Larger {
         /// Detected.
         actual: [usize; 2],
-        /// Stated.
         stated: [usize; 2],
     },
 }

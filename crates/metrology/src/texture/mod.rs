@@ -34,7 +34,6 @@ pub enum TextureError {
         "the star must be within the image: expected 4 or more cycles, an outer radius above the inner one, and {0}"
     )]
     Star(&'static str),
-    /// No star.
     #[error("no star was found at this position: the modulation at the outer radius is {percent:.1} %, below 5 %")]
     NoStar {
         /// Modulation, %.
@@ -105,7 +104,6 @@ pub struct Star {
 /// Modulation of a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarPoint {
-    /// Radius, px.
     pub radius_px: f64,
     /// Cycles per pixel along it.
     pub frequency: f64,

@@ -179,7 +179,6 @@ pub(super) fn margin_of_fraction(margin: f64, image: &Raster) -> [usize; 2] {
     [(margin * image.width() as f64).ceil() as usize, (margin * image.height() as f64).ceil() as usize]
 }
 
-/// Prepared effects.
 #[derive(Debug)]
 pub struct PreparedEffects {
     canvas: Canvas,

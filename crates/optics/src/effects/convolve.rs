@@ -244,7 +244,6 @@ fn spectrum(kernel: &Kernel, plan: &TransformPlan) -> ComplexGrid {
     grid
 }
 
-/// Operation counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OperationCounts {
     /// Products of a pixel and a tap in direct summation.

@@ -14,7 +14,6 @@ pub enum EffectsError {
     /// A length or exponent that is not a positive number.
     #[error("\"{key}\" is {value}: give a number above 0")]
     NotPositive {
-        /// The key.
         key: &'static str,
         /// Value given.
         value: f64,
@@ -24,10 +23,7 @@ pub enum EffectsError {
         "light that falls off with the exponent {exponent} has no finite integral over the plane: give an exponent above 2, or the radius \
          \"reach_mm\" at which it ends"
     )]
-    Endless {
-        /// The exponent.
-        exponent: f64,
-    },
+    Endless { exponent: f64 },
     /// An invalid table of a wavefront term.
     #[error(
         "a wavefront term needs one root-mean-square value per field radius, with increasing radii; or one value and no radii"
@@ -85,7 +81,6 @@ pub enum EffectsError {
         column: usize,
         /// The row, from 0.
         row: usize,
-        /// Its value.
         value: f32,
     },
     /// An image without light.
@@ -107,7 +102,6 @@ pub enum EffectsError {
         "the point-spread image spreads light over {reach_px} px (at 780 nm, if it scales with the wavelength); the maximum is {most_px}: crop it"
     )]
     Wide {
-        /// Its reach, px.
         reach_px: usize,
         /// Maximum reach, px.
         most_px: usize,
@@ -126,7 +120,6 @@ pub enum EffectsError {
     /// A function over the field that spreads light too far.
     #[error("the function spreads light over {reach_px} px; the maximum is {most_px}: export it over a smaller area")]
     WideFunction {
-        /// Its reach, px.
         reach_px: usize,
         /// Maximum reach, px.
         most_px: usize,

@@ -51,7 +51,6 @@ pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, Waveleng
 
 pub(crate) use canvas::Canvas;
 
-/// The effects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// Diffraction and wavefront error.

@@ -18,7 +18,6 @@ const GREEN_NM: f64 = 555.0;
 /// A point-spread function.
 #[derive(Clone, PartialEq)]
 pub enum PointSpread {
-    /// Of an aperture.
     Aperture(Psf),
     /// From an image.
     Image(SpreadImage),

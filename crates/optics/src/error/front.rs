@@ -8,7 +8,6 @@ pub enum FrontError {
     Number {
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         range: &'static str,
@@ -18,7 +17,6 @@ pub enum FrontError {
     Fraction {
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         range: &'static str,
@@ -38,7 +36,6 @@ pub enum FrontError {
         "the mirror's hole_radius_mm = {hole_mm} leaves nothing of it within rim_radius_mm = {rim_mm}: make the hole smaller"
     )]
     NoSurface {
-        /// The hole, mm.
         hole_mm: f64,
         /// The outer radius, mm.
         rim_mm: f64,

@@ -18,7 +18,6 @@ pub enum OpticsError {
     NotPositive {
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
     },
     /// An f-number below the limit for a lens in air.
@@ -26,10 +25,7 @@ pub enum OpticsError {
         "f_number is {value}; no lens in air is faster than f/0.5, where the light on the axis comes from the whole half space: \
          give 0.5 or more"
     )]
-    Faster {
-        /// Its value.
-        value: f64,
-    },
+    Faster { value: f64 },
     /// An image mostly at the edge of the field.
     #[error(
         "the image extends {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of it would look \
@@ -59,15 +55,11 @@ pub enum OpticsError {
     NotFinite {
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
     },
     /// A transmittance outside its range.
     #[error("transmittance is {value}; it must be above 0 and at most 1")]
-    Transmittance {
-        /// Its value.
-        value: f64,
-    },
+    Transmittance { value: f64 },
     /// No real image is formed.
     #[error(
         "a focus distance of {focus_m} m gives no real image: it must be more than {least_m} m from the entrance pupil"
@@ -86,7 +78,6 @@ pub enum OpticsError {
     Pupils {
         /// The key taken first.
         first: &'static str,
-        /// Its value.
         first_value: f64,
         /// The key that contradicts it.
         second: &'static str,
@@ -103,7 +94,6 @@ pub enum OpticsError {
     PupilBeyondFocus {
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The resulting pupil magnification.
         magnification: f64,
@@ -116,7 +106,6 @@ pub enum OpticsError {
     RimIsStop {
         /// Name of the aperture.
         rim: &'static str,
-        /// Its radius, mm.
         radius_mm: f64,
         /// The radius of the bundle on the axis, mm.
         needed_mm: f64,
@@ -141,16 +130,10 @@ pub enum OpticsError {
     RayTransfer(#[from] RayTransferError),
     /// A filter with an invalid effective index.
     #[error("effective_index is {value}; an interference filter's is above 1 (1.5 to 2.2)")]
-    FilterIndex {
-        /// Its value.
-        value: f64,
-    },
+    FilterIndex { value: f64 },
     /// A filter transmittance outside 0 to 1.
     #[error("the filter's transmittance is {value} at some wavelength; it must stay within 0 and 1")]
-    FilterTransmittance {
-        /// Its value.
-        value: f64,
-    },
+    FilterTransmittance { value: f64 },
     /// A distortion for a lens that has its own.
     #[error(
         "prescriptions, ray-transfer functions, calibrated and telecentric cameras have their own distortion: remove that of the lens"
@@ -214,10 +197,7 @@ pub enum OpticsError {
     },
     /// A sensor reflectance outside 0 to 1.
     #[error("the sensor's reflectance is {value}; it must be at least 0 and below 1")]
-    SensorReflectance {
-        /// Its value.
-        value: f64,
-    },
+    SensorReflectance { value: f64 },
     /// Invalid optics in front of the lens.
     #[error(transparent)]
     Front(#[from] FrontError),

@@ -15,11 +15,9 @@ pub enum PrescriptionError {
     /// An invalid number of a surface.
     #[error("surface {surface}: {name} is {value}; {expected}")]
     Number {
-        /// The surface.
         surface: usize,
         /// The key.
         name: &'static str,
-        /// Its value.
         value: f64,
         /// The legal range.
         expected: &'static str,
@@ -29,7 +27,6 @@ pub enum PrescriptionError {
         "surface {surface}: semi_aperture_mm is {semi_aperture_mm} but the surface ends at its equator before that; make it smaller than the radius of curvature"
     )]
     Equator {
-        /// The surface.
         surface: usize,
         /// Its clear semi-aperture, mm.
         semi_aperture_mm: f64,
@@ -93,7 +90,6 @@ pub enum PrescriptionError {
         "surface {surface} totally reflects rays of the axial bundle (which cross the stop about {height_mm:.4} mm from its centre): check the radii and glasses, or stop down"
     )]
     TotalReflection {
-        /// The surface.
         surface: usize,
         /// Height at the stop, mm.
         height_mm: f64,

@@ -62,14 +62,12 @@ impl Mask {
     }
 }
 
-/// Parameters of dirt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirtParameters {
     /// Placement: the centre of the mask is at the origin, in the plane z = 0, x to the right, y down.
     pub placement: Placement,
     /// Width and height of the mask, mm. Beyond it the glass is clean.
     pub size_mm: DVec2,
-    /// The mask.
     pub mask: Mask,
 }
 

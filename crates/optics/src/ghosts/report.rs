@@ -15,7 +15,6 @@ const SUN_SR: f64 = 6.8e-5;
 /// The ghost of a source at infinity by a pair of surfaces, at 587.56 nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GhostReport {
-    /// The pair.
     pub pair: GhostPair,
     /// Light of the ghost over light of the image.
     pub light: f64,

@@ -43,7 +43,6 @@ pub enum PupilOrientation {
 pub struct CalibratedParameters {
     /// Viewing directions of the pixels.
     pub calibration: Calibration,
-    /// Pixel pitch, mm.
     pub pixel_pitch_mm: f64,
     /// f-number N.
     pub f_number: f64,

@@ -8,7 +8,6 @@ use super::Lens;
 /// The ray of ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruthRay {
-    /// The ray.
     pub ray: PupilRay,
     /// True if the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
     pub off_centre: bool,

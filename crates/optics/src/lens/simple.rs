@@ -93,7 +93,6 @@ impl Pinhole {
 /// Parameters of a thin lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinParameters {
-    /// Focal length, mm.
     pub focal_length_mm: f64,
     /// f-number N: focal length over the diameter of the lens disc.
     pub f_number: f64,

@@ -55,7 +55,6 @@ use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
 /// Parameters of a thick lens. Positions: mm from the front principal plane, positive towards the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThickParameters {
-    /// Focal length, mm.
     pub focal_length_mm: f64,
     /// f-number N: focal length over the diameter of the entrance pupil.
     pub f_number: f64,
@@ -87,9 +86,7 @@ pub enum ConstantPupil {
 /// A round aperture centred on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClippingAperture {
-    /// Position, mm.
     pub position_mm: f64,
-    /// Radius, mm.
     pub radius_mm: f64,
 }
 

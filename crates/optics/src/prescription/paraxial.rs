@@ -10,7 +10,6 @@ use super::{indices::Media, trace::Element};
 /// image-side positions from the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraxial {
-    /// Focal length, mm.
     pub focal_length_mm: f64,
     /// Front focal point from the first vertex, mm.
     pub front_focus_mm: f64,
@@ -26,7 +25,6 @@ pub struct Paraxial {
     pub entrance_radius_mm: f64,
     /// Exit pupil from the last vertex, mm; infinite for an image-side telecentric lens.
     pub exit_pupil_position_mm: f64,
-    /// Its radius, mm.
     pub exit_radius_mm: f64,
     /// Radius of the Petzval surface, mm, with the sign convention of lens surfaces: 1/R = −Σ φ/(n n′); negative if the edges of the
     /// Petzval surface are nearer to the lens than its vertex.

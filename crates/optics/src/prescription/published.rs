@@ -4,7 +4,6 @@ use etendue_spectra::glass::{Dispersion, by_name as catalogue};
 
 use super::surface::Surface;
 
-/// A published lens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PublishedLens {
     /// Name in this list.
@@ -34,7 +33,6 @@ impl PublishedLens {
         lines.collect::<Vec<_>>().join("\n")
     }
 
-    /// Its surfaces.
     #[must_use]
     pub fn surfaces(&self) -> Vec<Surface> {
         self.text.lines().filter(|line| !line.starts_with('#')).skip(1).map(row).collect()

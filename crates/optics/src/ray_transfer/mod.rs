@@ -18,7 +18,6 @@ pub use error::RayTransferError;
 /// The functions of one wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transfer {
-    /// Wavelength, nm.
     pub wavelength_nm: f64,
     /// The rays that pass.
     pub pass: RayPass,
@@ -175,7 +174,6 @@ impl Entry {
 pub struct PassEllipse {
     /// Height on the input plane, mm.
     pub height_mm: f64,
-    /// Centre.
     pub centre_mm: DVec2,
     /// Semi-axes.
     pub radii_mm: DVec2,
@@ -184,7 +182,6 @@ pub struct PassEllipse {
 /// A circle passed by rays, its centre on the meridian in proportion to the height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassCircle {
-    /// Radius, mm.
     pub radius_mm: f64,
     /// Height of its centre over the height on the input plane.
     pub sensitivity: f64,
@@ -299,7 +296,6 @@ impl Polynomial {
         if terms.iter().all(legal) { Ok(Self { terms }) } else { Err(RayTransferError::Polynomial) }
     }
 
-    /// A constant.
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self { terms: vec![Term { coefficient: value, powers: [0; 3] }] }

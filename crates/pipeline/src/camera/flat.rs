@@ -22,7 +22,6 @@ const MAX_LEVEL: f64 = 1.05;
 /// Uniform illumination.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatLight {
-    /// Wavelength, nm.
     pub wavelength_nm: f64,
     /// Irradiance of the sensor, W·m⁻².
     pub irradiance_w_m2: f64,

@@ -22,7 +22,6 @@ pub struct CameraBody {
     pub raster: Raster,
     /// Number of pixels of the described sensor along each side of one pixel: 4 for the scale 1/4.
     pub scale: u64,
-    /// The lens.
     pub lens: Lens,
     /// Optics in front of the lens; `None` without any.
     pub front: Option<Front>,

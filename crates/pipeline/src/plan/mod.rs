@@ -59,7 +59,6 @@ pub struct Plan {
     pub precipitation: Option<Precipitation>,
     /// Facts of the sky, if the surroundings are one.
     pub sky: Option<SkyFacts>,
-    /// The cameras.
     pub cameras: Vec<CameraPlan>,
     /// Meaning of the instance ids in the ground truth, from id 1.
     pub identities: Vec<Identity>,
@@ -84,7 +83,6 @@ pub struct Plan {
 /// Parameters of a clear sky, for reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyFacts {
-    /// Turbidity.
     pub turbidity: f64,
     /// Elevation of the sun's centre, degrees.
     pub sun_elevation_deg: f64,

@@ -170,7 +170,6 @@ pub(crate) fn hash_with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -
 /// A pass at its position among the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NumberedPass {
-    /// The pass.
     pub pass: Pass,
     /// Number of passes before it.
     pub number: u32,

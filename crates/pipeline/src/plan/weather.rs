@@ -40,10 +40,7 @@ pub enum Airlight {
     /// Constant, W·m⁻²·sr⁻¹·nm⁻¹.
     Uniform(Spectrum),
     /// Mean of the image's sky from the horizon up to an elevation, rad.
-    Sky {
-        /// The elevation.
-        elevation_rad: f64,
-    },
+    Sky { elevation_rad: f64 },
 }
 
 /// Weather applied to an image.
@@ -60,7 +57,6 @@ pub struct Weather {
 /// Rain or snow over an instantaneous image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrecipitationExposure {
-    /// The precipitation.
     pub precipitation: Precipitation,
     /// Exposure time, s.
     pub exposure_s: f64,

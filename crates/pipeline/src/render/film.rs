@@ -16,7 +16,6 @@ use etendue_core::{Bands, Plane, SpectralCube};
 /// A plane of means and, if the replicates give it, the variance of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate<Q: Quantity> {
-    /// Means.
     pub mean: Plane<Q>,
     /// Variances of the means; NaN everywhere for a single replicate.
     pub variance: Plane<Variance>,

@@ -6,7 +6,6 @@ use etendue_core::{CameraPose, TimeInterval};
 /// A frame of a camera.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView<'a> {
-    /// The camera.
     pub camera: &'a CameraPlan,
     /// The frame, from 0.
     pub frame: u32,

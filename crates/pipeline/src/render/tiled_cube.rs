@@ -81,7 +81,6 @@ impl TiledCube {
         (self.grid.width, self.grid.height)
     }
 
-    /// The means.
     #[must_use]
     pub fn mean(&self) -> &Arc<dyn BandReader> {
         &self.mean

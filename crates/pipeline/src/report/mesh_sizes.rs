@@ -48,7 +48,6 @@ pub struct MeshSize {
     pub object: String,
     /// Number of objects with this mesh.
     pub objects: usize,
-    /// Its triangles.
     pub triangles: usize,
     /// Length, width and height of the first object along its own axes (x forward, y left, z up), m.
     pub size_m: [f64; 3],

@@ -85,7 +85,6 @@ impl Profile for Ideal {
     }
 }
 
-/// A panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Panorama {
     /// On a cylinder.

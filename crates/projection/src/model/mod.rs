@@ -72,9 +72,7 @@ pub enum Model {
     ThinPrismFisheye(ThinPrismFisheye),
     /// Unified omnidirectional (Mei).
     Unified(Unified),
-    /// Extended unified.
     ExtendedUnified(ExtendedUnified),
-    /// Double sphere.
     DoubleSphere(DoubleSphere),
     /// Scaramuzza's polynomial.
     Ocam(Ocam),
@@ -84,7 +82,6 @@ pub enum Model {
     Tabulated(TabulatedProjection),
     /// An ideal projection about the axis.
     Ideal(Ideal),
-    /// A panorama.
     Panorama(Panorama),
 }
 
@@ -227,7 +224,6 @@ pub enum Family {
     Unified,
     /// Extended unified model.
     ExtendedUnified,
-    /// Double sphere.
     DoubleSphere,
     /// An ideal projection.
     Ideal(Ideal),

@@ -79,7 +79,6 @@ impl Perspective {
         Self::new(terms, [tau_x, tau_y])
     }
 
-    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.distortion
@@ -163,7 +162,6 @@ impl Division {
         Ok(Self { k })
     }
 
-    /// k.
     #[must_use]
     pub fn k(&self) -> f64 {
         self.k

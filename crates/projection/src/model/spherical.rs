@@ -53,7 +53,6 @@ impl Unified {
         self.0.profile.xi
     }
 
-    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.0.distortion

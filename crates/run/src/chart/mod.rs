@@ -45,7 +45,6 @@ pub struct ExposureSeries {
 /// A chart, the camera that looks at it, its light and its exposures.
 #[derive(Clone, Debug)]
 pub struct ChartRequest {
-    /// The chart.
     pub chart: Chart,
     /// The camera: a camera file (its name ends in `.toml`), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory.
     pub camera: String,

@@ -30,10 +30,7 @@ pub struct SlotMaterial {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotSurface {
     /// Lambertian reflection.
-    Diffuse {
-        /// Reflectance.
-        reflectance: SlotReflectance,
-    },
+    Diffuse { reflectance: SlotReflectance },
     /// A diffuse base under a clear coat.
     Coated {
         /// Reflectance of the base.

@@ -60,7 +60,6 @@ pub struct SurfaceAsset {
 /// Medium of the space behind a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GlassAsset {
-    /// Air.
     Air,
     /// A glass of a maker's catalogue, by its name in [`etendue_spectra::glass`].
     Named(String),
@@ -79,10 +78,7 @@ pub enum GlassAsset {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LensOpening {
     /// Diameter of the entrance pupil, mm.
-    EntrancePupil {
-        /// The diameter, mm.
-        diameter_mm: f64,
-    },
+    EntrancePupil { diameter_mm: f64 },
     /// f-number for an object at infinity.
     FNumber {
         /// The f-number.

@@ -21,7 +21,6 @@ pub enum PassAsset {
 /// The functions of one wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferAsset {
-    /// Wavelength, nm.
     pub wavelength_nm: f64,
     /// Ray-pass function.
     pub pass: PassAsset,

@@ -51,7 +51,6 @@ pub enum SlotTopLayer {
     },
 }
 
-/// Transmission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotTransmission {
     /// Fraction of the surface that is clear, 0 … 1.

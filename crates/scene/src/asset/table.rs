@@ -43,7 +43,6 @@ pub struct NumbersAsset {
 }
 
 impl NumbersAsset {
-    /// The rows.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.values.chunks(self.columns.max(1))
     }

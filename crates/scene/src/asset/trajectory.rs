@@ -19,7 +19,6 @@ pub struct TrajectoryAsset {
 pub struct TrajectoryRow {
     /// Time by the clock of the file.
     pub time: ExactTime,
-    /// Position, m.
     pub position_m: DVec3,
     /// Rotation from the moving object to the file's world; of length 1 to a hundredth.
     pub rotation: DQuat,

@@ -34,7 +34,6 @@ use crate::written::Table;
 pub struct Description {
     /// File of the job.
     pub file: PathBuf,
-    /// Scene.
     pub scene: Scene,
     /// Times of the frames; `None`: frame 0 at 0 s.
     pub sequence: Option<Sequence>,
@@ -53,7 +52,6 @@ pub struct CameraSetup {
     pub name: crate::Placed<String>,
     /// Lens, sensor, processing.
     pub camera: Camera,
-    /// Pose.
     pub pose: Pose,
     /// Start of its frames relative to the sequence.
     pub trigger: Trigger,

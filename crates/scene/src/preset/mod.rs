@@ -25,7 +25,6 @@ const ALTERNATIVES: &[&[&str]] = &[
 /// A built-in material.
 #[derive(Clone, Debug)]
 pub struct Preset {
-    /// Name.
     pub name: String,
     /// Description, one sentence.
     pub description: String,

@@ -22,7 +22,6 @@ use crate::place::{Place, Placed};
 /// A value and its place. Equality ignores the place.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// The value.
     pub value: Value,
     /// Its place; [`Place::unstated`] if no file states it.
     pub place: Place,
@@ -49,9 +48,7 @@ pub enum Value {
     Path(PathBuf),
     /// A date or a time, as in TOML: 2026-06-21, 09:30:00.
     Moment(String),
-    /// A list.
     List(Vec<Item>),
-    /// A table.
     Table(Table),
 }
 

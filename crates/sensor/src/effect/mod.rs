@@ -58,7 +58,6 @@ pub(crate) struct SignalLevels {
 /// An effect of a sensor, as reported by a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorEffect {
-    /// Name.
     pub name: &'static str,
     /// The key of a camera file that describes it.
     pub key: &'static str,

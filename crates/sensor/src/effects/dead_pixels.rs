@@ -9,7 +9,6 @@ use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
 use crate::effect::{Action, Context, Effect, Memory, QuantityEffect, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::{capture::Operation, check::Checks, random::pattern, signal_breakdown::SignalComponent};
 
-/// Dead pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeadPixels {
     /// Fraction of pixels that hold no charge, 0 to 1; 0: none.

@@ -11,7 +11,6 @@ pub struct Visits {
     pub nodes: u64,
     /// Leaves of meshes; up to eight triangles are tested at each.
     pub leaves: u64,
-    /// Instances.
     pub instances: u64,
 }
 

@@ -114,7 +114,6 @@ impl WorldBuilder {
         Self { tree_quality, ..self }
     }
 
-    /// Adds a mesh.
     pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);
         MeshId((self.meshes.len() - 1) as u32)

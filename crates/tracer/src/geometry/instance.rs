@@ -25,7 +25,6 @@ pub enum Shape {
 /// A shape placed in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
-    /// The shape.
     pub shape: Shape,
     /// Transform from the shape's own frame to the world.
     pub to_world: Motion,

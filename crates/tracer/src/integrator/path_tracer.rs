@@ -81,7 +81,6 @@ impl<'a> PathTracer<'a> {
         Self { effects, ..self }
     }
 
-    /// The settings.
     #[must_use]
     pub fn settings(&self) -> &PathSettings {
         &self.settings
@@ -95,7 +94,6 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// The lights.
     #[must_use]
     pub fn lights(&self) -> &'a Lights {
         self.lights

@@ -20,7 +20,6 @@ use super::{LightSample, MAX_LIGHT_VALUE, sky::SkyEnvironment};
 pub enum Environment {
     /// The same spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from every direction.
     Uniform(Spectrum),
-    /// An image.
     Image(ImageEnvironment),
     /// A clear sky.
     Sky(Box<SkyEnvironment>),

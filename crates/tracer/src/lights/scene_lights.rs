@@ -278,7 +278,6 @@ const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
 /// Light sources other than surfaces with emitting materials.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
-    /// Suns.
     pub suns: Vec<Sun>,
     /// Lamps, as points or with the instances of the world that are their openings.
     pub lamps: Vec<Lamp>,
@@ -305,7 +304,6 @@ pub struct LightCounts {
     pub lamps: usize,
     /// Lamps with a luminous opening.
     pub openings: usize,
-    /// Suns.
     pub suns: usize,
     /// True if an environment of one radiance above 0 surrounds the scene.
     pub uniform_environment: bool,

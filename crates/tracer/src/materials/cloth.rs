@@ -23,7 +23,6 @@ use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler,
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 use super::{error::MaterialError, gloss::Gloss, microfacet::half_vector};
 
-/// A cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cloth {
     base: Reflectance,

@@ -41,7 +41,6 @@ pub struct Emission {
 /// Arguments of an emission: point, direction, wavelengths and time.
 #[derive(Clone, Copy, Debug)]
 pub struct EmissionQuery<'a, const N: usize> {
-    /// The wavelengths.
     pub wavelengths: &'a Wavelengths<N>,
     /// The interval over which strengths that change over time are averaged.
     pub interval: &'a TimeInterval,

@@ -142,7 +142,6 @@ pub enum MaterialError {
     NoAlpha {
         /// Index of the material.
         material: usize,
-        /// The texture.
         texture: u32,
     },
     /// A mix names a material that does not exist.

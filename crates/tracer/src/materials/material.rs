@@ -19,7 +19,6 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// Opaque fraction of the surface, 0 to 1: through the rest light passes straight. `None` if it is fully opaque.
     pub opacity: Option<Factor>,
-    /// Normal map.
     pub normal_map: Option<NormalMap>,
 }
 

@@ -110,7 +110,6 @@ pub struct BsdfSample<const N: usize> {
     pub weight: Spectral<N>,
     /// Density of `wi`, 1/sr; 0 and without meaning for an exact direction.
     pub pdf: f32,
-    /// The event.
     pub event: Event,
 }
 

@@ -12,7 +12,6 @@ const MAX_FLIGHTS: u32 = 65_536;
 /// Random numbers of free flights.
 #[derive(Debug)]
 pub struct FlightRandom<'s> {
-    /// The stream.
     pub stream: &'s PathStream,
     /// Number of random numbers that the path has used.
     pub counter: &'s mut u32,

@@ -16,7 +16,6 @@ const MAX_STEPS: u32 = 4096;
 /// A ray through media.
 #[derive(Clone, Copy, Debug)]
 pub struct MediaRay<'r> {
-    /// The ray.
     pub ray: &'r Ray,
     /// Treatment of forward peaks.
     pub peak: ForwardPeak,
@@ -25,7 +24,6 @@ pub struct MediaRay<'r> {
 /// Random numbers of a stream from a counter on.
 #[derive(Clone, Copy, Debug)]
 pub struct RandomCounter<'s> {
-    /// The stream.
     pub stream: &'s PathStream,
     /// First value of the counter.
     pub counter: u32,

@@ -80,7 +80,6 @@ pub enum ForwardPeak {
     Unscattered,
 }
 
-/// A medium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Medium {
     exact: MediumOptics,

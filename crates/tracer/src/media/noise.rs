@@ -11,7 +11,6 @@ pub struct Noise {
     pub octaves: u32,
     /// Strength of an octave relative to the previous one, 0 to 1.
     pub gain: f64,
-    /// Seed.
     pub seed: u32,
 }
 

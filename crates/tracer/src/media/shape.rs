@@ -22,10 +22,7 @@ pub enum MediumRegion {
         half_m: DVec3,
     },
     /// A ball about the origin.
-    Ball {
-        /// Radius, m.
-        radius_m: f64,
-    },
+    Ball { radius_m: f64 },
     /// The inside of a mesh.
     Mesh(Arc<Solid>),
 }

@@ -104,7 +104,6 @@ impl VisibleRegion {
         Self { axis, half_angle_rad, margin_m }
     }
 
-    /// Solid angle, sr.
     #[must_use]
     pub fn solid_angle_sr(&self) -> f64 {
         core::f64::consts::TAU * (1.0 - cos(self.half_angle_rad))

@@ -31,7 +31,6 @@ pub struct PrecipitationField {
 /// A drop or flake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Its class.
     pub class: u32,
     /// Its centre at the time 0, in the world, m.
     pub start_m: DVec3,

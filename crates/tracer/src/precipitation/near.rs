@@ -81,7 +81,6 @@ fn water() -> &'static Spectrum {
 pub struct ViewPlacement {
     /// The origin of its render frame in the world, m.
     pub origin_m: DVec3,
-    /// Its interval.
     pub interval: TimeInterval,
     /// The instruction set of its accelerator.
     pub simd: Simd,

@@ -145,11 +145,8 @@ fn table(decode: impl Fn(u8) -> f32) -> Box<[f32; 256]> {
 /// Channel of an image that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// Red.
     Red,
-    /// Green.
     Green,
-    /// Blue.
     Blue,
     /// Opacity of a texel; 1 for images without alpha.
     Alpha,

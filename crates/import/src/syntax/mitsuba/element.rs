@@ -8,7 +8,6 @@ use etendue_io::{Error, Problem};
 /// Place of an element.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MitsubaPlace {
-    /// The file.
     pub file: Rc<Path>,
     /// The line, counted from 1.
     pub line: usize,
@@ -23,7 +22,6 @@ pub struct MitsubaElement {
     pub attributes: Vec<(Box<str>, Box<str>)>,
     /// Child elements.
     pub children: Vec<MitsubaElement>,
-    /// Place.
     pub place: MitsubaPlace,
     /// Unique number in the order of the files, from 0.
     pub number: usize,

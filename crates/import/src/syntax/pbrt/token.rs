@@ -99,7 +99,6 @@ impl<'a> Tokens<'a> {
 /// Place of a directive.
 #[derive(Clone, Copy, Debug)]
 pub struct PbrtPlace<'a> {
-    /// The file.
     pub file: &'a Path,
     /// The line, counted from 1.
     pub line: usize,
@@ -131,9 +130,7 @@ pub enum PbrtDirective {
 pub struct PbrtParameter {
     /// Type of its values: `float`, `rgb` and so on.
     pub kind: String,
-    /// Name.
     pub name: String,
-    /// Values.
     pub values: PbrtValues,
     /// True once it has been used.
     pub used: Cell<bool>,
@@ -150,7 +147,6 @@ impl PartialEq for PbrtParameter {
 pub enum PbrtValues {
     /// Finite numbers.
     Numbers(Vec<f64>),
-    /// Texts.
     Texts(Vec<String>),
     /// Booleans.
     Flags(Vec<bool>),

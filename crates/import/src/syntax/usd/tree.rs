@@ -64,7 +64,6 @@ pub struct UsdRelation {
     pub used: Cell<bool>,
 }
 
-/// Attribute.
 #[derive(Debug, Default)]
 pub struct UsdAttribute {
     /// Value at the stage's start; `None` if it has none, or is blocked.
@@ -84,7 +83,6 @@ pub struct UsdAttribute {
 pub enum UsdValue {
     /// Boolean.
     Flag(bool),
-    /// A number.
     Number(f64),
     /// Tuple: vectors; quaternions with their real part first; matrices row by row, for multiplication of row vectors.
     Tuple(Vec<f64>),

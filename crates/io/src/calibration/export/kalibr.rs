@@ -32,7 +32,6 @@ pub struct Intrinsics {
 /// A camera of a chain.
 #[derive(Clone, Debug)]
 pub struct ChainLink<'a> {
-    /// The camera.
     pub camera: NamedCamera<'a>,
     /// Projection: [`intrinsics`].
     pub intrinsics: Intrinsics,

@@ -20,7 +20,6 @@ use glam::{DMat3, DQuat};
 /// Camera with its name.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedCamera<'a> {
-    /// Its name.
     pub name: &'a str,
     /// Its projection.
     pub calibration: &'a Calibration,

@@ -59,7 +59,6 @@ pub enum GltfLightKind {
     },
 }
 
-/// A camera.
 #[derive(Clone, Debug)]
 pub struct GltfCamera {
     /// Name, or its node's; empty if neither has one.
@@ -68,7 +67,6 @@ pub struct GltfCamera {
     pub node: usize,
     /// Transform from its own axes, in which it looks along −z with +y up, to the file's.
     pub to_file: DAffine3,
-    /// Projection.
     pub projection: GltfProjection,
 }
 

@@ -60,7 +60,6 @@ impl Sliding {
     }
 }
 
-/// A wiper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wiper {
     /// Pivot in the glass's frame, x to the right, y down, mm.

@@ -122,7 +122,6 @@ impl TreeNode {
     }
 }
 
-/// A mesh mirror.
 #[derive(Clone, PartialEq)]
 pub struct MeshMirror {
     positions_mm: Vec<DVec3>,

@@ -40,7 +40,6 @@ pub struct MirrorParameters {
     pub reflectance: Reflectance,
 }
 
-/// A mirror.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
     parameters: MirrorParameters,

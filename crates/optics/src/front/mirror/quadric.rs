@@ -14,7 +14,6 @@ use super::super::MemberRay;
 use super::MirrorHit;
 use crate::error::front::{FrontError, positive};
 
-/// Kind of quadric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QuadricKind {
     /// A conic of a vertex radius (mm) and a conic constant: 0 a sphere, −1 a paraboloid, below −1 a hyperboloid.

@@ -16,7 +16,6 @@ use crate::{front::placement::Curve, prescription::coating::Coating};
 /// A layer of a windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Thickness, mm.
     pub thickness_mm: f64,
     /// Refractive index against air.
     pub index: Curve,

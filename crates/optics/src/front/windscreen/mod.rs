@@ -39,7 +39,6 @@ pub(super) enum LightPath {
     DoubleReflection,
 }
 
-/// A windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Windscreen {
     parameters: WindscreenParameters,

@@ -36,7 +36,6 @@ pub struct Spot {
 pub struct OtherBundle {
     /// Its light relative to that of the spot.
     pub light: f64,
-    /// Its spot.
     pub spot: Spot,
 }
 

@@ -19,7 +19,6 @@ pub struct SolidBox {
 /// Pose of a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoxPose {
-    /// Its centre, m.
     pub centre_m: DVec3,
     /// Rotation from its own axes to those of the frame; of the two equivalent quaternions the one with w ≥ 0.
     pub rotation: DQuat,

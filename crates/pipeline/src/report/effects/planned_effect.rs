@@ -8,7 +8,6 @@ use etendue_core::{EffectStatus, KeyChange, KnownError};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EffectGroup {
-    /// Light transport.
     LightTransport,
     /// Geometry, materials and light sources.
     Scene,

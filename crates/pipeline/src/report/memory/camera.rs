@@ -24,7 +24,6 @@ const SAMPLE: f64 = size_of::<f32>() as f64;
 pub struct StageMemory {
     /// The work of the stage, worded to follow "while".
     pub stage: &'static str,
-    /// Bytes.
     pub bytes: f64,
 }
 

@@ -43,7 +43,6 @@ pub enum Tilt {
 /// The shape of the luminous opening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OpeningShape {
-    /// A point.
     Point,
     /// A box; a rectangle if its height is zero.
     Rectangular,
@@ -60,7 +59,6 @@ pub enum OpeningShape {
 /// The luminous opening, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
-    /// Its shape.
     pub shape: OpeningShape,
     /// Extent along the C0–C180 plane of type C, along the vertical plane through the axis of types A and B.
     pub length_m: f64,

@@ -130,7 +130,6 @@ keyed! {
 /// The part that moves to focus.
 #[derive(Clone, Debug)]
 pub enum FocusingPart {
-    /// The sensor.
     Sensor,
     /// From the first to the last surface of a group, counted from 1.
     Group(Placed<[f64; 2]>),

@@ -17,7 +17,6 @@ words! {
     }
 }
 
-/// White balance.
 #[derive(Clone, Debug)]
 pub enum WhiteBalance {
     /// Factors on the channels.

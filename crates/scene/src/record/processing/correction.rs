@@ -5,12 +5,10 @@ use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;
 
-/// Black level.
 #[derive(Clone, Debug)]
 pub enum BlackLevel {
     /// A digital number.
     Dn(Placed<f64>),
-    /// A rule.
     Rule(Placed<BlackLevelRule>),
 }
 

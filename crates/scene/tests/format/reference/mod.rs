@@ -27,8 +27,7 @@ fn all() -> impl Iterator<Item = Option<File>> {
 
 /// The list of built-in materials.
 fn presets() -> String {
-    let mut text =
-        "## Presets of `[[materials]]`\n\n| preset | is | says | source |\n|---|---|---|---|\n".to_owned();
+    let mut text = "## Presets of `[[materials]]`\n\n| preset | is | says | source |\n|---|---|---|---|\n".to_owned();
     for preset in etendue_scene::preset::all() {
         let says: Vec<_> = preset.keys_and_values().map(|preset_keys| format!("`{preset_keys}`")).collect();
         text += &format!("| `{}` | {} | {} | {} |\n", preset.name, preset.description, says.join(", "), preset.source);

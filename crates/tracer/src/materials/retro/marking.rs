@@ -78,7 +78,6 @@ pub fn marking_class(name: &str) -> Option<f64> {
     })
 }
 
-/// A road marking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadMarking {
     base: Spectrum,
@@ -167,10 +166,7 @@ pub enum MarkingError {
     #[error(
         "the marking's diffuse reflectance would be {reflectance:.3}; it must be between 0 and 1; Q_d is at most 318 mcd/m²/lx"
     )]
-    Day {
-        /// The reflectance.
-        reflectance: f64,
-    },
+    Day { reflectance: f64 },
     /// The spread is out of range.
     #[error("the spread is {spread_deg}°; it must be between 0.5° and 30°")]
     Spread {
