@@ -89,6 +89,17 @@ const SAME_INDEX: f64 = 1e-4;
 /// `catalogues` are those that the file names, in order; the search continues with the other makers.
 #[must_use]
 pub fn find(name: &str, catalogues: &[&str]) -> Option<GlassMatch> {
+    find_among(name, catalogues, |_| true)
+}
+
+/// As [`find`], but only in the catalogues that the file names and in those of Schott and Ohara, whose names other makers use for glasses of their own.
+#[must_use]
+pub fn find_first(name: &str, catalogues: &[&str]) -> Option<GlassMatch> {
+    let is_stated = |maker: &str| catalogues.iter().any(|catalogue| is_catalogue_of(maker, catalogue));
+    find_among(name, catalogues, |maker| ["schott", "ohara"].contains(&maker) || is_stated(maker))
+}
+
+fn find_among(name: &str, catalogues: &[&str], is_admitted: impl Fn(&str) -> bool) -> Option<GlassMatch> {
     let whole = plain(name);
     let (stem, suffix) = match name.split_once('_') {
         // A name such as F_SILICA has an underscore of its own.
@@ -97,7 +108,8 @@ pub fn find(name: &str, catalogues: &[&str]) -> Option<GlassMatch> {
         }
         _ => (whole, None),
     };
-    let mut glasses: Vec<&CatalogueGlass> = CATALOGUE.iter().filter(|glass| plain(glass.name) == stem).collect();
+    let same_name = CATALOGUE.iter().filter(|glass| plain(glass.name) == stem);
+    let mut glasses: Vec<&CatalogueGlass> = same_name.filter(|glass| is_admitted(glass.maker)).collect();
     if let Some(suffix) = suffix
         && MAKERS.iter().any(|maker| is_catalogue_of(maker, suffix))
     {
@@ -111,8 +123,9 @@ pub fn find(name: &str, catalogues: &[&str]) -> Option<GlassMatch> {
     Some(GlassMatch { glass: first, others: rest.iter().filter(differs).copied().collect() })
 }
 
-/// Letters and digits of a name, in capitals.
-fn plain(name: &str) -> String {
+/// Letters and digits of a glass's name, in capitals: hyphens, blanks and capitals differ between files.
+#[must_use]
+pub fn plain(name: &str) -> String {
     name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase()
 }
 

@@ -21,7 +21,7 @@ pub mod agf;
 mod catalogue;
 mod series;
 
-pub use catalogue::{CatalogueGlass, GlassMatch, built_in, by_name, by_number, find, successor};
+pub use catalogue::{CatalogueGlass, GlassMatch, built_in, by_name, by_number, find, find_first, plain, successor};
 pub use series::DispersionSeries;
 
 use etendue_core::wavelength::{MAX_NM, MIN_NM};
