@@ -1,6 +1,6 @@
 //! Assets: all files that a description names.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
@@ -11,8 +11,13 @@ use crate::picture::{ImageHead, head, large_image, read_image};
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
 use crate::{
-    Error, Sandbox, photometry::read_photometry_in, prescription::read_prescription, ray_transfer::read_ray_transfer,
-    spectrum::read_spectrum_of, tile_cache::TileCache, trajectory::read_trajectory,
+    Error, Sandbox,
+    photometry::read_photometry_in,
+    prescription::{read_glass_catalogue, read_prescription_with},
+    ray_transfer::read_ray_transfer,
+    spectrum::read_spectrum_of,
+    tile_cache::TileCache,
+    trajectory::read_trajectory,
 };
 
 /// Reads every file of `named` (as a description names them) and the files that its meshes name in turn. All images are decoded completely.
@@ -114,7 +119,14 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
         AssetKind::Numbers => drop(assets.numbers.insert(key, read_numbers(path)?)),
-        AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
+        AssetKind::Prescription(glasses) => {
+            let inside = |file: &PathBuf| sandbox.check(file).map_err(|problem| Error::new(file, problem));
+            glasses.iter().try_for_each(inside)?;
+            let catalogues = glasses.iter().map(|file| read_glass_catalogue(file)).collect::<Result<Vec<_>, _>>()?;
+            let lens = read_prescription_with(path, &catalogues)?;
+            drop(assets.prescriptions.insert((key, glasses.clone()), lens));
+        }
+        AssetKind::GlassCatalogue => drop(assets.glass_catalogues.insert(key, read_glass_catalogue(path)?)),
         AssetKind::RayTransfer => drop(assets.ray_transfers.insert(key, read_ray_transfer(path)?)),
         AssetKind::Trajectory => drop(assets.trajectories.insert(key, read_trajectory(path)?)),
         AssetKind::LensTable(quantity) => {

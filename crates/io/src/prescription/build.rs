@@ -4,7 +4,6 @@ use std::path::Path;
 
 use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
-use etendue_spectra::glass;
 
 use super::text::Words;
 use crate::Error;
@@ -176,40 +175,6 @@ impl RawSurface {
             self.asphere.get_or_insert_default()[place] = value;
         }
     }
-}
-
-/// Glass by its name in a file: hyphens and capitals differ between programs, and a catalogue may follow after an underscore.
-pub(super) fn named(name: &str) -> Option<GlassAsset> {
-    catalogue_glass(name).map(|name| GlassAsset::Named(name.to_owned()))
-}
-
-/// Catalogue name of such a glass.
-fn catalogue_glass(name: &str) -> Option<&'static str> {
-    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
-    let wanted = plain(name.split('_').next().unwrap_or(name));
-    glass::catalogue().iter().find(|known| plain(known.name) == wanted).map(|known| known.name)
-}
-
-/// Catalogue glass that replaced an older one of that name, with its name: Schott's N-SK16 for the lead glass SK16, Ohara's S-LAH66 for LAH66. For a name with
-/// its catalogue (SK16_SCHOTT) only that maker's.
-pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
-    let (plain, maker) = name.split_once('_').unwrap_or((name, ""));
-    let prefixes: &[&str] = match maker.to_ascii_uppercase().as_str() {
-        "SCHOTT" => &["N"],
-        "OHARA" => &["S"],
-        _ => &["N", "S"],
-    };
-    let catalogue_name = prefixes.iter().find_map(|prefix| catalogue_glass(&format!("{prefix}{plain}")))?;
-    Some((GlassAsset::Named(catalogue_name.to_owned()), catalogue_name.to_owned()))
-}
-
-/// Glass by its number: digits of n_d − 1, then those of V_d, as six digits or separated by a point.
-pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
-    let (index, abbe) = text.split_once('.').or_else(|| (text.len() == 6).then(|| text.split_at_checked(3))?)?;
-    let digits = |part: &str| part.len() >= 3 && part.bytes().all(|b| b.is_ascii_digit());
-    let fraction = |part: &str| format!("0.{part}").parse::<f64>().ok();
-    let (index, abbe) = (digits(index) && digits(abbe)).then_some((fraction(index)?, fraction(abbe)?))?;
-    Some(GlassAsset::Abbe { index: 1.0 + index, abbe: 100.0 * abbe })
 }
 
 impl RawLens {

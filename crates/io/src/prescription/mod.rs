@@ -2,13 +2,14 @@
 //!
 //! | file | read | refused |
 //! | --- | --- | --- |
-//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | mirrors, other surfaces, tilts, other apertures, working f-numbers, non-sequential parts |
+//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | mirrors, other surfaces, tilts, other apertures, non-sequential parts |
 //! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, RDY, CUY, THI, GLA, STO, K, A–H, J, CIR (of the current surface or of named ones), SCA, EPD, FNO, NA, NAO, PIM, PRV, WL, REF, YAN, YOB, YIM, VUY, VLY, TITLE | mirrors, tilts and decentres, other surface forms, zooms, solves of named surfaces, surfaces inserted or deleted |
 //!
 //! Both become a [`PrescriptionAsset`] in mm. Other content (tolerances, plots, solves, merit functions) does not describe the lens itself and is ignored. No
 //! program of the files is run.
 
 mod build;
+mod glasses;
 mod private;
 mod seq;
 mod seq_edit;
@@ -17,7 +18,8 @@ mod zmx;
 
 use std::path::Path;
 
-use etendue_scene::asset::PrescriptionAsset;
+use etendue_scene::asset::{GlassCatalogueAsset, PrescriptionAsset};
+use etendue_spectra::glass::agf;
 
 use crate::source::{decode_lens_text, read_description_bytes};
 use crate::{Error, ErrorCode, hash};
@@ -27,12 +29,20 @@ use crate::{Error, ErrorCode, hash};
 /// # Errors
 /// The first error of the file, with its line.
 pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
+    read_prescription_with(file, &[])
+}
+
+/// Reads a prescription whose glasses are searched first in `catalogues`, in order.
+///
+/// # Errors
+/// The first error of the file, with its line.
+pub fn read_prescription_with(file: &Path, catalogues: &[GlassCatalogueAsset]) -> Result<PrescriptionAsset, Error> {
     let bytes = read_description_bytes(file, "lens")?;
     let text = decode_lens_text(file, &bytes)?;
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let mut asset = match extension.to_str() {
-        Some("zmx") => zmx::read(file, &text)?,
-        Some("seq") => seq::read(file, &text)?,
+        Some("zmx") => zmx::read(file, &text, catalogues)?,
+        Some("seq") => seq::read(file, &text, catalogues)?,
         _ => {
             return Err(Error::coded(
                 ErrorCode::UnsupportedFile,
@@ -43,4 +53,15 @@ pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
     };
     asset.hash = hash::hash_bytes(&bytes);
     Ok(asset)
+}
+
+/// Reads a glass catalogue of Zemax (`.agf`).
+///
+/// # Errors
+/// The file is no such catalogue.
+pub fn read_glass_catalogue(file: &Path) -> Result<GlassCatalogueAsset, Error> {
+    let bytes = read_description_bytes(file, "glass catalogue")?;
+    let text = decode_lens_text(file, &bytes)?;
+    let catalogue = agf::read(&text).map_err(|error| Error::at(file, error.line, error.problem))?;
+    Ok(GlassCatalogueAsset { file: file.to_owned(), catalogue, hash: hash::hash_bytes(&bytes) })
 }

@@ -11,9 +11,10 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
+use etendue_scene::asset::{GlassAsset, GlassCatalogueAsset, LensFields, PrescriptionAsset};
 
-use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening, by_number, named, successor};
+use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening};
+use super::glasses::{self, GlassSearch};
 use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 
@@ -30,8 +31,8 @@ const PASSED_OVER: &[&str] = &[
     "GC", "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
 ];
 
-pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
-    let mut reader = SeqReader::default();
+pub(super) fn read(file: &Path, text: &str, catalogues: &[GlassCatalogueAsset]) -> Result<PrescriptionAsset, Error> {
+    let mut reader = SeqReader::new(catalogues);
     for (line, command) in commands(text) {
         let words = Words { file, line, words: words(&command) };
         if !words.words.is_empty() {
@@ -78,10 +79,10 @@ fn words(command: &str) -> Vec<&str> {
     words
 }
 
-#[derive(Default)]
-pub(super) struct SeqReader {
+pub(super) struct SeqReader<'a> {
     pub(super) raw: RawLens,
-    glasses: PrivateGlasses,
+    private: PrivateGlasses,
+    glasses: GlassSearch<'a>,
     /// True if S lines give radii (RDM), false for curvatures.
     radii: Option<bool>,
     /// Surface that commands without a surface apply to.
@@ -92,9 +93,21 @@ pub(super) struct SeqReader {
     unknown: Vec<(String, usize)>,
 }
 
-impl SeqReader {
+impl<'a> SeqReader<'a> {
+    fn new(catalogues: &'a [GlassCatalogueAsset]) -> Self {
+        Self {
+            raw: RawLens::default(),
+            private: PrivateGlasses::default(),
+            glasses: GlassSearch::new(catalogues),
+            radii: None,
+            current: 0,
+            has_image: false,
+            unknown: Vec::new(),
+        }
+    }
+
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
-        if self.glasses.reads(w)? {
+        if self.private.reads(w)? {
             return Ok(());
         }
         let name = w.word(0).to_ascii_uppercase();
@@ -213,18 +226,15 @@ impl SeqReader {
             }
             _ => {}
         }
-        if let Some(glass) = self.glasses.find(plain).or_else(|| named(plain)).or_else(|| by_number(plain)) {
+        if let Some(glass) = self.private.find(plain) {
             return Ok(glass);
         }
-        let Some((glass, today)) = successor(plain) else {
-            return Err(w.error(format!(
-                "unknown glass `{plain}`; give a name of the Schott or Ohara catalogue, a number such as 517642, or its indices in a private \
-                 catalogue (PRV) before the surfaces"
-            )).with_code(ErrorCode::UnknownName));
+        let Some(found) = self.glasses.find(plain, w)? else {
+            let remedy = "a number such as 517642, or its indices in a private catalogue (PRV) before the surfaces";
+            return Err(glasses::unknown(w, plain, remedy));
         };
-        let note = format!("line {}: {plain} is in no supported catalogue: its successor {today} is used", w.line);
-        self.raw.notes.push(note);
-        Ok(glass)
+        self.raw.notes.extend(found.note.map(|note| format!("line {}: {note}", w.line)));
+        Ok(found.glass)
     }
 }
 

@@ -16,7 +16,7 @@ struct EditTarget {
     value: usize,
 }
 
-impl SeqReader {
+impl SeqReader<'_> {
     /// Handles a command about surfaces; returns false for others.
     pub(super) fn edit(&mut self, name: &str, w: &Words<'_>) -> Result<bool, Error> {
         let known = ["RDY", "CUY", "THI", "GLA", "CIR", "STO", "K"].contains(&name) || order(name).is_some();

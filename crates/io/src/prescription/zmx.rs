@@ -14,14 +14,15 @@
 
 use std::{collections::BTreeSet, path::Path};
 
-use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
+use etendue_scene::asset::{GlassAsset, GlassCatalogueAsset, LensFields, PrescriptionAsset};
 
-use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening, by_number, named, successor};
+use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening};
+use super::glasses::{self, GlassSearch, NotedGlass};
 use super::text::Words;
 use crate::{Error, ErrorCode};
 
-pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
-    let mut reader = ZmxReader::default();
+pub(super) fn read(file: &Path, text: &str, catalogues: &[GlassCatalogueAsset]) -> Result<PrescriptionAsset, Error> {
+    let mut reader = ZmxReader::new(catalogues);
     for (i, line) in text.lines().enumerate() {
         let words = Words { file, line: i + 1, words: line.split_whitespace().collect() };
         if !words.words.is_empty() {
@@ -32,10 +33,9 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
     reader.finish(file)
 }
 
-#[derive(Default)]
-struct ZmxReader {
+struct ZmxReader<'a> {
     raw: RawLens,
-    glasses: Glasses,
+    glasses: Glasses<'a>,
     field_kind: usize,
     counts: [usize; 2],
     heights: Vec<f64>,
@@ -50,7 +50,18 @@ const SURFACE_KEYWORDS: [&str; 26] = [
     "SQOB", "ELOB", "UDAD", "COMM", "HIDE", "MIRR", "SLAB", "POPS", "FIMP", "MEMA", "OEMA", "MAZH",
 ];
 
-impl ZmxReader {
+impl<'a> ZmxReader<'a> {
+    fn new(catalogues: &'a [GlassCatalogueAsset]) -> Self {
+        Self {
+            raw: RawLens::default(),
+            glasses: Glasses { search: GlassSearch::new(catalogues), by_line: Vec::new() },
+            field_kind: 0,
+            counts: [0; 2],
+            heights: Vec::new(),
+            unknown: BTreeSet::new(),
+        }
+    }
+
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
         match w.word(0) {
             "MODE" if w.word(1) != "SEQ" => {
@@ -91,6 +102,10 @@ impl ZmxReader {
                 Ok(())
             }
             "GLAS" => self.glass(w),
+            "GCAT" => {
+                self.glasses.search.prefer(&w.words[1..]);
+                Ok(())
+            }
             _ => match self.raw.surfaces.last_mut() {
                 Some(surface) => property(surface, w),
                 None => Ok(()),
@@ -131,7 +146,7 @@ impl ZmxReader {
     }
 
     fn glass(&mut self, w: &Words<'_>) -> Result<(), Error> {
-        let (glass, note) = self.glasses.read(w, &self.raw.surfaces)?;
+        let NotedGlass { glass, note, .. } = self.glasses.read(w, &self.raw.surfaces)?;
         self.raw.notes.extend(note.map(|note| format!("line {}: {note}", w.line)));
         if let Some(surface) = self.raw.surfaces.last_mut() {
             surface.glass = glass;
@@ -209,9 +224,8 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
 fn opening(w: &Words<'_>) -> Result<Option<StatedOpening>, Error> {
     match (w.word(0), w.word(2)) {
         ("ENPD", _) => StatedOpening::pupil(w).map(Some),
-        ("FNUM", "1") => Err(w
-            .error("a working f-number is not supported; give the image-space f-number (FNUM with 0), ENPD or FLOA")
-            .with_code(ErrorCode::UnsupportedFile)),
+        // A working f-number is 1/(2 sin θ) of the image's cone: the image-space f-number if the object is far.
+        ("FNUM", "1") => StatedOpening::f_number(w).map(|opening| Some(opening.in_image_space())),
         ("FNUM", _) => StatedOpening::f_number(w).map(Some),
         ("OBNA", "1") => StatedOpening::object_angle(w).map(Some),
         ("OBNA", _) => StatedOpening::object_cone(w).map(Some),
@@ -224,9 +238,10 @@ const CATALOGUE_NUMBERS: [f64; 2] = [1.5, 40.0];
 /// Half a unit of the last digit of the coarsest catalogue values of n_d and V_d.
 const ROUNDING: [f64; 2] = [5e-5, 0.05];
 
-/// Glasses of a file defined by the numbers of their lines.
-#[derive(Default)]
-pub(super) struct Glasses {
+/// Glasses of a file.
+struct Glasses<'a> {
+    search: GlassSearch<'a>,
+    /// Those defined by the numbers of their lines.
     by_line: Vec<GlassOfLine>,
 }
 
@@ -236,57 +251,46 @@ struct GlassOfLine {
     numbers: [f64; 2],
 }
 
-impl Glasses {
+impl Glasses<'_> {
     /// Glass of a GLAS line, and a note on it.
-    pub(super) fn read(
-        &mut self,
-        w: &Words<'_>,
-        surfaces: &[RawSurface],
-    ) -> Result<(GlassAsset, Option<String>), Error> {
+    fn read(&mut self, w: &Words<'_>, surfaces: &[RawSurface]) -> Result<NotedGlass, Error> {
         if w.word(1) == "MIRROR" {
             return Err(w
                 .error("mirrors are not supported; only refracting lenses are")
                 .with_code(ErrorCode::UnsupportedFile));
         }
         match w.word(2) {
-            "1" => Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
+            "1" => Ok(NotedGlass::plain(model_glass(w.number(4)?, w.number(5)?))),
             "2" => {
                 let from = surfaces.get(w.number(3)? as usize);
                 let from = from.ok_or_else(|| {
                     w.error("the glass is picked up from a surface that is not defined before")
                         .with_code(ErrorCode::UnsupportedFile)
                 })?;
-                Ok((from.glass.clone(), None))
+                Ok(NotedGlass::plain(from.glass.clone()))
             }
             _ => self.catalogue_glass(w),
         }
     }
 
-    fn catalogue_glass(&mut self, w: &Words<'_>) -> Result<(GlassAsset, Option<String>), Error> {
+    fn catalogue_glass(&mut self, w: &Words<'_>) -> Result<NotedGlass, Error> {
         let name = w.word(1);
-        if let Some(known) = named(name).or_else(|| by_number(name)) {
-            return Ok((known, None));
-        }
         let numbers = own_numbers(w);
-        if let Some((glass, today)) = successor(name) {
-            let ignored = numbers.map_or_else(String::new, |[index, abbe]| {
-                format!(", not n_d {index} and V_d {abbe} of its line, which are not used for a catalogue glass")
-            });
-            return Ok((
-                glass,
-                Some(format!("{name} is in no supported catalogue: its successor {today} is used{ignored}")),
-            ));
+        if let Some(mut known) = self.search.find(name, w)? {
+            if let (Some([index, abbe]), Some(note)) = (numbers.filter(|_| known.is_successor), &mut known.note) {
+                *note +=
+                    &format!(", not n_d {index} and V_d {abbe} of its line, which are not used for a catalogue glass");
+            }
+            return Ok(known);
         }
         let Some(numbers) = numbers else {
-            return Err(w.error(format!(
-                "unknown glass `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
-            )).with_code(ErrorCode::UnknownName));
+            return Err(glasses::unknown(w, name, &format!("or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)")));
         };
         self.check_same(w, numbers)?;
         let [index, abbe] = numbers;
         self.by_line.push(GlassOfLine { name: name.to_owned(), line: w.line, numbers });
         let note = format!("{name} is in no supported catalogue: n_d {index} and V_d {abbe} of its line are used");
-        Ok((GlassAsset::Abbe { index, abbe }, Some(note)))
+        Ok(NotedGlass { note: Some(note), ..NotedGlass::plain(GlassAsset::Abbe { index, abbe }) })
     }
 
     /// Refuses a second pair of numbers for one name.
@@ -303,6 +307,11 @@ impl Glasses {
             other.name, other.line, other.name
         )))
     }
+}
+
+/// Model glass; without dispersion for V_d = 0.
+fn model_glass(index: f64, abbe: f64) -> GlassAsset {
+    if abbe == 0.0 { GlassAsset::Index(index) } else { GlassAsset::Abbe { index, abbe } }
 }
 
 /// n_d and V_d of a line, if they are those of a glass and not Zemax's placeholder.

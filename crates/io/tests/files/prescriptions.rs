@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use etendue_io::prescription::read_prescription;
-use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset};
+use etendue_io::prescription::{read_glass_catalogue, read_prescription, read_prescription_with};
+use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, NamedGlass, PrescriptionAsset};
+use etendue_spectra::glass;
 
 const ZMX: &str = "VERS 140730 73 26155\nMODE SEQ\nNAME A triplet\nUNIT MM X W X CM MR CPMM\nENPD 10.0\n\
 FTYP 0 0 3 2 0 0 0\nYFLN 0 7.0 10.0 0 0 0\nWAVM 1 4.861327E-1 1\nWAVM 2 5.875618E-1 1\nWAVM 3 5.5E-1 1\nPWAV 2\n\
@@ -19,6 +20,12 @@ SURF 7\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\nTOL TOFF 0 0\n";
 const SEQ: &str = "RDM;LEN       \"VERSION: 11.5\"\nTITLE 'A triplet'\nEPD 10.0  ! entrance pupil\nDIM M\nWL 486.1327 587.5618\nREF 2\n\
 YAN 0.0 7.0 &\n 10.0\nSO 0.0 0.1e14\nS 0.0 5.0\nS 25.0 3.5 NBK7_SCHOTT\n  CIR 7.6\nS -50.0 2.0\n  ASP\n  K -0.5\n  A 1.1E-5; B -2.0E-8\n\
   CIR 6.5; CIR EDG 8\nS 0.0 1.0\n  STO\n  CIR 4.5\nS -20.0 1.2 620040.364000\n  CIR 5\nS 20.0 40.0\nSI 0.0 0.0\nGO\n";
+
+/// A glass of a built-in catalogue.
+fn built_in(name: &str) -> GlassAsset {
+    let glass = glass::by_name(name).unwrap_or_else(|error| panic!("{error}"));
+    GlassAsset::Named(Box::new(NamedGlass::built_in(glass)))
+}
 
 fn read_bytes(name: &str, bytes: &[u8]) -> Result<PrescriptionAsset, String> {
     let folder = tempfile::tempdir().expect("a folder");
@@ -38,7 +45,7 @@ fn is_the_triplet(lens: &PrescriptionAsset) {
     assert!((lens.wavelengths_nm[1] - 587.5618).abs() < 1e-9 && lens.wavelengths_nm.len() == 2);
     let [front, back, stop, second, last] = &lens.surfaces[..] else { panic!("five surfaces: the dummy is left out") };
     assert!((front.radius_mm - 25.0).abs() < 1e-12 && front.semi_aperture_mm == Some(7.6));
-    assert_eq!(front.glass, GlassAsset::Named("N-BK7".into()));
+    assert_eq!(front.glass, built_in("N-BK7"));
     assert_eq!((back.conic, back.asphere[..3].to_vec()), (-0.5, vec![0.0, 1.1e-5, -2.0e-8]));
     assert_eq!((back.semi_aperture_mm, back.glass.clone()), (Some(6.5), GlassAsset::Air));
     assert!(stop.stop && stop.radius_mm == f64::INFINITY && !front.stop);
@@ -89,7 +96,8 @@ fn what_is_not_modelled_is_refused_with_its_line() {
         seq("SO 0.0", "PRV\nPWL 600 500\n'mine' 1.5\nEND\nSO 0.0")
             .contains("1 of 2 indices; expected one for each wavelength")
     );
-    assert!(zmx("ENPD 10.0", "FNUM 4 1").starts_with("5: a working f-number"));
+    let working = read("lens.zmx", &ZMX.replace("ENPD 10.0", "FNUM 4 1")).expect("a working f-number");
+    assert_eq!(working.opening, Some(LensOpening::ImageCone { sine: 0.125 }));
     assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));
     assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("obscurations"));
     assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not supported"));
@@ -111,12 +119,12 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
     for (line, today) in [
         ("GLAS SK16 0 0 1.5 4.0E+1", "N-SK16"),
         ("GLAS SK2 0 0 1.61765 5.514E+1", "N-SK2"),
-        ("GLAS LAH66 0 0 1.7762 4.94E+1", "S-LAH66"),
+        ("GLAS LAK8 0 0 1.7762 4.94E+1", "N-LAK8"),
     ] {
         let (glass, notes) = glass_of(line);
-        assert_eq!(glass, GlassAsset::Named(today.into()));
+        assert_eq!(glass, built_in(today));
         let message = format!(
-            "line 26: {} is in no supported catalogue: its successor {today} is used",
+            "line 26: {} is discontinued: its successor {today} is used",
             &line[5..line.find(" 0").expect("a mode")]
         );
         assert!(notes[0].starts_with(&message), "{notes:?}");
@@ -132,10 +140,12 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
         matches!(glass, GlassAsset::Abbe { index, abbe } if (index - 1.517).abs() < 1e-12 && (abbe - 64.2).abs() < 1e-9)
     );
     assert!(notes.is_empty());
-    for (name, today) in [("SK16_SCHOTT", "N-SK16"), ("LAH66_OHARA", "S-LAH66"), ("LAH66", "S-LAH66")] {
+    // Ohara's discontinued glasses are built in.
+    assert_eq!(glass_of("GLAS LAH66 0 0 1.7762 4.94E+1"), (built_in("LAH66"), Vec::new()));
+    for (name, today) in [("SK16_SCHOTT", "N-SK16"), ("LAK8_SCHOTT", "N-LAK8"), ("LAK8", "N-LAK8")] {
         let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", name)).expect("a lens");
-        assert_eq!(old.surfaces[0].glass, GlassAsset::Named(today.into()));
-        assert!(old.notes[0].contains(&format!("line 11: {name} is in no supported catalogue")), "{:?}", old.notes);
+        assert_eq!(old.surfaces[0].glass, built_in(today));
+        assert!(old.notes[0].contains(&format!("line 11: {name} is discontinued")), "{:?}", old.notes);
     }
     let other = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "LAH66_SCHOTT")).expect_err("not Schott's");
     assert!(other.contains("unknown glass `LAH66_SCHOTT`"), "{other}");
@@ -143,21 +153,74 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
 
 #[test]
 fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
-    let (glass, notes) = glass_of("GLAS FCD505 0 0 1.59282 68.63");
+    let (glass, notes) = glass_of("GLAS XGLASS7 0 0 1.59282 68.63");
     assert_eq!(glass, GlassAsset::Abbe { index: 1.59282, abbe: 68.63 });
-    assert!(notes[0].contains("line 26: FCD505 is in no supported catalogue: n_d 1.59282 and V_d 68.63"), "{notes:?}");
+    assert!(notes[0].contains("line 26: XGLASS7 is in no supported catalogue: n_d 1.59282 and V_d 68.63"), "{notes:?}");
     let twice = |second: &str| {
-        let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS FCD505 0 0 1.59282 68.63");
+        let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS XGLASS7 0 0 1.59282 68.63");
         read("lens.zmx", &text.replace("GLAS ___BLANK 1 0 1.62004 36.4 0", second))
     };
-    assert!(twice("GLAS FCD505 0 0 1.59282 68.63").is_ok());
+    assert!(twice("GLAS XGLASS7 0 0 1.59282 68.63").is_ok());
     // A model glass is defined by its numbers.
-    assert!(twice("GLAS FCD505 1 0 1.7 40").is_ok());
-    let message = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
+    assert!(twice("GLAS XGLASS7 1 0 1.7 40").is_ok());
+    let message = twice("GLAS XGLASS7 0 0 1.61765 55.14").expect_err("two indices of one glass");
     assert!(
-        message.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"),
+        message.contains("XGLASS7 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"),
         "{message}"
     );
+}
+
+/// Makers' glasses of the case table (K2): their catalogue indices apply, whatever numbers stand on the line.
+#[test]
+fn glasses_of_other_makers_are_those_of_their_catalogues() {
+    for name in ["H-K9L", "FCD1", "J-LASF015", "K-VC78", "F_SILICA", "CAF2", "PMMA", "POLYCARB", "E48R", "LZ_K8"] {
+        let (glass, notes) = glass_of(&format!("GLAS {name} 0 0 1.5 4.0E+1"));
+        assert_eq!((&glass, &notes), (&built_in(name), &Vec::new()), "{name}");
+    }
+    let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS BAF4 0 0 1.5 4.0E+1");
+    let maker = |lens: &PrescriptionAsset| match &lens.surfaces[0].glass {
+        GlassAsset::Named(glass) => glass.catalogue.clone(),
+        other => panic!("{other:?}"),
+    };
+    let several = read("lens.zmx", &text).expect("a lens");
+    assert_eq!(maker(&several), "schott");
+    assert!(several.notes[0].contains("BAF4 is discontinued: its successor N-BAF4 is used"), "{:?}", several.notes);
+    let elsewhere = read("lens.zmx", &text.replace("GLAS BAF4", "GLAS ZF10")).expect("a lens");
+    assert!(
+        maker(&elsewhere) == "cdgm" && elsewhere.notes.iter().all(|note| note.contains("ZF10")),
+        "{:?}",
+        elsewhere.notes
+    );
+    let stated = read("lens.zmx", &text.replace("UNIT MM", "GCAT SCHOTT CDGM\nUNIT MM")).expect("a lens");
+    assert_eq!((maker(&stated), stated.notes.len()), ("cdgm".to_owned(), 0));
+}
+
+#[test]
+fn a_given_catalogue_comes_first_and_its_unusable_glasses_are_refused_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).expect("written");
+        file
+    };
+    let agf =
+        write("own.agf", "CC mine\nNM N-BK7 2 0 1.6 60 0\nCD 1.56 0.0 0 0 0 0\nLD 0.3 1.2\nNM BAD 1 0 1 0\nCD 0.5\n");
+    let own = [read_glass_catalogue(&agf).expect("a catalogue")];
+    let lens = read_prescription_with(&write("lens.zmx", ZMX), &own).expect("a lens");
+    let GlassAsset::Named(glass) = &lens.surfaces[0].glass else { panic!("{:?}", lens.surfaces[0].glass) };
+    // n² = 1 + 1.56.
+    assert!(glass.catalogue == "own.agf" && (glass.dispersion.index(587.56) - 1.6).abs() < 1e-12, "{glass:?}");
+    let bad = write("bad.zmx", &ZMX.replace("GLAS N-BK7", "GLAS BAD"));
+    let error = read_prescription_with(&bad, &own).expect_err("an index of 0.7").to_string();
+    assert!(error.contains("the glass BAD") && error.contains("line 5 of"), "{error}");
+    let none = write("none.agf", "hello\n");
+    assert!(read_glass_catalogue(&none).is_err());
+}
+
+/// K4: a model glass with V_d = 0 has no dispersion.
+#[test]
+fn a_model_glass_without_abbe_number_has_one_index() {
+    assert_eq!(glass_of("GLAS ___BLANK 1 0 1.5168 0").0, GlassAsset::Index(1.5168));
 }
 
 #[test]
@@ -249,7 +312,7 @@ fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
     assert_eq!((radius.surfaces[0].radius_mm, radius.surfaces[1].radius_mm), (25.0, -25.0));
     let glass = edited("THI S1 8\nGLA S1 SF6_SCHOTT\nTHI S2 40").expect("a lens");
     assert_eq!((glass.surfaces[0].thickness_mm, glass.back_focus_mm), (8.0, 40.0));
-    assert_eq!(glass.surfaces[0].glass, GlassAsset::Named("SF6".into()));
+    assert_eq!(glass.surfaces[0].glass, built_in("SF6"));
     let both = edited("CIR S1..2 5\nK SA -1\nSTO S2\nA S2 1e-6; J S2 1e-20\nTHI SO 100\nTHI SI -0.1").expect("a lens");
     assert!(both.surfaces.iter().all(|s| s.semi_aperture_mm == Some(5.0) && s.conic == -1.0));
     assert_eq!(both.surfaces.iter().map(|s| s.stop).collect::<Vec<_>>(), [false, true]);
@@ -258,10 +321,7 @@ fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
     assert!((both.back_focus_mm - 46.9).abs() < 1e-12);
     let line = edited("S1 25 8\n CIR 7").expect("a lens");
     assert_eq!((line.surfaces[0].radius_mm, line.surfaces[0].thickness_mm), (25.0, 8.0));
-    assert_eq!(
-        (line.surfaces[0].semi_aperture_mm, line.surfaces[0].glass.clone()),
-        (Some(7.0), GlassAsset::Named("N-BK7".into()))
-    );
+    assert_eq!((line.surfaces[0].semi_aperture_mm, line.surfaces[0].glass.clone()), (Some(7.0), built_in("N-BK7")));
     let large = edited("A S1 1e-6\nSCA 2\nCIR S2 6").expect("a lens");
     let [front, back] = &large.surfaces[..] else { panic!("two surfaces") };
     assert_eq!((front.radius_mm, front.thickness_mm, front.semi_aperture_mm), (100.0, 8.0, Some(12.0)));

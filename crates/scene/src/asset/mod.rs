@@ -25,7 +25,10 @@ pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use point_spread::{FieldPoint, PointSpreadAsset};
-pub use prescription::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+pub use prescription::{
+    ASPHERE_TERMS, GlassAsset, GlassCatalogueAsset, LensFields, LensOpening, NamedGlass, PrescriptionAsset,
+    SurfaceAsset,
+};
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, ReplacedMaterials, SpectrumValues};
 pub use slot_layers::{

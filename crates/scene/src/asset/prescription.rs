@@ -1,5 +1,10 @@
 //! A lens given by its surfaces, from a lens file.
 
+use std::path::PathBuf;
+
+use etendue_spectra::glass::agf::{AgfCatalogue, AgfError};
+use etendue_spectra::glass::{CatalogueGlass, Dispersion, plain};
+
 /// Number of aspheric terms: r², r⁴ … r²⁰, as CODE V has them.
 pub const ASPHERE_TERMS: usize = 10;
 
@@ -61,8 +66,8 @@ pub struct SurfaceAsset {
 #[derive(Clone, Debug, PartialEq)]
 pub enum GlassAsset {
     Air,
-    /// A glass of a maker's catalogue, by its name in [`etendue_spectra::glass`].
-    Named(String),
+    /// A glass of a catalogue.
+    Named(Box<NamedGlass>),
     /// A medium with a constant index.
     Index(f64),
     /// A glass given by n_d and V_d.
@@ -72,6 +77,52 @@ pub enum GlassAsset {
         /// V_d.
         abbe: f64,
     },
+}
+
+/// A glass of a catalogue that is built in or given as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedGlass {
+    /// Its name in the catalogue.
+    pub name: String,
+    /// Maker, or name of the catalogue's file.
+    pub catalogue: String,
+    /// Dispersion.
+    pub dispersion: Dispersion,
+}
+
+impl NamedGlass {
+    /// A glass of a built-in catalogue.
+    #[must_use]
+    pub fn built_in(glass: &CatalogueGlass) -> Self {
+        Self { name: glass.name.to_owned(), catalogue: glass.maker.to_owned(), dispersion: glass.dispersion }
+    }
+}
+
+/// A glass catalogue given as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GlassCatalogueAsset {
+    /// The file.
+    pub file: PathBuf,
+    /// Its glasses.
+    pub catalogue: AgfCatalogue,
+    /// Hash of its bytes.
+    pub hash: [u8; 32],
+}
+
+impl GlassCatalogueAsset {
+    /// The glass of a name, whose hyphens, blanks and capitals may differ; `None` if the catalogue does not have it.
+    ///
+    /// # Errors
+    /// The file has the glass, but its record cannot be used.
+    pub fn find(&self, name: &str) -> Result<Option<NamedGlass>, AgfError> {
+        let is_match = |other: &str| plain(other) == plain(name);
+        if let Some(glass) = self.catalogue.glasses.iter().find(|glass| is_match(&glass.name)) {
+            let catalogue = self.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            return Ok(Some(NamedGlass { name: glass.name.clone(), catalogue, dispersion: glass.dispersion }));
+        }
+        let unusable = self.catalogue.unusable.iter().find(|(other, _)| is_match(other));
+        unusable.map_or(Ok(None), |(_, error)| Err(error.clone()))
+    }
 }
 
 /// Aperture of a lens.

@@ -71,8 +71,10 @@ pub enum AssetKind {
     RetroTable,
     /// [`super::NumbersAsset`].
     Numbers,
-    /// [`super::PrescriptionAsset`].
-    Prescription,
+    /// [`super::PrescriptionAsset`], its glasses searched first in these catalogues.
+    Prescription(Vec<PathBuf>),
+    /// [`super::GlassCatalogueAsset`].
+    GlassCatalogue,
     /// [`super::RayTransferAsset`].
     RayTransfer,
     /// [`super::TrajectoryAsset`].

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotMaterial;
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ImageAsset, LargeImage,
-    LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PointSpreadAsset,
-    PrescriptionAsset, RayTransferAsset, ReplacedMaterials, RetroTableAsset, SpectrumAsset, TexelStore,
-    TrajectoryAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, GlassCatalogueAsset, ImageAsset,
+    LargeImage, LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset,
+    PointSpreadAsset, PrescriptionAsset, RayTransferAsset, ReplacedMaterials, RetroTableAsset, SpectrumAsset,
+    TexelStore, TrajectoryAsset,
 };
 use crate::numbered_files::is_numbered;
 use crate::place::Place;
@@ -38,8 +38,10 @@ pub struct Assets {
     pub retro_tables: BTreeMap<PathBuf, RetroTableAsset>,
     /// Tables of numbers by path.
     pub numbers: BTreeMap<PathBuf, NumbersAsset>,
-    /// Lenses by path.
-    pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
+    /// Lenses by path and the glass catalogues that are searched first.
+    pub prescriptions: BTreeMap<(PathBuf, Vec<PathBuf>), PrescriptionAsset>,
+    /// Glass catalogues by path.
+    pub glass_catalogues: BTreeMap<PathBuf, GlassCatalogueAsset>,
     /// Lenses given by their ray-transfer functions, by path.
     pub ray_transfers: BTreeMap<PathBuf, RayTransferAsset>,
     /// Trajectories by path.
@@ -80,6 +82,7 @@ impl Assets {
             retro_tables,
             numbers,
             prescriptions,
+            glass_catalogues,
             ray_transfers,
             trajectories,
             lens_tables,
@@ -100,7 +103,8 @@ impl Assets {
         hashes.extend(indices.get(path).map(|asset| asset.hash));
         hashes.extend(retro_tables.get(path).map(|asset| asset.hash));
         hashes.extend(numbers.get(path).map(|asset| asset.hash));
-        hashes.extend(prescriptions.get(path).map(|asset| asset.hash));
+        hashes.extend(prescriptions.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
+        hashes.extend(glass_catalogues.get(path).map(|asset| asset.hash));
         hashes.extend(ray_transfers.get(path).map(|asset| asset.hash));
         hashes.extend(trajectories.get(path).map(|asset| asset.hash));
         hashes.extend(lens_tables.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
@@ -120,7 +124,8 @@ impl Assets {
             AssetKind::ComplexIndex => self.indices.contains_key(path),
             AssetKind::RetroTable => self.retro_tables.contains_key(path),
             AssetKind::Numbers => self.numbers.contains_key(path),
-            AssetKind::Prescription => self.prescriptions.contains_key(path),
+            AssetKind::Prescription(glasses) => self.prescriptions.contains_key(&(path.to_owned(), glasses.clone())),
+            AssetKind::GlassCatalogue => self.glass_catalogues.contains_key(path),
             AssetKind::RayTransfer => self.ray_transfers.contains_key(path),
             AssetKind::Trajectory => self.trajectories.contains_key(path),
             AssetKind::LensTable(quantity) => self.lens_tables.contains_key(&(path.to_owned(), *quantity)),
@@ -160,6 +165,7 @@ mod tests {
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
+    use etendue_spectra::glass::agf::AgfCatalogue;
 
     /// Assets with the file "file" of such a hash.
     fn test_assets(kind: &AssetKind, hash: [u8; 32]) -> Assets {
@@ -179,7 +185,13 @@ mod tests {
                 drop(assets.retro_tables.insert(file, RetroTableAsset { hash, ..Default::default() }));
             }
             AssetKind::Numbers => drop(assets.numbers.insert(file, NumbersAsset { hash, ..Default::default() })),
-            AssetKind::Prescription => drop(assets.prescriptions.insert(file, lens(hash))),
+            AssetKind::Prescription(glasses) => {
+                drop(assets.prescriptions.insert((file, glasses.clone()), lens(hash)));
+            }
+            AssetKind::GlassCatalogue => {
+                let asset = GlassCatalogueAsset { file: file.clone(), catalogue: AgfCatalogue::default(), hash };
+                drop(assets.glass_catalogues.insert(file, asset));
+            }
             AssetKind::RayTransfer => {
                 drop(assets.ray_transfers.insert(file, RayTransferAsset { hash, ..Default::default() }));
             }
@@ -275,7 +287,8 @@ mod tests {
             AssetKind::ComplexIndex,
             AssetKind::RetroTable,
             AssetKind::Numbers,
-            AssetKind::Prescription,
+            AssetKind::Prescription(Vec::new()),
+            AssetKind::GlassCatalogue,
             AssetKind::RayTransfer,
             AssetKind::Trajectory,
             AssetKind::LensTable(LensQuantity::RelativeIllumination),

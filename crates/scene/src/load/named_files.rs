@@ -117,8 +117,9 @@ fn lens(lens: &Lens, files: &mut FileList) {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {}
         Lens::Prescription(lens) => {
             if let SurfaceListSource::File(file) = &lens.source {
-                files.add(AssetKind::Prescription, file);
+                files.add(AssetKind::Prescription(lens.glass_files()), file);
             }
+            lens.glasses.iter().for_each(|file| files.add(AssetKind::GlassCatalogue, file));
             if let Some(IrCutCurve::Spectrum(file)) = lens.ir_cut.as_ref().map(|filter| &filter.normal) {
                 files.add(AssetKind::Spectrum(SpectrumValues::Share), file);
             }

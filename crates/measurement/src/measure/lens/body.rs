@@ -4,18 +4,24 @@ use std::path::{Path, PathBuf};
 
 use etendue_core::maths::f64::sin_cos;
 use etendue_io::failure::{Error, ErrorCode, InputError};
-use etendue_io::{load_assets, prescription::read_prescription, source::read_text};
+use etendue_io::{
+    load_assets,
+    prescription::{read_glass_catalogue, read_prescription_with},
+    source::read_text,
+};
 use etendue_optics::Lens;
 use etendue_pipeline::{compile_camera_with_remarks, plan::CameraBody};
-use etendue_scene::asset::{LensFields, PrescriptionAsset};
+use etendue_scene::asset::{GlassCatalogueAsset, LensFields, PrescriptionAsset};
 use etendue_scene::{Overrides, load_camera, named_files};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use serde_json::Value;
 
 use super::request::LensRequest;
 
 /// Half of a full-frame diagonal, mm.
 const FULL_FRAME_MM: f64 = 21.64;
+/// An image radius that every lens illuminates, mm.
+const SMALL_MM: f64 = 0.5;
 
 /// A camera, and the notes on it.
 pub(super) type MeasuredBody = (CameraBody, Vec<String>);
@@ -38,22 +44,71 @@ pub(super) fn body(request: &LensRequest) -> Result<MeasuredBody, Error> {
         compiled(request, &PathBuf::from(GENERATED_FILE), Some(text))
             .map_err(|failure| without_location(failure, &request.lens))
     };
-    let first = body_for_radius(request.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
-    let fields = match request.picture_radius_mm {
-        None if is_lens_file(&request.lens) => read_prescription(lens_file).ok().and_then(Fields::from_asset),
-        _ => None,
-    };
-    match fields.and_then(|fields| {
-        fields.radius_mm(&first.0.lens, |radius_mm| body_for_radius(radius_mm).map(|measured_body| measured_body.0))
-    }) {
-        Some(radius_mm) => body_for_radius(radius_mm),
-        None => Ok(first),
+    if let Some(radius_mm) = request.picture_radius_mm {
+        return body_for_radius(radius_mm);
     }
+    if !is_lens_file(&request.lens) {
+        return body_for_radius(FULL_FRAME_MM);
+    }
+    let lens_of_radius = |radius_mm: f64| body_for_radius(radius_mm).map(|measured| measured.0.lens);
+    let fields = read_prescription_with(lens_file, &glass_catalogues(request)?).ok().and_then(Fields::from_asset);
+    let stated_mm = match fields {
+        // The lens's first-order quantities do not depend on the size of its image.
+        Some(fields) => fields.radius_mm(&lens_of_radius(SMALL_MM)?, lens_of_radius),
+        None => None,
+    };
+    match stated_mm {
+        Some(radius_mm) => body_for_radius(radius_mm),
+        None => {
+            let radius_mm = half_light_radius_mm(lens_of_radius)?;
+            let (body, mut remarks) = body_for_radius(radius_mm)?;
+            remarks.push(format!(
+                "the file states no field: its image is measured up to {radius_mm:.3} mm from the axis, where half of the light of the axis arrives, at most \
+                 {FULL_FRAME_MM} mm; `picture_radius_mm` sets another radius"
+            ));
+            Ok((body, remarks))
+        }
+    }
+}
+
+fn glass_catalogues(request: &LensRequest) -> Result<Vec<GlassCatalogueAsset>, Error> {
+    let files = request.glasses.iter().map(|file| read_glass_catalogue(file));
+    files.collect::<Result<_, _>>().map_err(|error| Error::inputs(vec![error]))
+}
+
+/// Factor between the radii that [`half_light_radius_mm`] tries.
+const RADIUS_STEP: f64 = 1.25;
+/// Bisections between two of them: 1/64 of the step.
+const HALVINGS: usize = 6;
+
+/// Distance from the axis at which half of the axis's light arrives, at most [`FULL_FRAME_MM`].
+fn half_light_radius_mm(lens_of_radius: impl Fn(f64) -> Result<Lens, Error>) -> Result<f64, Error> {
+    let is_lit = |radius_mm: f64| -> Result<bool, Error> {
+        let lens = lens_of_radius(radius_mm)?;
+        let light = |at_mm: DVec2| lens.projected_solid_angle_sr(at_mm);
+        Ok(light(DVec2::new(radius_mm, 0.0)) >= 0.5 * light(DVec2::ZERO))
+    };
+    let mut lit_mm = SMALL_MM;
+    let mut dark_mm = FULL_FRAME_MM;
+    while lit_mm * RADIUS_STEP < FULL_FRAME_MM {
+        if !is_lit(lit_mm * RADIUS_STEP)? {
+            dark_mm = lit_mm * RADIUS_STEP;
+            break;
+        }
+        lit_mm *= RADIUS_STEP;
+    }
+    for _ in 0..HALVINGS {
+        let middle_mm = 0.5 * (lit_mm + dark_mm);
+        *if is_lit(middle_mm)? { &mut lit_mm } else { &mut dark_mm } = middle_mm;
+    }
+    Ok(lit_mm)
 }
 
 fn compiled(request: &LensRequest, file: &Path, generated: Option<String>) -> Result<MeasuredBody, Error> {
     let f_number = request.f_number.map(|n| format!("lens.f_number={n}"));
-    let changes: Vec<String> = request.set.iter().cloned().chain(f_number).collect();
+    let paths: Vec<Value> = request.glasses.iter().map(|file| Value::from(file.to_string_lossy())).collect();
+    let glasses = (!paths.is_empty()).then(|| format!("lens.glasses={}", Value::Array(paths)));
+    let changes: Vec<String> = request.set.iter().cloned().chain(f_number).chain(glasses).collect();
     let overrides = Overrides::new(&changes);
     let read = |path: &Path| match &generated {
         Some(text) if path == file => Ok(text.clone()),
@@ -122,7 +177,7 @@ impl Fields {
     }
 
     /// Returns its radius on the sensor: for an angle, where the lens images it; for an object height, from first order.
-    fn radius_mm(self, lens: &Lens, build: impl Fn(f64) -> Result<CameraBody, Error>) -> Option<f64> {
+    fn radius_mm(self, lens: &Lens, build: impl Fn(f64) -> Result<Lens, Error>) -> Option<f64> {
         let f = lens.focal_length_mm();
         let radius_mm = match self {
             Self::Image { height_mm } => height_mm,
@@ -135,7 +190,7 @@ impl Fields {
                 // An image that is large enough for the distortion of usual lenses.
                 let rectilinear = if cosine > 0.0 { 1.3 * sine / cosine } else { f64::INFINITY };
                 let wide = build(f * rectilinear.min(2.5 * rad)).ok()?;
-                wide.lens.project(DVec3::new(sine, 0.0, cosine))?.length()
+                wide.project(DVec3::new(sine, 0.0, cosine))?.length()
             }
         };
         Some(radius_mm).filter(|r| r.is_finite() && *r > 0.0)

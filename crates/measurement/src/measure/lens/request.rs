@@ -1,6 +1,7 @@
 //! Request of `measure lens`.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use clap::Args;
 use etendue_arguments::integer;
@@ -21,11 +22,14 @@ pub struct LensRequest {
     /// F-number at infinity focus, in place of the camera's or the lens file's
     #[arg(long, value_name = "N")]
     pub f_number: Option<f64>,
+    /// Glass catalogue of Zemax (.agf), searched before those built in; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub glasses: Vec<PathBuf>,
     /// Number of field heights, from the axis to the edge of the image
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = integer(FIELDS))]
     pub fields: u32,
     /// For a lens without a sensor: radius of the image from the axis, mm [default: the largest field that a lens file states,
-    /// otherwise 21.64; or as far as there is light]
+    /// otherwise where half of the axis's light arrives; at most 21.64]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub picture_radius_mm: Option<f64>,
     /// Wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise
@@ -41,6 +45,7 @@ impl LensRequest {
             lens: lens.into(),
             set: Vec::new(),
             f_number: None,
+            glasses: Vec::new(),
             fields: 6,
             picture_radius_mm: None,
             wavelength_nm: None,

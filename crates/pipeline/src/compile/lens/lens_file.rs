@@ -8,7 +8,7 @@ use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_scene::asset::{GlassAsset, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::record::lens::prescription as record;
-use etendue_spectra::glass::{self, Dispersion, GlassError};
+use etendue_spectra::glass::{Dispersion, GlassError};
 
 /// Opening of the stop, relative to its own, for the computation of first-order quantities: no other surface then clips.
 const PARAXIAL_OPENING: f64 = 1e-4;
@@ -174,7 +174,7 @@ fn note_sensor_position(
 pub(super) fn surface_from_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
     let glass = match &surface.glass {
         GlassAsset::Air => Dispersion::AIR,
-        GlassAsset::Named(name) => glass::by_name(name)?.dispersion,
+        GlassAsset::Named(glass) => glass.dispersion,
         GlassAsset::Index(n) => Dispersion::Constant { n: *n }.checked()?,
         GlassAsset::Abbe { index, abbe } => Dispersion::from_abbe(*index, *abbe)?,
     };

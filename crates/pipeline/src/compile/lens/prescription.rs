@@ -54,11 +54,11 @@ fn lens_surfaces<'a>(record: &record::Prescription, context: &mut Context<'a>) -
     match &record.source {
         SurfaceListSource::Published(name) => published_surfaces(name, context),
         SurfaceListSource::File(file) => {
-            let asset = context.assets.prescriptions.get(&file.value)?;
+            let asset = context.assets.prescriptions.get(&(file.value.clone(), record.glass_files()))?;
             from_lens_file(asset, record, file, context)
         }
         SurfaceListSource::Surfaces(surfaces) => {
-            let compiled: Vec<_> = surfaces.iter().map(|s| surface(s, context)).collect();
+            let compiled: Vec<_> = surfaces.iter().map(|s| surface(s, record, context)).collect();
             Some(LensSurfaces { surfaces: compiled.into_iter().collect::<Option<_>>()?, file: None })
         }
     }
@@ -125,9 +125,9 @@ fn apertures(
     }
 }
 
-fn surface(s: &record::Surface, context: &mut Context<'_>) -> Option<Surface> {
+fn surface(s: &record::Surface, lens: &record::Prescription, context: &mut Context<'_>) -> Option<Surface> {
     let number = |v: &Option<Placed<f64>>, default: f64| v.as_ref().map_or(default, |v| v.value);
-    let glass = s.glass.as_ref().map_or(Some(Dispersion::AIR), |glass| dispersion(glass, context))?;
+    let glass = s.glass.as_ref().map_or(Some(Dispersion::AIR), |glass| dispersion(glass, lens, context))?;
     let mut asphere = [0.0; ASPHERE_TERMS];
     asphere.iter_mut().zip(s.asphere.iter().flatten()).for_each(|(to, from)| *to = from.value);
     let radius_mm = number(&s.radius_mm, f64::INFINITY);
@@ -165,12 +165,33 @@ pub(in super::super) fn coating(record: &record::Coating) -> Coating {
     }
 }
 
-fn dispersion(glass: &Glass, context: &mut Context<'_>) -> Option<Dispersion> {
+fn dispersion(glass: &Glass, lens: &record::Prescription, context: &mut Context<'_>) -> Option<Dispersion> {
     let (place, dispersion) = match glass {
-        Glass::Named(name) => (&name.place, glass::by_name(&name.value).map(|glass| glass.dispersion)),
+        Glass::Named(name) => return named_glass(name, lens, context),
         Glass::Numbers(numbers) => (&numbers.place, dispersion_from_numbers(numbers)),
     };
     context.accept(place, dispersion)
+}
+
+/// A glass by its name: of the lens's catalogues, in their order, or built in.
+fn named_glass(name: &Placed<String>, lens: &record::Prescription, context: &mut Context<'_>) -> Option<Dispersion> {
+    let assets = context.assets;
+    for file in &lens.glasses {
+        let catalogue = assets.glass_catalogues.get(&file.value)?;
+        match catalogue.find(&name.value) {
+            Ok(Some(glass)) => return Some(glass.dispersion),
+            Ok(None) => {}
+            Err(error) => {
+                let problem = format!("{} (line {} of {})", error.problem, error.line, file.value.display());
+                context.error(ErrorCode::UnsuitableFile, &name.place, problem, "give another glass");
+                return None;
+            }
+        }
+    }
+    match glass::find(&name.value, &[]) {
+        Some(found) => Some(found.glass.dispersion),
+        None => context.accept(&name.place, glass::by_name(&name.value).map(|glass| glass.dispersion)),
+    }
 }
 
 fn dispersion_from_numbers(numbers: &record::GlassNumbers) -> Result<Dispersion, GlassError> {
@@ -285,7 +306,7 @@ fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mu
         }
         (_, SurfaceListSource::File(file)) => {
             let assets = context.assets;
-            let asset = assets.prescriptions.get(&file.value);
+            let asset = assets.prescriptions.get(&(file.value.clone(), record.glass_files()));
             let at = error.surface().and_then(|number| asset?.surfaces.get(number - 1)).map(|surface| surface.line);
             let opening = asset.filter(|_| matches!(error, PrescriptionError::Cone { .. })).map(|a| a.opening_line);
             let at = at.or(opening);

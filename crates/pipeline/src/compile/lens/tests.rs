@@ -5,9 +5,10 @@ use crate::plan::{CameraPlan, Plan};
 use crate::render::rays::ray_table;
 use etendue_optics::Lens;
 use etendue_scene::asset::{
-    ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset,
+    ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, NamedGlass, PrescriptionAsset, SurfaceAsset,
 };
 use etendue_scene::{Description, Overrides};
+use etendue_spectra::glass::by_name;
 use std::path::Path;
 
 fn plan_with(lens: &str, further: &str, assets: &Assets) -> Result<Plan, String> {
@@ -95,7 +96,7 @@ fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset
 #[test]
 fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
     let mut assets = Assets::default();
-    let glass = GlassAsset::Named("N-BK7".to_owned());
+    let glass = GlassAsset::Named(Box::new(NamedGlass::built_in(by_name("N-BK7").expect("a glass"))));
     let surfaces = vec![file_surface(30.0, None, glass, true), file_surface(-30.0, Some(5.0), GlassAsset::Air, false)];
     let asset = PrescriptionAsset {
         title: String::new(),
@@ -112,7 +113,7 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         notes: Vec::new(),
         hash: [0; 32],
     };
-    assets.prescriptions.insert("lens.zmx".into(), asset);
+    assets.prescriptions.insert(("lens.zmx".into(), Vec::new()), asset);
     let lens = "type = \"prescription\"\nfile = \"lens.zmx\"\nfocus_distance_m = \"infinity\"\n";
     let text = plan_with(lens, "", &assets).map(|_| ()).expect_err("no aperture");
     assert!(text.contains("1 (line 12)") && text.contains("semi_apertures_mm"), "{text}");
@@ -147,7 +148,7 @@ fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> Presc
 
 fn plan_of_file(asset: PrescriptionAsset) -> Result<Plan, String> {
     let mut assets = Assets::default();
-    assets.prescriptions.insert("lens.seq".into(), asset);
+    assets.prescriptions.insert(("lens.seq".into(), Vec::new()), asset);
     plan_with("type = \"prescription\"\nfile = \"lens.seq\"\n", "", &assets)
 }
 

@@ -17,6 +17,8 @@ record! {
         inside source: SurfaceListSource;
         /// With "file": clear semi-apertures of its surfaces. Default: the file's, otherwise as its fields need.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
+        /// Glass catalogues of Zemax, searched in this order before those built in.
+        many glasses: Placed<PathBuf> = list(path(&["agf"]), 1);
         /// f-number at infinity focus; opens the stop, at most to its semi-aperture. Default: the file's, or the full stop.
         optional f_number: Placed<f64> = f_number();
         /// Distance from the entrance pupil to the plane in focus. Default, with "file" only: its object.
@@ -30,6 +32,14 @@ record! {
         optional coating: Coating = coating();
         /// Interference filter in front of the sensor.
         optional ir_cut: IrCut = record();
+    }
+}
+
+impl Prescription {
+    /// Paths of its glass catalogues.
+    #[must_use]
+    pub fn glass_files(&self) -> Vec<PathBuf> {
+        self.glasses.iter().map(|file| file.value.clone()).collect()
     }
 }
 
@@ -59,7 +69,7 @@ record! {
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
         /// Radius of the clear aperture.
         required semi_aperture_mm: Placed<f64> = number("mm").above(0.0);
-        /// Medium behind the surface: a glass of Schott or Ohara ("N-BK7"), or a table. Default: air.
+        /// Medium behind the surface: a glass of a catalogue ("N-BK7"; as "F2_HOYA" of that maker), or a table. Default: air.
         optional glass: Glass = glass();
         /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating.
         optional coating: Coating = coating();
@@ -181,6 +191,10 @@ fn focus_by() -> impl Rule<Out = FocusingPart> {
 }
 
 fn check(lens: &Prescription, errors: &mut DescriptionErrors) {
+    if let (Some(file), SurfaceListSource::Published(_)) = (lens.glasses.first(), &lens.source) {
+        let problem = "\"glasses\" has no effect here: the glasses of a published lens are known";
+        errors.add(ErrorCode::NoEffect, &file.place, problem, "remove it");
+    }
     if lens.focus_distance_m.is_none() && !matches!(lens.source, SurfaceListSource::File(_)) {
         let problem = "the key \"focus_distance_m\" is missing";
         errors.add(
