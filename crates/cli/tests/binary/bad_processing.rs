@@ -144,7 +144,7 @@ fn tone_curves_that_cannot_be() {
     refused("tone_curve = { contrast = 1.5, midpoint = 1 }", &["midpoint"]);
     refused("tone_curve = { gamma = 2, midpoint = 0.4 }", &["midpoint", "no effect"]);
     let (table, oecf) = ("tone_curve = { table = \"table.csv\" }", "tone_curve = { oecf = \"table.csv\" }");
-    table_refused(table, "0,0\n0.6,0.5\n0.5,0.7\n1,1\n", &["tone_curve", "point 3", "rise"]);
+    table_refused(table, "0,0\n0.6,0.5\n0.5,0.7\n1,1\n", &["tone_curve", "point 3", "must increase"]);
     table_refused(table, "0,0\n0.5,0.7\n1,0.6\n", &["tone_curve", "point 3", "must not decrease"]);
     table_refused(table, "0.1,0\n1,1\n", &["tone_curve", "from input 0 to input 1"]);
     table_refused(table, "0,0,0\n1,1,1\n", &["tone_curve", "3 columns"]);

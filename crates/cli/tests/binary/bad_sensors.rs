@@ -55,7 +55,12 @@ fn a_converter_without_gain() {
 
 #[test]
 fn a_tile_that_does_not_tile_the_sensor() {
-    refused_below(5, "width_px = 46", "width_px = 45", &["cameras.front.sensor.cfa", "2 × 2", "45 × 30", "multiples"]);
+    refused_below(
+        5,
+        "width_px = 46",
+        "width_px = 45",
+        &["cameras.front.sensor.cfa", "2 × 2", "45 × 30", "no multiple"],
+    );
     let tile = "cfa = { columns = 3, channels = [\"red\", \"green\", \"blue\", \"green\"] }";
     refused_below(0, "cfa = \"rggb\"", tile, &["cameras.front.sensor", "3"]);
 }
@@ -101,12 +106,12 @@ fn skipped_rows_that_cannot_be() {
     let with = |more: &str| format!("{BITS}\n{more}");
     refused_below(1, BITS, &with("skipping = { rows = 65 }"), &["cameras.front.sensor.skipping.rows", "found 65"]);
     // 30 rows of tiles of two.
-    let left_over = ["cameras.front.sensor.skipping", "rows of 8"];
+    let left_over = ["cameras.front.sensor.skipping", "8 rows"];
     refused_below(1, BITS, &with("skipping = { rows = 4 }"), &left_over);
     let both = "skipping = { rows = 3 }\nbinning = { columns = 1, rows = 3, of = \"charge\" }";
     refused_below(1, BITS, &with(both), &["cameras.front.sensor.skipping", "not both", "\"binning\""]);
     let region = "skipping = { rows = 3 }\nroi_px = [0, 2, 46, 24]";
-    refused_below(2, BITS, &with(region), &["cameras.front.sensor.roi_px", "rows of 6"]);
+    refused_below(2, BITS, &with(region), &["cameras.front.sensor.roi_px", "6 rows"]);
 }
 
 #[test]

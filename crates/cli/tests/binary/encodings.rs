@@ -121,7 +121,7 @@ fn tables_and_words_that_are_no_encoding_are_refused() {
     let falling = images.write("falling.csv", b"0, 0\n0.5, 0.9\n1, 0.8\n");
     sfr(&image, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs must not decrease"]);
     let wide = images.write("wide.csv", b"0, 0, 1\n1, 1, 1\n");
-    sfr(&image, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
+    sfr(&image, &["--encoding", &wide]).refused(&["wide.csv", "number of columns is 3", "expected two"]);
 }
 
 /// Photon transfer measures linear numbers: a frame that states an encoding is refused.
