@@ -280,6 +280,11 @@ impl TreeError {
         Self::at(line, Problem::new(code, what))
     }
 
+    /// The same error with a remedy at its end.
+    pub(crate) fn with_remedy(self, remedy: &str) -> Self {
+        Self { what: format!("{}; {remedy}", self.what), ..self }
+    }
+
     pub(crate) fn in_file(self, file: &Path) -> Error {
         let what = Problem::new(self.code, self.what);
         if self.line == 0 { Error::new(file, what) } else { Error::at(file, self.line, what) }

@@ -21,6 +21,7 @@ pub mod export;
 mod f_theta;
 mod file_storage;
 mod kalibr;
+mod likely_format;
 mod models;
 mod ocam;
 mod opencv;
@@ -31,6 +32,7 @@ mod xml;
 
 use std::path::Path;
 
+use etendue_core::words::Word as _;
 use etendue_projection::Calibration;
 
 use crate::hash::{self, ContentHash};
@@ -65,11 +67,20 @@ pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&
     let result = if format == CalibrationFormat::Colmap && colmap::is_binary(&bytes) {
         colmap::read_binary(&bytes, camera)
     } else {
-        read_text(decode_text(file, &bytes)?, format, camera)
+        let text = decode_text(file, &bytes)?;
+        read_text(text, format, camera).map_err(|error| with_other_format(error, text, format))
     };
     let ReaderResult { name, calibration, states_size, notes } =
         result.and_then(|result| result.chosen(camera)).map_err(|error| error.in_file(file))?;
     Ok(ImportedCamera { name, calibration, states_size, notes, hash: hash::hash_bytes(&bytes) })
+}
+
+/// The error, with the format that the text appears to have.
+fn with_other_format(error: TreeError, text: &str, stated: CalibrationFormat) -> TreeError {
+    match likely_format::other_format(text, stated) {
+        Some(other) => error.with_remedy(&format!("the file has the keys of the format \"{}\"", other.word())),
+        None => error,
+    }
 }
 
 fn read_text(text: &str, format: CalibrationFormat, camera: Option<&str>) -> Read<ReaderResult> {

@@ -233,6 +233,29 @@ fn what_changes_the_camera_is_refused_by_name() {
 }
 
 #[test]
+fn an_error_names_the_format_that_the_file_has() {
+    use CalibrationFormat::{Camodocal, Colmap, Euroc, Kalibr, Ocam, OpenCv, Ros};
+    let cases = [
+        ("out_camera_data.xml", Kalibr, "opencv"),
+        ("old_sample.yml", Ros, "opencv"),
+        ("ros1_echo.yaml", Kalibr, "ros"),
+        ("ost.txt", OpenCv, "ros"),
+        ("ros_plumb_bob.yaml", Euroc, "ros"),
+        ("camchain.yaml", Ros, "kalibr"),
+        ("euroc_radtan.yaml", Camodocal, "euroc"),
+        ("camodocal_mei.yaml", OpenCv, "camodocal"),
+        ("camodocal_mei.yaml", Colmap, "camodocal"),
+        ("camchain.yaml", Ocam, "kalibr"),
+    ];
+    for (name, stated, actual) in cases {
+        let message = read_calibration(&stored(name), stated, None).expect_err(name).to_string();
+        assert!(message.ends_with(&format!("; the file has the keys of the format \"{actual}\"")), "{name}: {message}");
+    }
+    let message = read_calibration(&stored("stereo.xml"), OpenCv, None).expect_err("two cameras").to_string();
+    assert!(message.ends_with("select one by its name"), "{message}");
+}
+
+#[test]
 fn a_broken_binary_of_colmap_is_refused() {
     let bytes = std::fs::read(stored("cameras.bin")).expect("bytes");
     let folder = tempfile::tempdir().expect("a folder");
