@@ -1,7 +1,7 @@
 //! Cameras of a FileStorage: OpenCV has no fixed keys, so its samples and the programs that use it differ in their spelling.
 //!
 //! Keys are compared without case and punctuation. `label` is what stands beside them in files of several cameras, before or after: `M1`, `cameraMatrix2`,
-//! `LEFT.K`, `K_right`, `Camera1.fx`. Cameras may also be maps of their own, with their names as keys.
+//! `LEFT.K`, `K_right`, `Camera1.fx`. Cameras may also be maps of their own, with their names as keys, or items of a list with a `name`.
 //!
 //! | is | keys |
 //! | --- | --- |
@@ -153,11 +153,18 @@ fn collect<'a>(root: &'a TreeNode, folder: &Folder<'a>, cameras: &mut Vec<Stored
             used: RefCell::new(if matches!(numbers, Numbers::Matrix(_)) { vec![key] } else { Vec::new() }),
         });
     }
-    for (key, node) in folder.map.entries() {
-        if node.find("data").is_none() && folder.path.len() < MAX_MAPS {
-            let path = [&folder.path[..], &[key]].concat();
-            let inner = Folder { map: node, top_key: folder.top_key.or(Some(key)), path };
-            collect(root, &inner, cameras);
+    if folder.path.len() == MAX_MAPS {
+        return;
+    }
+    for (key, node) in folder.map.entries().iter().filter(|(_, node)| node.find("data").is_none()) {
+        let mut enter = |map: &'a TreeNode, name: &'a str| {
+            let path = [&folder.path[..], &[name]].concat();
+            collect(root, &Folder { map, top_key: folder.top_key.or(Some(key)), path }, cameras);
+        };
+        enter(node, key);
+        for item in node.items().unwrap_or_default().iter().filter(|item| !item.entries().is_empty()) {
+            let name = ["name", "camera_name", "id"].iter().find_map(|name| item.find(name)?.text().ok());
+            enter(item, name.unwrap_or(key));
         }
     }
 }

@@ -115,6 +115,23 @@ fn spellings_of_the_same_file_are_the_same_camera() {
 }
 
 #[test]
+fn cameras_of_a_list_have_their_names() {
+    let text = r#"{"cameras": [
+        {"name": "front", "size": [640, 480], "K": [[400, 0, 320], [0, 401, 240], [0, 0, 1]], "dist": [[0.1, 0, 0, 0, 0]]},
+        {"name": "rear", "width": 320, "height": 240, "fx": 200, "fy": 201, "cx": 159.5, "cy": 119.5, "k1": -0.2}
+    ]}"#;
+    let read = |camera| read("a.json", text, CalibrationFormat::OpenCv, Some(camera));
+    let rear = read("rear").expect("read").calibration;
+    assert_eq!((rear.size_px(), rear.matrix().fx, rear.matrix().cx), ([320, 240], 200.0, 160.0));
+    // (0.5, 0) is distorted to 0.5 (1 − 0.2 · 0.25) = 0.475: column 0.475 · 200 + 160.
+    let image = rear.project(DVec3::new(0.5, 0.0, 1.0)).expect("seen");
+    assert!((image - DVec2::new(255.0, 120.0)).length() < TOLERANCE_PX, "{image}");
+    assert_eq!(read("front").expect("read").calibration.matrix().fy, 401.0);
+    let message = read("left").expect_err("no such camera");
+    assert!(message.contains("contains no camera \"left\"; it contains front, rear"), "{message}");
+}
+
+#[test]
 fn notes_state_what_was_not_used_or_assumed() {
     let notes = |name: &str, format, camera| read_calibration(&stored(name), format, camera).expect("read").notes;
     use CalibrationFormat::{Camodocal, Euroc, Kalibr, OpenCv, Ros};
