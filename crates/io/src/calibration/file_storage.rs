@@ -77,7 +77,7 @@ fn is_label(text: &str) -> bool {
     is_number || ["left", "right", "l", "r", "rgb", "color", "colour", "ir", "depth"].contains(&rest)
 }
 
-/// Where the numbers of a camera are.
+/// Place of the numbers of a camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Numbers<'a> {
     /// A camera matrix.
