@@ -54,7 +54,7 @@ def turned(q):
 
 def seen(points, k, model, d):
     """Raster pixels of points of the camera's frame."""
-    if model in ("equidistant", "equi"):
+    if model == "equidistant":
         pixels, _ = cv2.fisheye.projectPoints(points[:, None, :], ZERO, ZERO, k, np.array(d))
     else:
         pixels, _ = cv2.projectPoints(points, ZERO, ZERO, k, np.array(d))

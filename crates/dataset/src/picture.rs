@@ -9,7 +9,7 @@
 use core::cell::OnceCell;
 use std::collections::BTreeMap;
 
-use etendue::{CameraResults, Error, ErrorCode, GroundTruth, WorldObject, camera_mount, pinhole_view};
+use etendue::{CameraPlan, CameraResults, Error, ErrorCode, GroundTruth, WorldObject, camera_mount, pinhole_view};
 use etendue_core::{CameraPose, Plane, quantity::Display};
 use glam::DQuat;
 
@@ -39,6 +39,11 @@ impl SampleImage<'_> {
         }
         let encoded = self.results.cryptomatte()?;
         Ok(self.cryptomatte.get_or_init(|| encoded))
+    }
+
+    /// Camera of the image.
+    pub(crate) fn camera(&self) -> &CameraPlan {
+        self.results.camera()
     }
 
     /// All objects of the world at the image's time.

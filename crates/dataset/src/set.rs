@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use etendue::{Error, ErrorCode, Job, pinhole_view};
+use etendue::{Error, ErrorCode, Job, pinhole_view, ros_view};
 use etendue_scene::Placed;
 use etendue_scene::record::variations::{SetFormat, Variations};
 use serde_json::{Value, json};
@@ -162,7 +162,7 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
 const MAX_NAME_IN_TAR: usize = 69;
 
 fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
-    let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes, SetFormat::Mcap];
+    let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes];
     let needs_png = [SetFormat::Kitti, SetFormat::Cityscapes];
     let names: Vec<&str> = job.plan().cameras.iter().map(|camera| camera.name.as_str()).collect();
     for camera in &job.plan().cameras {
@@ -189,6 +189,13 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
             && let Err(why) = pinhole_view(camera)
         {
             return refuse(*format, &format!("{why}; remove the format, or use a lens without distortion"));
+        }
+        if formats.contains(&SetFormat::Mcap)
+            && pinhole_view(camera).is_err()
+            && let Err(why) = ros_view(camera)
+        {
+            let remedy = "remove the format, or use a projection that ROS has";
+            return refuse(SetFormat::Mcap, &format!("{why}; {remedy}"));
         }
     }
     Ok(())

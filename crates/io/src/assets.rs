@@ -135,8 +135,9 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         AssetKind::PointSpread => drop(assets.point_spreads.insert(key, read_point_spread(path)?)),
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;
-            let ImportedCamera { calibration, notes: report, hash, .. } = camera;
-            assets.calibrations.insert((key, choice.clone()), CalibrationAsset { calibration, report, hash });
+            let ImportedCamera { calibration, states_size, notes: report, hash, .. } = camera;
+            let asset = CalibrationAsset { calibration, states_size, report, hash };
+            assets.calibrations.insert((key, choice.clone()), asset);
         }
     }
     Ok(())

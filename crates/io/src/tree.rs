@@ -1,7 +1,7 @@
 //! YAML (and so JSON) as a tree whose nodes know their line.
 //!
-//! Aliases, tags and multiple documents are not supported. No supported program writes them except OpenCV's `!!opencv-matrix`, which adds nothing to its keys.
-//! OpenCV's own header `%YAML:1.0`, which is not YAML, is ignored.
+//! Aliases and tags are not supported. No supported program writes them except OpenCV's `!!opencv-matrix`, which adds nothing to its keys. Of several documents
+//! the first is read. OpenCV's own header `%YAML:1.0`, which is not YAML, is ignored.
 
 use std::{borrow::Cow, collections::BTreeSet, path::Path};
 
@@ -18,19 +18,24 @@ pub(crate) struct TreeNode {
 }
 
 #[derive(Debug)]
-enum NodeValue {
+pub(crate) enum NodeValue {
     Scalar(String),
     List(Vec<TreeNode>),
     Map(Vec<(String, TreeNode)>),
 }
 
 /// Maximum depth, beyond that of any real file.
-const MAX_DEPTH: usize = 32;
+pub(crate) const MAX_DEPTH: usize = 32;
 /// Maximum number of commas and brackets, beyond that of any real file: each value takes up to 800 bytes while it is read.
-const MAX_VALUES: usize = 1 << 21;
+pub(crate) const MAX_VALUES: usize = 1 << 21;
 
-/// Reads a document whose root is a map.
+/// Reads the first document of a text; its root is a map.
 pub(crate) fn parse(text: &str) -> TreeResult<TreeNode> {
+    first_document(text).map(|(root, _)| root)
+}
+
+/// Reads the first document of a text, and returns true beside it if another one follows.
+pub(crate) fn first_document(text: &str) -> TreeResult<(TreeNode, bool)> {
     let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if values > MAX_VALUES {
         return Err(TreeError::coded(
@@ -51,7 +56,7 @@ pub(crate) fn parse(text: &str) -> TreeResult<TreeNode> {
             (event, span) => {
                 let root = events.node(event, span, 0)?;
                 return match root.value {
-                    NodeValue::Map(_) => Ok(root),
+                    NodeValue::Map(_) => Ok((root, events.has_another())),
                     _ => Err(TreeError::at(root.line, "expected keys with values (key: value)")),
                 };
             }
@@ -83,6 +88,20 @@ impl<'a> Events<'a> {
                 Err(TreeError::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info())))
             }
             None => Err(TreeError::at(0, "not YAML or JSON: the file ends too early")),
+        }
+    }
+
+    /// Returns true if a document with content, or text that is no YAML, follows the document that has been read.
+    fn has_another(&mut self) -> bool {
+        loop {
+            match self.next() {
+                Ok((Event::DocumentEnd | Event::DocumentStart(_), _)) => {}
+                // A final "---" makes an empty document.
+                Ok((Event::Scalar(text, ScalarStyle::Plain, ..), _)) if plain(&text, ScalarStyle::Plain).is_empty() => {
+                }
+                Ok((Event::StreamEnd, _)) => return false,
+                _ => return true,
+            }
         }
     }
 
@@ -144,6 +163,11 @@ fn plain(text: &str, style: ScalarStyle) -> String {
 }
 
 impl TreeNode {
+    /// Node with a value and its line.
+    pub(crate) fn new(line: usize, value: NodeValue) -> Self {
+        Self { line, value }
+    }
+
     /// Value of a key, if present.
     pub(crate) fn find(&self, key: &str) -> Option<&TreeNode> {
         self.entries().iter().find(|(name, _)| name == key).map(|(_, node)| node)
@@ -194,8 +218,9 @@ impl TreeNode {
     /// A number of pixels.
     pub(crate) fn count(&self) -> TreeResult<usize> {
         let text = self.text()?;
-        let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-        count.ok_or_else(|| {
+        // OpenCV writes a whole number of type double as "640.".
+        let count = text.parse::<f64>().ok().filter(|n| (1.0..=1e6).contains(n) && n.fract() == 0.0);
+        count.map(|count| count as usize).ok_or_else(|| {
             TreeError::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1"))
         })
     }
@@ -213,6 +238,11 @@ impl TreeNode {
         let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
         let rows: Vec<Vec<f64>> = items.iter().map(TreeNode::numbers).collect::<TreeResult<_>>()?;
         Ok(rows.concat())
+    }
+
+    /// All numbers, or none for an empty value.
+    pub(crate) fn numbers_or_none(&self) -> TreeResult<Vec<f64>> {
+        if self.text().is_ok_and(str::is_empty) { Ok(Vec::new()) } else { self.numbers() }
     }
 
     /// List of exactly `N` numbers; `what` names it in messages.
@@ -250,6 +280,11 @@ impl TreeError {
 
     pub(crate) fn coded(code: ErrorCode, line: usize, what: impl Into<String>) -> Self {
         Self::at(line, Problem::new(code, what))
+    }
+
+    /// The same error with a remedy at its end.
+    pub(crate) fn with_remedy(self, remedy: &str) -> Self {
+        Self { what: format!("{}; {remedy}", self.what), ..self }
     }
 
     pub(crate) fn in_file(self, file: &Path) -> Error {

@@ -84,6 +84,17 @@ impl Calibration {
         Ok(Self { model, matrix, size_px, max_angle_rad: None })
     }
 
+    /// The same camera with another image size (width, height).
+    ///
+    /// # Errors
+    /// If the size is empty.
+    pub fn with_size(self, size_px: [usize; 2]) -> Result<Self, CalibrationError> {
+        match size_px {
+            [0, _] | [_, 0] => Err(CalibrationError::Empty { width: size_px[0], height: size_px[1] }),
+            _ => Ok(Self { size_px, ..self }),
+        }
+    }
+
     /// The same camera limited to directions below this field angle.
     ///
     /// # Errors

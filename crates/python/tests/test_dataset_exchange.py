@@ -143,6 +143,32 @@ def test_mcap_has_our_pictures_depth_cameras_and_poses(drive):
         assert [at.x, at.y, at.z] == picture["pose"]["position_m"] and [turned.w, turned.x, turned.y, turned.z] == picture["pose"]["rotation_wxyz"]
 
 
+@pytest.mark.parametrize("model", ["plumb_bob", "equidistant"])
+def test_mcap_has_distorted_cameras(tmp_path, model):
+    cv2 = pytest.importorskip("cv2")
+    projection = {"plumb_bob": {"type": "opencv", "fx_px": 80, "distortion": [-0.2, 0.05, 0.001, -0.002]},
+                  "equidistant": {"type": "kannala_brandt", "fx_px": 60, "fy_px": 61, "skew_px": 0.5, "k": [-0.02, 0.006, -0.004, 0.001]}}[model]
+    changes = {"cameras.right": None, "cameras.rear": None, "cameras.left.output": None, "cameras.left.lens": {"type": "calibrated", "f_number": 4, "projection": projection}}
+    sizes = {f"cameras.left.sensor.{key}": value for key, value in {"width_px": 96, "height_px": 60, "pixel_pitch_um": 60}.items()}
+    etendue.dataset(ROOT / "scenes/drive/drive.toml", output=tmp_path / "set", frames=range(0, 1), spp=1, integrator="flat", set={**changes, **sizes}, format=["mcap"])
+    (name,) = (tmp_path / "set/mcap/train").glob("*.mcap")
+    topics = messages(name)
+    ((_, info),), ((_, cloud),) = topics["/left/camera_info"], topics["/left/points"]
+    assert info.distortion_model == model and list(info.d) == (projection["distortion"] + [0] if model == "plumb_bob" else projection["k"])
+    points = np.frombuffer(bytes(cloud.data), [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("rgb", "<u4")]).reshape(60, 96)
+    rows, columns = np.nonzero(np.isfinite(points["z"]))
+    assert len(rows) > 1000
+    solid = np.stack([points[axis][rows, columns].astype(float) for axis in "xyz"], axis=-1)[:, None, :]
+    matrix, zero = np.array(info.k).reshape(3, 3), np.zeros(3)
+    if model == "plumb_bob":
+        pixels, _ = cv2.projectPoints(solid, zero, zero, matrix, np.array(info.d))
+    else:
+        alpha, matrix[0, 1] = matrix[0, 1] / matrix[0, 0], 0
+        pixels, _ = cv2.fisheye.projectPoints(solid, zero, zero, matrix, np.array(info.d), alpha=alpha)
+    # Single-precision points of some 100 m: 1e-7 of 100 px, and some roundings.
+    assert np.allclose(pixels.reshape(-1, 2), np.stack([columns, rows], axis=-1), atol=1e-4)
+
+
 def test_openlabel_is_valid_by_the_standard_s_schema_and_has_our_boxes(drive, boxes):
     checker = pytest.importorskip("openlabel_checker.cli")
     for folder, count in ((drive, 1), (boxes, 2)):

@@ -195,6 +195,7 @@ impl Job {
         let rig = rig::all_files(&self.plan, frames);
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(rig.files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+        self.plan.description_warnings().iter().for_each(|warning| observer.message(Message::Warning(warning)));
         rig::write(&rig, &mut folder, observer)?;
         folder.commit().map_err(Error::run)
     }

@@ -36,7 +36,7 @@ pub use memory::{MemoryFiles, MeshTriangles};
 pub use memory_limits::{FilmMemory, MemoryLimit, MemoryLimits};
 pub use result_files::{ResultFiles, write_file};
 pub use results::{CameraResults, Results, display_jpeg};
-pub use rig::{PinholeView, camera_mount, pinhole_view};
+pub use rig::{PinholeView, RosView, camera_mount, pinhole_view, ros_view};
 pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
 pub use shard::{ShardRequest, ShardSpec, merge};
 pub use weather::{WeatherRequest, weather};

@@ -213,6 +213,33 @@ pub fn pinhole_view(camera: &CameraPlan) -> Result<PinholeView, String> {
     Ok(PinholeView { matrix_px, mount: camera_mount(camera) })
 }
 
+/// A camera that a `camera_info` of ROS describes.
+#[derive(Clone, Debug)]
+pub struct RosView {
+    /// Fields of the `camera_info`.
+    pub info: ros::CameraInfo,
+    calibration: Calibration,
+}
+
+impl RosView {
+    /// Tangents (x/z, y/z) of the direction in the camera's frame that a raster point sees; `None` if it sees nothing before the camera.
+    #[must_use]
+    pub fn tangents(&self, raster_px: DVec2) -> Option<DVec2> {
+        let direction = self.calibration.unproject(raster_px)?;
+        (direction.z > 0.0).then(|| direction.truncate() / direction.z)
+    }
+}
+
+/// Returns the `camera_info` of a camera of a plan, with its distortion.
+///
+/// # Errors
+/// ROS has no model for the camera: the rest of a sentence that begins with the camera.
+pub fn ros_view(camera: &CameraPlan) -> Result<RosView, String> {
+    let calibration = calibration(&camera.body)?;
+    let info = ros::CameraInfo::new(&calibration, 0.0)?;
+    Ok(RosView { info, calibration })
+}
+
 /// Transform from a camera's frame to the frame of the scene that carries it, m; `None` if none does, or if the camera moves in it.
 #[must_use]
 pub fn camera_mount(camera: &CameraPlan) -> Option<CameraPose> {

@@ -25,6 +25,10 @@ const WORDS: &[&str] = &[
     "xi: 1.2",
     "distortion_model: equidistant",
     "camera_model: omni",
+    "model_type: MEI",
+    "<opencv_storage>",
+    "<_>",
+    "[image]",
     "cam0:",
     "cam6:",
     "OPENCV",
@@ -58,9 +62,17 @@ pub(super) const OPENCV: Target = target(
             "tests/oracles/figures/calibrations/opencv.json",
             "tests/oracles/figures/calibrations/opencv_fisheye.yml",
             "tests/oracles/figures/calibrations/opencv_omnidir.yml",
+            "tests/oracles/figures/field_calibrations/out_camera_data.xml",
+            "tests/oracles/figures/field_calibrations/stereo.xml",
+            "tests/oracles/figures/field_calibrations/intrinsics.yml",
+            "tests/oracles/figures/field_calibrations/maps.json",
+            "tests/oracles/figures/field_calibrations/orb_slam_pinhole.yaml",
         ])
     },
-    |file| read(file, CalibrationFormat::OpenCv, &[None]) + &read(file, CalibrationFormat::OpenCvFisheye, &[None]),
+    |file| {
+        read(file, CalibrationFormat::OpenCv, &[None, Some("left"), Some("front")])
+            + &read(file, CalibrationFormat::OpenCvFisheye, &[None])
+    },
 );
 pub(super) const ROS: Target = target(
     "ros",
@@ -69,6 +81,9 @@ pub(super) const ROS: Target = target(
         repository([
             "crates/io/tests/calibrations/camera_info.yaml",
             "tests/oracles/figures/rig/calibration/ros/rear.yaml",
+            "tests/oracles/figures/field_calibrations/ros1_echo_twice.txt",
+            "tests/oracles/figures/field_calibrations/ros2_echo.yaml",
+            "tests/oracles/figures/field_calibrations/ost.txt",
         ])
     },
     |file| read(file, CalibrationFormat::Ros, &[None]),
@@ -79,12 +94,40 @@ pub(super) const KALIBR: Target = target(
     |_| repository(["crates/io/tests/calibrations/camchain.yaml"]),
     |file| read(file, CalibrationFormat::Kalibr, &["cam0", "cam1", "cam2", "cam3", "cam4", "cam5"].map(Some)),
 );
+pub(super) const EUROC: Target = target(
+    "euroc",
+    "sensor.yaml",
+    |_| repository(["tests/oracles/figures/field_calibrations/euroc_radtan.yaml"]),
+    |file| read(file, CalibrationFormat::Euroc, &[None]),
+);
+pub(super) const CAMODOCAL: Target = target(
+    "camodocal",
+    "a.yaml",
+    |_| {
+        repository([
+            "tests/oracles/figures/field_calibrations/camodocal_pinhole_full.yaml",
+            "tests/oracles/figures/field_calibrations/camodocal_mei.yaml",
+            "tests/oracles/figures/field_calibrations/camodocal_kannala_brandt.yaml",
+            "tests/oracles/figures/field_calibrations/camodocal_scaramuzza.yaml",
+        ])
+    },
+    |file| read(file, CalibrationFormat::Camodocal, &[None]),
+);
 pub(super) const COLMAP: Target = target(
     "colmap",
     "cameras.txt",
     |_| repository(["tests/oracles/figures/calibrations/cameras.txt"]),
     |file| read(file, CalibrationFormat::Colmap, &["1", "4", "7", "9", "11", "12", "14", "17", "18"].map(Some)),
 );
+pub(super) const COLMAP_BINARY: Target = Target {
+    is_text: false,
+    ..target(
+        "colmap-binary",
+        "cameras.bin",
+        |_| repository(["tests/oracles/figures/field_calibrations/cameras.bin"]),
+        |file| read(file, CalibrationFormat::Colmap, &["1", "4", "12", "18"].map(Some)),
+    )
+};
 pub(super) const OCAM: Target = target(
     "ocam",
     "calib_results.txt",

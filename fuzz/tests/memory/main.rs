@@ -53,6 +53,8 @@ fn a_reader_holds_a_stated_multiple_of_its_file() {
         ("camera", dense("format = 1\n", "[[a]]\n", "")),
         ("scene", dense("format = 1\na = [", "{a=1},", "]\n")),
         ("opencv", dense("a: [", "1,", "1]\n")),
+        ("opencv", dense("<opencv_storage><a>", "<_/>", "</a></opencv_storage>")),
+        ("opencv", dense("<opencv_storage><a>", "1 ", "</a></opencv_storage>")),
         ("kalibr", dense("cam0: [", "[1],", "1]\n")),
         ("kalibr", format!("a: 0\n[{}0]", "0,".repeat((1 << 20) + 8)).into_bytes()),
         ("ray-transfer", dense("{\"a\":[", "00,", "0]}")),

@@ -76,7 +76,7 @@ const RESTRICTED_LIBRARIES: &[(&str, &[&str])] = &[
     ("image", &["io", "scenes"]),
     ("tobj", &["io"]),
     ("gltf", &["io"]),
-    ("roxmltree", &["import"]),
+    ("roxmltree", &["import", "io"]),
     ("openusd", &["import"]),
     ("lz4_flex", &["import"]),
     ("saphyr-parser", &["io"]),

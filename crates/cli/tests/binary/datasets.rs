@@ -285,9 +285,37 @@ fn bad_variations_are_refused_where_they_stand() {
     }
     let change_text = distorted.trim_start_matches("--set=").replace('"', "\\\"");
     let varied = format!("format = 1\n[[presets]]\nname = \"lens\"\nchoices = [[\"{change_text}\"]]\n");
-    place.run_of(&varied, &["--format", "mcap"]).refused(&["sample 0", "--format mcap", "distorted"]);
+    place.run_of(&varied, &["--format", "kitti"]).refused(&["sample 0", "--format kitti", "distorted"]);
+    let equisolid = "--set=cameras.front.lens={ type = \"calibrated\", f_number = 8, projection = { type = \"equisolid\", fx_px = 20 } }";
+    place.run_of(&file, &["--format", "mcap", equisolid]).refused(&[
+        "--format mcap",
+        "camera front",
+        "ROS has no model",
+    ]);
     place.run_of(&file, &["--set=cameras.front.isp=null"]).refused(&["camera front", "[isp]"]);
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
+}
+
+/// Model and coefficients as `etendue rig` writes them: k₁ = −0.1 in focal lengths is D[0] of plumb_bob.
+#[test]
+fn mcap_has_the_distortion_of_a_camera() {
+    let place = TestFolder::new();
+    let distorted = "--set=cameras.front.lens.distortion={ k1 = -0.1, k2 = 0, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }";
+    place.run("out", &["--samples", "0..1", "--format", "mcap", distorted]).ok();
+    let files = place.files("out");
+    let (_, bytes) = files.iter().find(|(name, _)| name.ends_with(".mcap")).expect("a file");
+    let name = b"plumb_bob\0";
+    let end = bytes.windows(name.len()).position(|window| window == name).expect("the model") + name.len();
+    let numbers = |at: usize| {
+        let number = |i: usize| f64::from_le_bytes(bytes[at + 8 * i..][..8].try_into().expect("8 bytes"));
+        [0, 1, 2, 3, 4].map(number)
+    };
+    // The list, after its length, begins at the next multiple of 8 of the message.
+    let has_coefficients = |at: usize| {
+        let [k1, rest @ ..] = numbers(at);
+        (k1 + 0.1).abs() < 1e-15 && rest == [0.0; 4]
+    };
+    assert!((end..end + 16).any(has_coefficients), "{:?}", &bytes[end..end + 64]);
 }
 
 /// A BOP model has one size: a sample that violates that is discarded, and the set of the preceding ones is complete.

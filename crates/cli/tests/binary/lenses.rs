@@ -61,8 +61,17 @@ fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
 }
 
 const KANNALA: &str = "projection = { type = \"kannala_brandt\", fx_px = 25, fy_px = 26, cx_px = 23, cy_px = 14.5, k = [0.01, 0.002, 0, 0] }";
-const KALIBR: &str = "cam0:\n  camera_model: pinhole\n  distortion_model: equi\n  distortion_coeffs: [0.01, 0.002, 0, 0]\n  \
+const KALIBR: &str = "cam0:\n  camera_model: pinhole\n  distortion_model: equidistant\n  distortion_coeffs: [0.01, 0.002, 0, 0]\n  \
 intrinsics: [25, 26, 22.5, 14]\n  resolution: [46, 30]\n";
+const EUROC: &str = "sensor_type: camera\nresolution: [46, 30]\ncamera_model: pinhole\nintrinsics: [25, 26, 22.5, 14]\n\
+distortion_model: equidistant\ndistortion_coefficients: [0.01, 0.002, 0, 0]\n";
+const CAMODOCAL: &str = "%YAML:1.0\n---\nmodel_type: KANNALA_BRANDT\nimage_width: 46\nimage_height: 30\nprojection_parameters:\n   k2: 0.01\n   \
+k3: 0.002\n   mu: 25\n   mv: 26\n   u0: 22.5\n   v0: 14.\n";
+const OPENCV: &str = "<?xml version=\"1.0\"?>\n<opencv_storage>\n<fisheye_model>1</fisheye_model>\n<K type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols>\
+<dt>d</dt><data>25. 0. 22.5 0. 26. 14. 0. 0. 1.</data></K>\n<D type_id=\"opencv-matrix\"><rows>4</rows><cols>1</cols><dt>d</dt><data>0.01 0.002 0. 0.</data></D>\n\
+</opencv_storage>\n";
+const ROS: &str = "header:\n  frame_id: front\nheight: 30\nwidth: 46\ndistortion_model: equidistant\nd: [0.01, 0.002, 0, 0]\n\
+k: [25, 0, 22.5, 0, 26, 14, 0, 0, 1]\n---\n";
 const COLMAP: &str = "1 OPENCV_FISHEYE 46 30 25 26 23 14.5 0.01 0.002 0 0\n";
 const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 46, \"height\": 30, \"cx\": 22.5, \"cy\": 14, \"polynomial\": \"0 0.04\", \
 \"polynomial-type\": \"pixeldistance-to-angle\"}";
@@ -78,7 +87,15 @@ fn rendered(job: &ModifiedJob) -> (Value, std::path::PathBuf) {
 #[test]
 fn a_calibration_in_a_file_is_the_camera_of_its_numbers_and_the_side_car_says_them() {
     let in_place = lens_line(&with_lens(&calibrated(KANNALA)));
-    for (name, format, file) in [("camera.yaml", "kalibr", KALIBR), ("cameras.txt", "colmap", COLMAP)] {
+    let files = [
+        ("camera.yaml", "kalibr", KALIBR),
+        ("cameras.txt", "colmap", COLMAP),
+        ("sensor.yaml", "euroc", EUROC),
+        ("front.yaml", "camodocal", CAMODOCAL),
+        ("out_camera_data.xml", "opencv", OPENCV),
+        ("message.txt", "ros", ROS),
+    ];
+    for (name, format, file) in files {
         let job = with_lens(&calibrated(&format!("calibration = {{ file = \"{name}\", format = \"{format}\" }}")));
         job.write(name, file);
         assert_eq!(lens_line(&job), in_place, "{name}");
@@ -88,6 +105,13 @@ fn a_calibration_in_a_file_is_the_camera_of_its_numbers_and_the_side_car_says_th
         assert_eq!((projection["fy_px"].as_f64(), projection["cx_px"].as_f64()), (Some(26.0), Some(23.0)));
         assert!(calibration["convention"].as_str().is_some_and(|text| text.contains("pixel centres at +0.5")));
     }
+    let job = with_lens(&calibrated("calibration = { file = \"camera.xml\", format = \"opencv\" }"));
+    job.write("camera.xml", OPENCV);
+    let plan = etendue(["plan", &job.job()]).ok().out;
+    assert!(plan.contains("states no image size; that of the sensor, 46 × 30 px, is assumed"), "{plan}");
+    job.write("camera.xml", OPENCV.replace("22.5", "222.5"));
+    let rig = etendue(["rig", &job.job(), "-o", &text(&job.folder().join("rig"))]).ok();
+    assert!(rig.err.contains("the principal point (223.0, 14.5) px is outside the image"), "{}", rig.err);
     let job = with_lens(&calibrated("calibration = { file = \"rig.json\", format = \"f_theta\" }"));
     job.write("rig.json", F_THETA);
     let line = lens_line(&job);

@@ -5,7 +5,7 @@
 //! | `/CAMERA/image/compressed` | `sensor_msgs/msg/CompressedImage` | the encoded image |
 //! | `/CAMERA/depth` | `sensor_msgs/msg/Image`, 32FC1 | depth along the axis, m; +∞ and NaN as in REP 118 |
 //! | `/CAMERA/points` | `sensor_msgs/msg/PointCloud2` | the same as points in the camera's frame (x right, y down, z forward), m, with the image's colours; 16 bytes per pixel; NaN where there is no surface |
-//! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix; pixel centres at whole numbers |
+//! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix and distortion, as in calibration files of rigs; pixel centres at whole numbers |
 //! | `/tf` | `tf2_msgs/msg/TFMessage` | `world` to the camera, whose frame has its name (x right, y down, z forward) |
 //!
 //! Times are simulated times at the middle of the exposure, from 0 on (as with `use_sim_time`); earlier ones are 0. Messages are in order of time, uncompressed
@@ -13,7 +13,9 @@
 
 use std::{cell::RefCell, collections::BTreeMap};
 
-use etendue::{Error, ErrorCode, OutputFolder};
+use etendue::{Error, ErrorCode, OutputFolder, RosView, ros_view};
+use etendue_io::calibration::export::ros::CameraInfo;
+use glam::DVec2;
 
 use super::ros;
 use crate::records::{FormatWriter, Records, write};
@@ -49,8 +51,7 @@ impl FormatWriter for Mcap {
             ));
         };
         let at = ros::MessageHeader { time_ns, frame: record.camera.as_str() };
-        let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
-        let size = (record.width_px, record.height_px);
+        let camera = RosCamera::new(picture)?;
         let topic = |name: &str| format!("/{}/{name}", topic_name(&record.camera));
         let messages = [
             (
@@ -59,8 +60,8 @@ impl FormatWriter for Mcap {
                 ros::compressed_image(at, &record.extension, &picture.bytes),
             ),
             (topic("depth"), ros::IMAGE, ros::depth_image(at, &picture.truth.depth)),
-            (topic("points"), ros::POINT_CLOUD, ros::point_cloud(at, &picture.truth.depth, picture.display, matrix)),
-            (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size.0, size.1, matrix)),
+            (topic("points"), ros::POINT_CLOUD, camera.points(at, picture)),
+            (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, &camera.info())),
             ("/tf".to_owned(), ros::TF_MESSAGE, ros::transform(at, &record.pose)),
         ];
         let message = |(topic, schema, data)| McapMessage { time_ns, topic, schema, data };
@@ -77,6 +78,56 @@ impl FormatWriter for Mcap {
 
     fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
         Ok(())
+    }
+}
+
+/// Camera of an image.
+enum RosCamera {
+    /// Camera matrix of rectilinear images: fx, skew, cx, fy, cy in raster coordinates.
+    Rectilinear {
+        matrix_px: [f64; 5],
+        size_px: [usize; 2],
+    },
+    Distorted(Box<RosView>),
+}
+
+impl RosCamera {
+    fn new(image: &SampleImage<'_>) -> Result<Self, Error> {
+        let record = &image.record;
+        match record.camera_matrix_px {
+            Some(matrix_px) => Ok(Self::Rectilinear { matrix_px, size_px: [record.width_px, record.height_px] }),
+            None => ros_view(image.camera())
+                .map(|view| Self::Distorted(Box::new(view)))
+                .map_err(|why| Error::coded(ErrorCode::UnsupportedOutput, format!("camera {}: {why}", record.camera))),
+        }
+    }
+
+    fn info(&self) -> CameraInfo {
+        match self {
+            Self::Rectilinear { matrix_px: [fx, skew, cx, fy, cy], size_px } => {
+                // ROS has pixel centres at whole numbers.
+                let rows = [[*fx, *skew, cx - 0.5], [0.0, *fy, cy - 0.5], [0.0, 0.0, 1.0]];
+                CameraInfo {
+                    size_px: *size_px,
+                    distortion_model: "plumb_bob",
+                    coefficients: vec![0.0; 5],
+                    matrix: rows,
+                    projection: rows.map(|[a, b, c]| [a, b, c, 0.0]),
+                }
+            }
+            Self::Distorted(view) => view.info.clone(),
+        }
+    }
+
+    fn points(&self, at: ros::MessageHeader<'_>, image: &SampleImage<'_>) -> Vec<u8> {
+        let (depth, colours) = (&image.truth.depth, image.display);
+        match self {
+            Self::Rectilinear { matrix_px: [fx, skew, cx, fy, cy], .. } => ros::point_cloud(at, depth, colours, |px| {
+                let y = (px.y - cy) / fy;
+                Some(DVec2::new((px.x - cx - skew * y) / fx, y))
+            }),
+            Self::Distorted(view) => ros::point_cloud(at, depth, colours, |px| view.tangents(px)),
+        }
     }
 }
 

@@ -4,6 +4,8 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, Length};
+use etendue_io::calibration::export::ros::CameraInfo;
+use glam::DVec2;
 
 use crate::record::Pose;
 
@@ -150,13 +152,13 @@ const POINT_BYTES: usize = 16;
 /// Type code of 32-bit floats.
 const FLOAT32: u8 = 7;
 
-/// Points that a camera without distortion (fx, skew, cx, fy, cy in raster coordinates) sees through its pixel centres, in its frame, m, row by row with their
-/// colours (red, green, blue from 0 to 1, display-referred); NaN where there is no depth.
+/// Points that a camera sees through its pixel centres, in its frame, m, row by row with their colours (red, green, blue from 0 to 1, display-referred); NaN
+/// where there is no depth. `tangents` are x/z and y/z of the direction that a raster point sees.
 pub(super) fn point_cloud(
     at: MessageHeader<'_>,
     depth: &Plane<Length>,
     colours: &Plane<Display>,
-    [fx, skew, cx, fy, cy]: [f64; 5],
+    tangents: impl Fn(DVec2) -> Option<DVec2>,
 ) -> Vec<u8> {
     let (width, height) = (depth.width(), depth.height());
     let mut cdr = Cdr::with_header(at);
@@ -174,10 +176,11 @@ pub(super) fn point_cloud(
     cdr.u32((POINT_BYTES * width) as u32);
     let mut points = Vec::with_capacity(POINT_BYTES * width * height);
     for (i, (z, colour)) in depth.samples().iter().zip(colours.samples()).enumerate() {
-        let (u, v) = ((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
-        let y = (v - cy) / fy;
-        let x = (u - cx - skew * y) / fx;
-        let point = if z.is_finite() { [x, y, 1.0].map(|n| (n * f64::from(*z)) as f32) } else { [f32::NAN; 3] };
+        let centre_px = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+        let point = match tangents(centre_px).filter(|_| z.is_finite()) {
+            Some(DVec2 { x, y }) => [x, y, 1.0].map(|n| (n * f64::from(*z)) as f32),
+            None => [f32::NAN; 3],
+        };
         point.iter().for_each(|n| points.extend_from_slice(&n.to_le_bytes()));
         // Packed as in the Point Cloud Library: blue in the lowest byte.
         let [red, green, blue] = colour.map(|c| (255.0 * c.clamp(0.0, 1.0)).round() as u8);
@@ -188,24 +191,18 @@ pub(super) fn point_cloud(
     cdr.0
 }
 
-/// Camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
-pub(super) fn camera_info(
-    at: MessageHeader<'_>,
-    width: usize,
-    height: usize,
-    [fx, skew, cx, fy, cy]: [f64; 5],
-) -> Vec<u8> {
-    // ROS has pixel centres at whole numbers.
-    let (cx, cy) = (cx - 0.5, cy - 0.5);
+/// Camera with its distortion.
+pub(super) fn camera_info(at: MessageHeader<'_>, info: &CameraInfo) -> Vec<u8> {
+    let [width, height] = info.size_px;
     let mut cdr = Cdr::with_header(at);
     cdr.u32(height as u32);
     cdr.u32(width as u32);
-    cdr.text("plumb_bob");
-    cdr.u32(5);
-    cdr.f64s(&[0.0; 5]);
-    cdr.f64s(&[fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]);
+    cdr.text(info.distortion_model);
+    cdr.u32(info.coefficients.len() as u32);
+    cdr.f64s(&info.coefficients);
+    cdr.f64s(info.matrix.as_flattened());
     cdr.f64s(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
-    cdr.f64s(&[fx, skew, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    cdr.f64s(info.projection.as_flattened());
     // No binning and no region of interest.
     (0..6).for_each(|_| cdr.u32(0));
     cdr.0.push(0);

@@ -66,7 +66,7 @@ fn opencv_image_px([fx, fy, cx, cy]: [f64; 4], model: &str, k: &[f64], point: DV
                 y * radial + at(2) * (s + 2.0 * y * y) + 2.0 * at(3) * x * y,
             )
         }
-        "equidistant" | "equi" | "OPENCV_FISHEYE" => {
+        "equidistant" | "OPENCV_FISHEYE" => {
             let r = (point.x * point.x + point.y * point.y).sqrt();
             let angle = atan2(r, point.z);
             let t = angle * angle;

@@ -1,15 +1,19 @@
-//! COLMAP's `cameras.txt`: one line per camera, CAMERA_ID MODEL WIDTH HEIGHT PARAMS…; the id is the camera's name.
+//! COLMAP's cameras; the id is the camera's name. All models of COLMAP 4 are read. Its pixel coordinates are the raster's.
 //!
-//! All models of COLMAP 4 are read. Its pixel coordinates are the raster's.
+//! | file | contents |
+//! | --- | --- |
+//! | `cameras.txt` | one line per camera: CAMERA_ID MODEL WIDTH HEIGHT PARAMS… |
+//! | `cameras.bin` | u64 number of cameras; of each u32 id, i32 model, u64 width, u64 height, f64 parameters; little-endian |
 
 use core::f64::consts::{PI, TAU};
+use std::borrow::Cow;
 
 use etendue_projection::model::{
     Division, ExtendedUnified, FieldOfView, KannalaBrandt, ModelError, Panorama, Perspective, ThinPrismFisheye,
 };
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, models::invalid_model};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [
@@ -35,6 +39,27 @@ const TWO_FOCALS: [(&str, usize); 10] = [
 ];
 /// Its two parameters are the image size.
 const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
+/// Models by their number in the binary form.
+const NUMBERED: [&str; 18] = [
+    "SIMPLE_PINHOLE",
+    "PINHOLE",
+    "SIMPLE_RADIAL",
+    "RADIAL",
+    "OPENCV",
+    "OPENCV_FISHEYE",
+    "FULL_OPENCV",
+    "FOV",
+    "SIMPLE_RADIAL_FISHEYE",
+    "RADIAL_FISHEYE",
+    "THIN_PRISM_FISHEYE",
+    "RAD_TAN_THIN_PRISM_FISHEYE",
+    "SIMPLE_DIVISION",
+    "DIVISION",
+    "SIMPLE_FISHEYE",
+    "FISHEYE",
+    "EUCM",
+    "EQUIRECTANGULAR",
+];
 
 pub(super) fn read(text: &str, camera: Option<&str>) -> TreeResult<ReaderResult> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
@@ -42,22 +67,67 @@ pub(super) fn read(text: &str, camera: Option<&str>) -> TreeResult<ReaderResult>
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
         .map(|(number, line)| CameraLine::read(number, line))
         .collect::<TreeResult<_>>()?;
-    let line = chosen(&cameras, camera)?;
-    let (model, matrix) = line.camera()?;
-    let calibration = Calibration::new(model, matrix, line.size_px).map_err(camera_error(line.number))?;
-    Ok(ReaderResult { name: line.id.to_owned(), calibration, notes: Vec::new() })
+    result(&cameras, camera)
 }
 
+/// Returns true if a file has the binary form: no text contains a zero.
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
+    bytes.contains(&0)
+}
+
+pub(super) fn read_binary(bytes: &[u8], camera: Option<&str>) -> TreeResult<ReaderResult> {
+    let mut rest = bytes;
+    let count = integer(&mut rest)?;
+    let mut cameras = Vec::new();
+    for _ in 0..count {
+        cameras.push(CameraLine::read_binary(&mut rest)?);
+    }
+    if !rest.is_empty() {
+        return Err(TreeError::at(0, format!("{} bytes follow the {count} cameras; expected none", rest.len())));
+    }
+    result(&cameras, camera)
+}
+
+/// The next `N` bytes.
+fn next<const N: usize>(rest: &mut &[u8]) -> TreeResult<[u8; N]> {
+    let bytes = rest.split_first_chunk::<N>();
+    let Some((bytes, after)) = bytes else {
+        return Err(TreeError::at(0, "not a complete cameras.bin of COLMAP: the file ends within a camera"));
+    };
+    *rest = after;
+    Ok(*bytes)
+}
+
+fn integer(rest: &mut &[u8]) -> TreeResult<u64> {
+    next(rest).map(u64::from_le_bytes)
+}
+
+fn result(cameras: &[CameraLine<'_>], camera: Option<&str>) -> TreeResult<ReaderResult> {
+    let line = chosen(cameras, camera)?;
+    let (model, matrix) = line.camera()?;
+    let calibration = Calibration::new(model, matrix, line.size_px).map_err(camera_error(line.number))?;
+    Ok(ReaderResult::new(line.id.as_ref(), calibration, Vec::new()))
+}
+
+/// A camera; `number` is its line, 0 in the binary form.
 struct CameraLine<'a> {
     number: usize,
-    id: &'a str,
+    id: Cow<'a, str>,
     model: &'a str,
     size_px: [usize; 2],
     parameters: Vec<f64>,
 }
 
+/// Number of parameters of a model, if it is known.
+fn parameter_count(model: &str) -> Option<usize> {
+    let mut all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
+    all.find(|(name, _)| *name == model).map(|(_, count)| *count)
+}
+
 fn chosen<'a, 'b>(cameras: &'b [CameraLine<'a>], camera: Option<&str>) -> TreeResult<&'b CameraLine<'a>> {
-    let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
+    const SHOWN: usize = 24;
+    let more = if cameras.len() > SHOWN { ", …" } else { "" };
+    let names = cameras.iter().take(SHOWN).map(|c| c.id.as_ref()).collect::<Vec<_>>().join(", ") + more;
     match (cameras, camera) {
         ([], _) => Err(TreeError::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
         (all, Some(requested)) => all.iter().find(|c| c.id == requested).ok_or_else(|| {
@@ -90,12 +160,32 @@ impl<'a> CameraLine<'a> {
         let (id, model) = (word("the id")?, word("the model")?);
         let size_px = [count(number, word("the width")?)?, count(number, word("the height")?)?];
         let parameters = words.map(|word| finite(number, word)).collect::<TreeResult<_>>()?;
-        Ok(Self { number, id, model, size_px, parameters })
+        Ok(Self { number, id: id.into(), model, size_px, parameters })
+    }
+
+    fn read_binary(rest: &mut &[u8]) -> TreeResult<Self> {
+        let id = next(rest).map(u32::from_le_bytes)?;
+        let number = next(rest).map(i32::from_le_bytes)?;
+        let unknown = || {
+            TreeError::coded(
+                ErrorCode::UnsupportedFile,
+                0,
+                format!(
+                    "camera {id} has the model number {number}; expected 0 to {}, those of COLMAP 4",
+                    NUMBERED.len() - 1
+                ),
+            )
+        };
+        let model = usize::try_from(number).ok().and_then(|number| NUMBERED.get(number)).ok_or_else(unknown)?;
+        let size_px = [count(0, &integer(rest)?.to_string())?, count(0, &integer(rest)?.to_string())?];
+        let parameter = |_| finite(0, &next(rest).map(f64::from_le_bytes)?.to_string());
+        let parameters = (0..parameter_count(model).unwrap_or_default()).map(parameter).collect::<TreeResult<_>>()?;
+        Ok(Self { number: 0, id: id.to_string().into(), model, size_px, parameters })
     }
 
     fn camera(&self) -> TreeResult<(Model, CameraMatrix)> {
-        let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
-        let Some((_, count)) = all.clone().find(|(name, _)| *name == self.model) else {
+        let Some(count) = parameter_count(self.model) else {
+            let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
             let known = all.map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
             return Err(TreeError::coded(
                 ErrorCode::UnsupportedFile,
@@ -103,13 +193,12 @@ impl<'a> CameraLine<'a> {
                 format!("unknown camera model {}; expected one of {known}", self.model),
             ));
         };
-        if self.parameters.len() != *count {
-            let what =
-                format!("the number of parameters is {}; the model {} has {count}", self.parameters.len(), self.model);
+        if self.parameters.len() != count {
+            let what = format!("found {} parameters; the model {} has {count}", self.parameters.len(), self.model);
             return Err(TreeError::at(self.number, what));
         }
         let (matrix, k) = self.matrix();
-        Ok((model(self.model, k).map_err(wrong(self.number))?, matrix))
+        Ok((model(self.model, k).map_err(invalid_model(self.number))?, matrix))
     }
 
     /// The camera matrix and the coefficients after it.

@@ -20,7 +20,7 @@ use etendue_projection::model::{FTheta, FThetaSense};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::Affine};
 
 use super::yaml::{self, TreeNode};
-use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong, passed_over};
+use super::{ErrorCode, ReaderResult, TreeError, TreeResult, camera_error, models::invalid_model, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",
@@ -177,10 +177,11 @@ fn reader_result(numbers: Numbers, notes: Vec<String>) -> TreeResult<ReaderResul
     }
     // (c x + d y, e x + y) stretches columns; `Affine` stretches rows: c goes into the unit of the radius.
     let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };
-    let model = FTheta::new(sense, enlarged(sense, polynomial, c), greatest_angle_rad, stretch).map_err(wrong(line))?;
+    let model =
+        FTheta::new(sense, enlarged(sense, polynomial, c), greatest_angle_rad, stretch).map_err(invalid_model(line))?;
     let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx, cy }.from_opencv();
     let calibration = Calibration::new(Model::FTheta(model), matrix, size_px).map_err(camera_error(line))?;
-    Ok(ReaderResult { name: String::new(), calibration, notes })
+    Ok(ReaderResult::new("", calibration, notes))
 }
 
 /// Polynomial of a radius that is `ratio` times as large.

@@ -12,7 +12,7 @@
 
 use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
-use super::{ReaderResult, TreeError, TreeResult, camera_error, opencv::wrong};
+use super::{ReaderResult, TreeError, TreeResult, camera_error, models::invalid_model};
 
 const LINES: [&str; 5] = [
     "the direct polynomial: count a0 a1 …",
@@ -30,10 +30,10 @@ pub(super) fn read(text: &str) -> TreeResult<ReaderResult> {
     let [c, d, e] = exactly(&rows[3])?;
     let size_px = size(&rows[4])?;
     let note = note(direct, inverse, size_px);
-    let model = Ocam::new(direct.to_vec(), Affine { c, d, e }).map_err(wrong(rows[0].line))?;
+    let model = Ocam::new(direct.to_vec(), Affine { c, d, e }).map_err(invalid_model(rows[0].line))?;
     let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: column, cy: row }.from_opencv();
     let calibration = Calibration::new(Model::Ocam(model), matrix, size_px).map_err(camera_error(rows[2].line))?;
-    Ok(ReaderResult { name: String::new(), calibration, notes: note.into_iter().collect() })
+    Ok(ReaderResult::new("", calibration, note.into_iter().collect()))
 }
 
 struct OcamRow {
@@ -79,7 +79,7 @@ fn counted(row: &OcamRow) -> TreeResult<&[f64]> {
 
 fn exactly<const N: usize>(row: &OcamRow) -> TreeResult<[f64; N]> {
     let count = row.numbers.len();
-    let error = || TreeError::at(row.line, format!("the number of values is {count}; expected {N}: {}", row.what));
+    let error = || TreeError::at(row.line, format!("found {count} numbers; expected {N}: {}", row.what));
     row.numbers.clone().try_into().map_err(|_| error())
 }
 
@@ -95,8 +95,20 @@ fn size(row: &OcamRow) -> TreeResult<[usize; 2]> {
     Ok([width as usize, height as usize])
 }
 
+/// Model of a polynomial whose stretch c, d, e is of columns: u = c x + d y, v = e x + y.
+pub(super) fn column_first(direct: Vec<f64>, [c, d, e]: [f64; 3], line: usize) -> TreeResult<Model> {
+    if !(c > 0.0 && c.is_finite()) {
+        return Err(TreeError::at(line, format!("the affine parameter c is {c}; expected a positive number")));
+    }
+    // `Affine` stretches rows: c goes into the unit of the radius, in which the coefficient of its power k is aₖ c¹⁻ᵏ.
+    let factors = std::iter::successors(Some(c), |factor| Some(factor / c));
+    let coefficients = direct.into_iter().zip(factors).map(|(a, factor)| a * factor).collect();
+    let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };
+    Ocam::new(coefficients, stretch).map(Model::Ocam).map_err(invalid_model(line))
+}
+
 /// Note with the deviation of the inverse polynomial from the inverse of the direct one, over half the image diagonal.
-fn note(direct: &[f64], inverse: &[f64], [width, height]: [usize; 2]) -> Option<String> {
+pub(super) fn note(direct: &[f64], inverse: &[f64], [width, height]: [usize; 2]) -> Option<String> {
     if inverse.is_empty() {
         return None;
     }

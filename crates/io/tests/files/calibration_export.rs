@@ -123,8 +123,53 @@ fn every_model_that_a_format_knows_is_the_same_camera_in_it() {
     }
 }
 
+/// Kalibr's own reader (aslam_cv_cameras, ParametersBase.py) knows these names and numbers of coefficients.
+const KALIBR_MODELS: [[&str; 2]; 6] = [
+    ["pinhole", "radtan"],
+    ["pinhole", "equidistant"],
+    ["pinhole", "fov"],
+    ["omni", "radtan"],
+    ["eucm", "none"],
+    ["ds", "none"],
+];
+
 #[test]
-fn a_skew_is_refused_by_all() {
+fn chains_have_the_names_that_kalibr_reads() {
+    for (label, model, known) in models() {
+        let calibration = camera(model);
+        let named = NamedCamera { name: "left", calibration: &calibration };
+        let Ok(intrinsics) = kalibr::intrinsics(&named) else { continue };
+        assert!(known[1], "{label}");
+        let pose = CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY };
+        let text = kalibr::camchain(None, &[kalibr::ChainLink { camera: named, intrinsics, pose }], &[]);
+        let value = |key: &str| text.lines().find_map(|line| line.trim().strip_prefix(key)).expect("the key");
+        let [camera, distortion] = [value("camera_model: "), value("distortion_model: ")];
+        assert!(KALIBR_MODELS.contains(&[camera, distortion]), "{label}: {camera}, {distortion}");
+        let count = |list: &str| list.split(',').filter(|number| number.contains('.')).count();
+        let expected = if distortion == "none" {
+            0
+        } else if distortion == "fov" {
+            1
+        } else {
+            4
+        };
+        assert_eq!(count(value("distortion_coeffs: ")), expected, "{label}");
+    }
+}
+
+/// OpenCV's fisheye has the skew α fx in its camera matrix: u = fx (x + α y) + cx.
+#[test]
+fn ros_has_the_skew_of_a_fisheye() {
+    let skewed = CameraMatrix { skew: -0.31, ..MATRIX };
+    let fisheye = KannalaBrandt::new([-0.012, 0.0042, -0.0031, 0.0006]).expect("legal");
+    let calibration = Calibration::new(Model::KannalaBrandt(fisheye), skewed, [640, 480]).expect("legal");
+    let text = ros::camera_info(&NamedCamera { name: "left", calibration: &calibration }, 0.0).expect("a fisheye");
+    assert!(text.contains("data: [412.5, -0.31, 319.25, 0.0, 408.0, 241.75, 0.0, 0.0, 1.0]"), "{text}");
+    assert_same(&read("ros.yaml", &text, CalibrationFormat::Ros, Some("left")), &calibration, "skew");
+}
+
+#[test]
+fn a_skew_of_a_perspective_camera_is_refused_by_all() {
     let skewed = CameraMatrix { skew: 0.8, ..MATRIX };
     let calibration = Calibration::new(perspective(&[]), skewed, [640, 480]).expect("legal");
     let named = NamedCamera { name: "left", calibration: &calibration };

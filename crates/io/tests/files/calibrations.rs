@@ -220,7 +220,7 @@ fn faults_name_the_line_and_what_was_expected() {
         (Ros, ros.replace("image_width: 640", "image_width: -1"), Some(1), "number of pixels"),
         (Ros, ros.replace("camera_name", "image_width"), Some(3), "twice"),
         (Kalibr, kalibr.replace("pinhole", "fish"), Some(2), "expected \"pinhole\", \"omni\", \"eucm\" or \"ds\""),
-        (Kalibr, kalibr.replace("equi", "poly"), Some(3), "expected \"radtan\", \"equi\", \"fov\" or \"none\""),
+        (Kalibr, kalibr.replace("equi", "poly"), Some(3), "expected \"radtan\", \"equidistant\", \"fov\" or \"none\""),
         (Kalibr, kalibr.replace("pinhole", "ds"), Some(5), "expected 6: xi, alpha"),
         (Kalibr, kalibr.replace("equi", "none"), Some(4), "expected []"),
         (Kalibr, kalibr.replace("[100, 100]", "[100]"), Some(6), "[width, height]"),

@@ -7,6 +7,7 @@ mod correspondence;
 mod cryptomatte;
 mod exr_files;
 mod f_theta;
+mod field_calibrations;
 mod gltf;
 mod lamps;
 mod meshes;

@@ -12,11 +12,17 @@ impl Plan {
     /// of view, of each camera inside an object, and of road users of implausible size.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let groups = grouped(&self.notes).into_iter().filter(|group| group.weight == Severity::Warning);
-        let listed = groups.map(|group| group.to_string());
+        let listed = self.description_warnings().into_iter();
         let extreme = self.cameras.iter().filter_map(extreme_field);
         let inside = self.cameras.iter().filter_map(|camera| self.inside(camera));
         listed.chain(self.dark_cameras()).chain(extreme).chain(inside).chain(mesh_sizes::warnings(self)).collect()
+    }
+
+    /// Warnings of the remarks alone: those of the description and its files, which hold without an image.
+    #[must_use]
+    pub fn description_warnings(&self) -> Vec<String> {
+        let groups = grouped(&self.notes).into_iter().filter(|group| group.weight == Severity::Warning);
+        groups.map(|group| group.to_string()).collect()
     }
 
     fn inside(&self, camera: &CameraPlan) -> Option<String> {

@@ -7,15 +7,19 @@ use crate::reader::words;
 words! {
     /// Format of a calibration file.
     pub enum CalibrationFormat {
-        /// OpenCV's FileStorage as YAML or JSON: perspective, unless the file states a fisheye or contains ξ.
+        /// OpenCV's FileStorage as YAML, XML or JSON: perspective, unless the file states a fisheye or contains ξ.
         "opencv" => OpenCv,
         /// OpenCV's FileStorage with the coefficients of its fisheye module.
         "opencv_fisheye" => OpenCvFisheye,
-        /// ROS camera_info, YAML.
+        /// ROS camera_info: YAML, INI or a printed message.
         "ros" => Ros,
         /// Kalibr's camera chain, YAML.
         "kalibr" => Kalibr,
-        /// COLMAP's cameras.txt.
+        /// EuRoC's sensor.yaml.
+        "euroc" => Euroc,
+        /// camodocal's YAML, as in VINS.
+        "camodocal" => Camodocal,
+        /// COLMAP's cameras.txt or cameras.bin.
         "colmap" => Colmap,
         /// OCamCalib's calib_results.txt.
         "ocam" => Ocam,
@@ -38,6 +42,8 @@ pub struct CalibrationChoice {
 pub struct CalibrationAsset {
     /// The camera, in raster coordinates.
     pub calibration: Calibration,
+    /// False if the file states no image size, so that the sensor's is used.
+    pub states_size: bool,
     /// Ignored content, one sentence each.
     pub report: Vec<String>,
     /// SHA-256 of the file.

@@ -271,7 +271,7 @@ mod tests {
         let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: 0.5, cy: 0.5 };
         let model = Model::Perspective(Perspective::from_opencv(&[]).expect("no distortion"));
         let calibration = Calibration::new(model, matrix, [1, 1]).expect("legal");
-        CalibrationAsset { calibration, report: Vec::new(), hash }
+        CalibrationAsset { calibration, states_size: true, report: Vec::new(), hash }
     }
 
     #[test]

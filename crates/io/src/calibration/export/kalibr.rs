@@ -3,7 +3,7 @@
 //! | camera | camera_model | distortion_model |
 //! | --- | --- | --- |
 //! | perspective with k1, k2, p1, p2 | pinhole | radtan |
-//! | polynomial fisheye | pinhole | equi |
+//! | polynomial fisheye | pinhole | equidistant |
 //! | field-of-view | pinhole | fov |
 //! | unified | omni | radtan |
 //! | extended unified | eucm | none |
@@ -92,7 +92,7 @@ fn model(model: &Model) -> Result<Intrinsics, ExportError> {
         Ok(Intrinsics { camera_model, intrinsics, distortion_model, distortion })
     };
     if let Some(k) = fisheye(model) {
-        return build("pinhole", &[], "equi", &k);
+        return build("pinhole", &[], "equidistant", &k);
     }
     if let Some(k) = perspective(model).filter(|k| shortest(k, &[4]).is_some()) {
         return build("pinhole", &[], "radtan", &k[..4]);

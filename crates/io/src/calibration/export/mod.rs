@@ -4,7 +4,7 @@
 //! | --- | --- | --- | --- |
 //! | [`ros`] | `camera_info` YAML | perspective with up to 14 coefficients, fisheye of four | (0, 0) |
 //! | [`ros`] | transforms YAML, the fields of `geometry_msgs/TransformStamped` | – | – |
-//! | [`kalibr`] | camchain YAML | pinhole with radtan, equi, fov; omni; eucm; ds | (0, 0) |
+//! | [`kalibr`] | camchain YAML | pinhole with radtan, equidistant, fov; omni; eucm; ds | (0, 0) |
 //! | [`colmap`] | `cameras.txt`, `images.txt`, `points3D.txt` | perspective with up to eight coefficients, fisheyes, fov, division, eucm | (0.5, 0.5) |
 //!
 //! Each writes the camera exactly, or refuses it with the reason: nothing is fitted. Camera frames are x right, y down, z forward in all three. None of them
@@ -36,7 +36,7 @@ fn no_model(format: &str, model: &Model) -> ExportError {
     }
 }
 
-/// Refuses a skew, which no format supports.
+/// Refuses a skew, which a format does not support.
 fn without_skew(format: &str, calibration: &Calibration) -> Result<(), ExportError> {
     match calibration.matrix().skew {
         0.0 => Ok(()),

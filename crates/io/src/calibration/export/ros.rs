@@ -4,50 +4,82 @@
 //! | --- | --- | --- |
 //! | perspective with k1, k2, p1, p2, k3 | plumb_bob | 5 |
 //! | perspective with more | rational_polynomial | 8, 12 (with s1 … s4) or 14 (with τx, τy) |
-//! | polynomial fisheye | equidistant | 4 |
+//! | polynomial fisheye, with or without skew | equidistant | 4 |
 //!
 //! The projection matrix is that of the rectified image: the camera's own matrix, and −fx b in its fourth column for the right camera of a rectified pair of
 //! baseline b.
 
 use etendue_core::CameraPose;
-use etendue_projection::Model;
+use etendue_projection::{Calibration, Model};
 
 use super::{
     ExportError, NamedCamera, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
 };
 
 const FORMAT: &str = "ROS";
+const EQUIDISTANT: &str = "equidistant";
 
-/// A camera as `camera_info`; `base_m` is the baseline from a rectified pair's left camera to the right, 0 for all others.
+/// Fields of a `camera_info`. The rectification matrix is the identity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraInfo {
+    /// Width and height, px.
+    pub size_px: [usize; 2],
+    /// Name of the distortion model.
+    pub distortion_model: &'static str,
+    /// Its coefficients, D.
+    pub coefficients: Vec<f64>,
+    /// Camera matrix K, by rows; pixel centres are at whole numbers.
+    pub matrix: [[f64; 3]; 3],
+    /// Projection matrix P, by rows.
+    pub projection: [[f64; 4]; 3],
+}
+
+impl CameraInfo {
+    /// Describes a camera; `base_m` is the baseline from a rectified pair's left camera to the right, 0 for all others.
+    ///
+    /// # Errors
+    /// The reason for which ROS cannot represent it.
+    pub fn new(calibration: &Calibration, base_m: f64) -> Result<Self, ExportError> {
+        let (distortion_model, coefficients) = distortion(calibration.model())?;
+        // The skew of a fisheye is that of OpenCV's fisheye, α fx.
+        if distortion_model != EQUIDISTANT {
+            without_skew(FORMAT, calibration)?;
+        }
+        let camera = calibration.matrix().to_opencv();
+        let matrix = camera.rows();
+        let [[fx, skew, cx], [_, fy, cy], _] = matrix;
+        let projection = [[fx, skew, cx, -fx * base_m], [0.0, fy, cy, 0.0], [0.0, 0.0, 1.0, 0.0]];
+        Ok(Self { size_px: calibration.size_px(), distortion_model, coefficients, matrix, projection })
+    }
+
+    /// The fields as YAML of camera_calibration_parsers.
+    #[must_use]
+    pub fn to_yaml(&self, name: &str) -> String {
+        let [width, height] = self.size_px;
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        format!(
+            "image_width: {width}\nimage_height: {height}\ncamera_name: {}\n{}distortion_model: {}\n{}{}{}",
+            quoted(name),
+            table("camera_matrix", 3, 3, self.matrix.as_flattened()),
+            self.distortion_model,
+            table("distortion_coefficients", 1, self.coefficients.len(), &self.coefficients),
+            table("rectification_matrix", 3, 3, identity.as_flattened()),
+            table("projection_matrix", 3, 4, self.projection.as_flattened()),
+        )
+    }
+}
+
+/// A camera as `camera_info` YAML; `base_m` as in [`CameraInfo::new`].
 ///
 /// # Errors
 /// The reason for which ROS cannot represent it.
 pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, ExportError> {
-    let calibration = camera.calibration;
-    without_skew(FORMAT, calibration)?;
-    let (model, coefficients) = distortion(calibration.model())?;
-    let [width, height] = calibration.size_px();
-    let matrix = calibration.matrix().to_opencv();
-    let rows = matrix.rows();
-    let projection = [
-        [rows[0][0], rows[0][1], rows[0][2], -matrix.fx * base_m],
-        [rows[1][0], rows[1][1], rows[1][2], 0.0],
-        [rows[2][0], rows[2][1], rows[2][2], 0.0],
-    ];
-    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Ok(format!(
-        "image_width: {width}\nimage_height: {height}\ncamera_name: {}\n{}distortion_model: {model}\n{}{}{}",
-        quoted(camera.name),
-        table("camera_matrix", 3, 3, rows.as_flattened()),
-        table("distortion_coefficients", 1, coefficients.len(), &coefficients),
-        table("rectification_matrix", 3, 3, identity.as_flattened()),
-        table("projection_matrix", 3, 4, projection.as_flattened()),
-    ))
+    CameraInfo::new(camera.calibration, base_m).map(|info| info.to_yaml(camera.name))
 }
 
 fn distortion(model: &Model) -> Result<(&'static str, Vec<f64>), ExportError> {
     if let Some(k) = fisheye(model) {
-        return Ok(("equidistant", k.to_vec()));
+        return Ok((EQUIDISTANT, k.to_vec()));
     }
     let k = perspective(model).ok_or_else(|| no_model(FORMAT, model))?;
     let count = shortest(&k, &[5, 8, 12]).unwrap_or(k.len());

@@ -27,7 +27,7 @@ pub(super) fn lens(
             (&record.place, projection::calibration(projection, &record.place, &full, context)?)
         }
         PixelDirections::Calibration(file) => {
-            let calibration = imported(file, context)?;
+            let calibration = imported(file, &full, context)?;
             context.accept(&sensor.place, check_size(&calibration, &full))?;
             (&file.file.place, calibration)
         }
@@ -98,8 +98,8 @@ fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Fa
     context.accept(place, result)
 }
 
-/// Camera of a calibration file, with notes on the parts of the file that are ignored.
-fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
+/// Camera of a calibration file, with notes on the parts of the file that are ignored. A file without an image size takes that of the raster.
+fn imported(file: &CalibrationFile, full: &Raster, context: &mut Context<'_>) -> Option<Calibration> {
     let assets = context.assets;
     let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.camera_in_file())) else {
         context.error(
@@ -113,7 +113,13 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
     for note in &asset.report {
         context.note_on(file.file.value.display(), note);
     }
-    Some(asset.calibration.clone())
+    if asset.states_size {
+        return Some(asset.calibration.clone());
+    }
+    let (width, height) = (full.width(), full.height());
+    let note = format!("the file states no image size; that of the sensor, {width} × {height} px, is assumed");
+    context.note_on(file.file.value.display(), note);
+    context.accept(&file.file.place, asset.calibration.clone().with_size([width, height]))
 }
 
 /// Refuses a calibration of another image size; the sensor's and the file's sizes are reported as stated.

@@ -12,7 +12,7 @@ record! {
     /// A calibration file.
     pub struct CalibrationFile {
         /// The file.
-        required file: Placed<PathBuf> = path(&["yaml", "yml", "json", "txt"]);
+        required file: Placed<PathBuf> = path(&["yaml", "yml", "json", "xml", "txt", "ini", "bin"]);
         /// Program of the file.
         required format: Placed<CalibrationFormat> = choice();
         /// Camera within the file. Default: the only one.
