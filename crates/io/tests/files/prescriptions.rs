@@ -362,7 +362,7 @@ fn dummy_ideal_and_odd_surfaces_of_zemax() {
         "DISZ 1.5\n  GLAS N-BK7 0 0 1.5 40\nSURF 3\n  {zeros}  DISZ 2.0\n  DIAM 0\nSURF 4\n  TYPE STANDARD\n  CURV 0\n  DISZ 0\n"
     );
     let inside = with("DISZ 3.5\n", &split).expect("a lens");
-    assert_eq!((inside.surfaces[0].thickness_mm, inside.surfaces.len()), (3.5, 6));
+    assert_eq!((inside.surfaces[0].thickness_mm, inside.surfaces.len()), (3.5, 5));
     let tilted =
         with("TYPE STANDARD\n  CURV 0.0\n  DISZ 5.0", "TYPE COORDBRK\n  PARM 3 5\n  DISZ 5.0").expect_err("a tilt");
     assert!(tilted.contains("surface 1 of type COORDBRK shifts or tilts by 5 (PARM 3)"), "{tilted}");
