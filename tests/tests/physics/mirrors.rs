@@ -2,6 +2,7 @@
 //! forms.
 
 use etendue_io::prescription::read_prescription;
+use etendue_optics::effects::PointSpread;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::{Lens, Prescription};
 use etendue_scene::asset::PrescriptionAsset;
@@ -167,4 +168,63 @@ fn a_point_out_of_focus_is_a_ring() {
     assert!(total > 0.0);
     assert!(light_within(0.0, 0.10) < 1e-3 * total, "dark within: {} of {total}", light_within(0.0, 0.10));
     assert!(light_within(0.11, 0.38) > 0.99 * total, "{} of {total}", light_within(0.11, 0.38));
+}
+
+/// A camera with the Cassegrain in the words of the scene language.
+fn described(primary: &str, further: &str) -> Job {
+    Job::new(format!(
+        r#"
+        [[cameras]]
+        name = "eye"
+        position_m = [0, 0, 0]
+        look_at_m = [1, 0, 0]
+        sensor = {{ width_px = 33, height_px = 33, pixel_pitch_um = 10 }}
+        [cameras.lens]
+        type = "prescription"
+        focus_distance_m = "infinity"
+        surfaces = [
+          {{ thickness_mm = 150, semi_aperture_mm = 40, obscured_radius_mm = 10 }},
+          {{ mirror = true, radius_mm = -400, conic = -1, thickness_mm = 150, semi_aperture_mm = 25, stop = true, {primary} }},
+          {{ mirror = true, radius_mm = 200, conic = -9, semi_aperture_mm = 9, coating = 0.88 }},
+        ]
+        {further}
+        [scene]
+        "#
+    ))
+}
+
+#[test]
+fn the_scene_language_describes_the_same_telescope_along_the_light() {
+    let plan = described("coating = 0.9", "").plan();
+    let Lens::Prescription(lens) = &plan.cameras[0].body.lens else { panic!("a prescription") };
+    let file = prescription("same.zmx", &cassegrain(DISC));
+    let (own, other) = (lens.prescription().paraxial(), file.paraxial());
+    // Radii of the file are inverses of its curvatures.
+    assert!((own.focal_length_mm - other.focal_length_mm).abs() < 1e-9 && (own.back_focus_mm - 100.0).abs() < 1e-9);
+    assert!((lens.obscured_ratio() - 0.4).abs() < 1e-9 && (file.axial_obscured_ratio() - 0.4).abs() < 1e-9);
+    assert!((lens.transmittance() - 0.9 * 0.88).abs() < 1e-12);
+}
+
+#[test]
+fn keys_without_an_effect_on_a_mirror_are_refused() {
+    for (key, words) in [
+        ("glass = \"N-BK7\"", "\"glass\" of a mirror has no effect"),
+        ("coating = { quarter_wave_nm = 550 }", "the coating of a mirror is its reflectance"),
+        ("obscured_radius_mm = 25", "leaves nothing open"),
+    ] {
+        let message = described(key, "").compiled().map(|_| ()).expect_err(key);
+        assert!(message.contains(words), "{key}: {message}");
+    }
+}
+
+#[test]
+fn diffraction_is_that_of_the_ring_and_the_pupil_route_says_what_it_leaves_out() {
+    let plan = described("", "[cameras.effects]\npsf = {}\n").plan();
+    let Some(PointSpread::Aperture(psf)) = plan.cameras[0].body.effects.psf() else { panic!("diffraction") };
+    assert!((psf.parameters().obstruction - 0.4).abs() < 1e-9, "{psf:?}");
+    assert!(plan.warnings().iter().all(|warning| !warning.contains("obscuration")));
+    let pupil =
+        described("", "").replaced("[scene]", "[scene]\n[render]\nroute = \"pupil\"\ndepth_of_field = \"physical\"");
+    let warnings = pupil.plan().warnings();
+    assert!(warnings.iter().any(|warning| warning.contains("without its central obscuration")), "{warnings:?}");
 }
