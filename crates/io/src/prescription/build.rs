@@ -275,7 +275,11 @@ impl RawLens {
         widen_obscuring_planes(&mut surfaces, self.opening.map(|opening| scaled(opening.stated, unit)));
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
-        let primary_nm = self.primary.map_or(Ok(None), |primary| primary.nm(file, &self.wavelengths_nm))?;
+        let primary_nm = match (self.primary, &self.wavelengths_nm[..]) {
+            (Some(primary), list) => primary.nm(file, list)?,
+            (None, [only]) if (MIN_NM..=MAX_NM).contains(only) => Some(*only),
+            (None, _) => None,
+        };
         let shift_mm = image.thickness * unit;
         self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);

@@ -66,7 +66,7 @@ record! {
         optional obscured_radius_mm: Placed<f64> = number("mm").at_least(0.0);
         /// Medium behind the surface: a glass of Schott or Ohara ("N-BK7"), or a table. Default: air.
         optional glass: Glass = glass();
-        /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating. Of a mirror: its reflectance, 0 to 1. Default: 1.
+        /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating. Of a mirror its reflectance, by default 1.
         optional coating: Coating = coating();
         /// Marks the aperture stop. Default: false.
         optional stop: Placed<bool> = flag();
