@@ -230,3 +230,27 @@ fn diffraction_is_that_of_the_ring_and_the_pupil_route_says_what_it_leaves_out()
     let warnings = pupil.plan().warnings();
     assert!(warnings.iter().any(|warning| warning.contains("without its central obscuration")), "{warnings:?}");
 }
+
+/// An ideal lens as Zemax writes it: all fields are sharp, without distortion.
+#[test]
+fn a_paraxial_surface_of_zemax_is_a_lens_without_aberrations() {
+    let text = "MODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 5\nFTYP 0 0 2 1 0 0 0\nYFLN 0 10\nWAVM 1 0.58756 1\nPWAV 1\n\
+                SURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n  DIAM 0 0 0 0 1 \"\"\n\
+                SURF 1\n  STOP\n  TYPE PARAXIAL\n  CURV 0.0\n  PARM 1 50\n  PARM 2 1\n  DISZ 50\n  DIAM 6 1 0 0 1 \"\"\n\
+                SURF 2\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\n  DIAM 10 0 0 0 1 \"\"\n";
+    let plan = camera("ideal.zmx", read("ideal.zmx", text), 300.0, "[scene]").plan();
+    let Lens::Prescription(lens) = &plan.cameras[0].body.lens else { panic!("a prescription") };
+    let report = lens.report(3);
+    assert!((report.first_order.focal_length_mm - 50.0).abs() < 1e-9 && (report.f_number - 10.0).abs() < 1e-9);
+    for image in report.fields.iter().map(|field| field.image.as_ref().expect("an image")) {
+        assert!(image.spot.expect("a spot").radius_mm < 1e-9 && image.distortion.expect("a distortion").abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_spot_of_a_telescope_is_that_of_one_ring() {
+    let plan = camera("spot.zmx", read("spot.zmx", &cassegrain(DISC)), 10.0, "[scene]").plan();
+    let Lens::Prescription(lens) = &plan.cameras[0].body.lens else { panic!("a prescription") };
+    let axis = lens.report(2).fields[0].image.clone().expect("an image");
+    assert!(axis.spot.expect("a spot").radius_mm < 1e-9 && axis.other_bundles.is_empty());
+}
