@@ -3,8 +3,8 @@
 use crate::Shot;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::{
-    Assets, ImageAsset, ImagePixels, MeshAsset, MeshFrameAsset, MeshFramePart, PhotometryAsset, RetroTableAsset,
-    SlotMaterial, SpectrumAsset,
+    Assets, ImageAsset, ImagePixels, MeshAsset, MeshFrameAsset, MeshFramePart, PhotometryAsset, PrescriptionAsset,
+    RetroTableAsset, SlotMaterial, SpectrumAsset,
 };
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
@@ -80,6 +80,13 @@ impl Job {
         let frame = MeshFrameAsset { parts: vec![part], vertices: positions.len(), triangles: corners, hash: [0; 32] };
         self.assets.mesh_frames.insert(path.into(), frame);
         self.with_mesh(path, mesh)
+    }
+
+    /// With a lens file.
+    #[must_use]
+    pub fn with_lens_file(mut self, path: &str, lens: PrescriptionAsset) -> Self {
+        self.assets.prescriptions.insert(path.into(), lens);
+        self
     }
 
     /// With a lamp file.

@@ -23,6 +23,7 @@ mod irradiance;
 mod lamps;
 mod lens_light;
 mod levels;
+mod mirrors;
 mod motion;
 mod openings;
 mod photons;

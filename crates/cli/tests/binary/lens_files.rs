@@ -189,3 +189,55 @@ fn keywords_of_a_surface_that_are_not_read_are_noted() {
     assert_eq!(remarks.matches("COAT of a surface is ignored").count(), 1, "{remarks}");
     assert!(!remarks.contains("COMM"), "{remarks}");
 }
+
+#[test]
+fn a_coordinate_break_of_zeros_is_a_plane_and_an_ideal_lens_has_no_aberrations() {
+    let zeros: String = (1..=6).map(|i| format!("  PARM {i} 0\n")).collect();
+    let plane = format!("SURF 1\n  TYPE COORDBRK\n  CURV 0.0\n{zeros}  DISZ 3\n  DIAM 0 0 0 0 1 \"\"\n");
+    measure_lens("dummy.zmx", &zmx(&plane, BK7)).assert_value("focal_length_mm", 49.043, 1e-3);
+    let ideal = zmx("", BK7).replacen(
+        "TYPE STANDARD\n  CURV 0.02 0 0 0 0 \"\"\n  DISZ 4",
+        "TYPE PARAXIAL\n  CURV 0.0\n  PARM 1 50\n  PARM 2 1\n  DISZ 50",
+        1,
+    );
+    let glass = format!("  GLAS {BK7} 0 0 0 0 0 0\n");
+    let (lens, rest) = ideal.split_once(&glass).expect("a glass");
+    let second = rest.find("SURF 2").expect("a surface")..rest.find("SURF 3").expect("an image");
+    let ideal = format!("{lens}{}{}", &rest[..second.start], &rest[second.end..]);
+    let report = measure_lens("ideal.zmx", &ideal);
+    report.assert_value("focal_length_mm", 50.0, 1e-9);
+    report.assert_value("f_number", 10.0, 1e-9);
+    for field in report.report["fields"].as_array().expect("fields") {
+        assert!(field["spot_radius_mm"].as_f64().expect("a spot") < 1e-9, "{field}");
+    }
+}
+
+/// A Cassegrain of 50 mm diameter, f/8, whose secondary with its holder hides a disc of radius 10 mm.
+fn cassegrain(disc: &str) -> String {
+    format!(
+        "VERS 140124 258 36214\nMODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 50\nFTYP 0 0 2 1 0 0 0\nYFLN 0 0.2\nWAVM 1 0.55 1\nPWAV 1\n\
+         SURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n  DIAM 0 0 0 0 1 \"\"\n\
+         SURF 1\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 150\n{disc}  DIAM 10 1 0 0 1 \"\"\n\
+         SURF 2\n  STOP\n  TYPE STANDARD\n  CURV -0.0025\n  CONI -1\n  GLAS MIRROR 0 0 1.5 40\n  DISZ -150\n  DIAM 25 1 0 0 1 \"\"\n\
+         SURF 3\n  TYPE STANDARD\n  CURV -0.005\n  CONI -9\n  GLAS MIRROR 0 0 1.5 40\n  DISZ 100\n  DIAM 9 1 0 0 1 \"\"\n\
+         SURF 4\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\n  DIAM 10 0 0 0 1 \"\"\n"
+    )
+}
+
+#[test]
+fn a_telescope_is_measured_with_its_obscuration() {
+    // Paraboloid and hyperboloid with a common focus: 200 mm, doubled by the secondary.
+    let open = measure_lens("open.zmx", &cassegrain(""));
+    open.assert_value("focal_length_mm", 400.0, 1e-9);
+    open.assert_value("back_focus_from_last_vertex_mm", 100.0, 1e-9);
+    open.assert_value("obscured_ratio", 0.0, 1e-12);
+    assert!(open.remarks().contains("it states no central obscuration"), "{}", open.remarks());
+    let disc = measure_lens("disc.zmx", &cassegrain("  OBSC 0 10 0\n"));
+    disc.assert_value("f_number", 8.0, 1e-9);
+    disc.assert_value("obscured_ratio", 0.4, 1e-9);
+    for lens in [open, disc] {
+        let axis = &lens.report["fields"][0];
+        assert!(axis["spot_radius_mm"].as_f64().expect("a spot") < 1e-9, "{axis}");
+        assert!(axis["other_bundles"].as_array().expect("a list").is_empty(), "{axis}");
+    }
+}

@@ -5,7 +5,7 @@ use etendue_io::exr::{ExrSamples, read_exr};
 use etendue_io::picture::read_image;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -84,10 +84,22 @@ fn kill_when(arguments: &[String], is_time: impl Fn() -> bool) {
     child.wait().expect("a child");
 }
 
-/// Films of the state under their final names.
-fn state(output: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut files = contents(&output.join(".progress"));
-    files.retain(|name, _| name.ends_with(".film.exr"));
+/// Films of the state under their final names. The run may be writing: temporary files are not opened, as they vanish.
+fn state(output: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut folders = vec![output.join(".progress")];
+    while let Some(folder) = folders.pop() {
+        let Ok(entries) = std::fs::read_dir(folder) else { continue };
+        for path in entries.map(|entry| entry.expect("a readable entry").path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.to_string_lossy().ends_with(".film.exr")
+                && let Ok(bytes) = std::fs::read(&path)
+            {
+                files.insert(path, bytes);
+            }
+        }
+    }
     files
 }
 

@@ -12,7 +12,7 @@
 
 use std::cell::RefCell;
 
-use super::Read;
+use super::TreeResult;
 use super::yaml::TreeNode;
 
 const MATRIX: [&str; 12] = [

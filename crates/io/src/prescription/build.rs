@@ -6,7 +6,7 @@ use etendue_core::wavelength::{MAX_NM, MIN_NM};
 use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 
 use super::text::Words;
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// Aperture, and the line that states it.
 #[derive(Clone, Copy)]
@@ -134,21 +134,39 @@ impl PrimaryWavelength {
     }
 }
 
+/// Form of a surface.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum SurfaceForm {
+    /// A conic, in CODE V files with terms of even powers.
+    Standard,
+    /// Zemax EVENASPH: a conic with terms of even powers.
+    Even,
+    /// Zemax ODDASPHE: a conic with terms of all powers, of which the odd ones must be zero.
+    Odd,
+    /// Zemax COORDBRK: a plane without effect, in the medium of the space before it.
+    CoordinateBreak,
+    /// Zemax PARAXIAL: an ideal thin lens of this focal length.
+    ThinLens(f64),
+}
+
 #[derive(Clone)]
 pub(super) struct RawSurface {
     pub(super) line: usize,
+    pub(super) form: SurfaceForm,
+    /// True for a mirror; its glass is then that of the space before it.
+    pub(super) mirror: bool,
     pub(super) curvature: f64,
     pub(super) conic: f64,
     /// Coefficients of r², r⁴ …; `None`: all are 0.
     pub(super) asphere: Option<Box<[f64; ASPHERE_TERMS]>>,
     pub(super) semi_aperture: Option<f64>,
+    /// Radius within which the surface stops light.
+    pub(super) obscured_radius: f64,
     /// True if the clear aperture stops light, and is not only a size for drawing.
     pub(super) is_clear_aperture: bool,
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
-    /// Zemax: true if parameters are coefficients.
-    pub(super) aspheric: bool,
 }
 
 impl RawSurface {
@@ -157,16 +175,25 @@ impl RawSurface {
         let glass = GlassAsset::Air;
         Self {
             line,
+            form: SurfaceForm::Standard,
+            mirror: false,
             curvature,
             conic,
             asphere: None,
             semi_aperture: None,
+            obscured_radius: 0.0,
             is_clear_aperture: false,
             thickness: 0.0,
             glass,
             stop: false,
-            aspheric: false,
         }
+    }
+
+    /// True if the surface neither bends nor stops light between media of this kind.
+    fn is_idle(&self, before: &GlassAsset) -> bool {
+        let clips = self.is_clear_aperture && self.semi_aperture.is_some();
+        let bends = self.mirror || self.glass != *before || matches!(self.form, SurfaceForm::ThinLens(_));
+        !bends && !self.stop && !clips && self.obscured_radius == 0.0
     }
 
     /// Sets the coefficient of r² (0), r⁴ (1) …
@@ -184,7 +211,11 @@ impl RawLens {
             surface.curvature /= factor;
             surface.asphere = surface.asphere.take().map(|terms| Box::new(scaled_asphere(*terms, factor)));
             surface.semi_aperture = surface.semi_aperture.map(|semi| semi * factor);
+            surface.obscured_radius *= factor;
             surface.thickness *= factor;
+            if let SurfaceForm::ThinLens(focal_length) = &mut surface.form {
+                *focal_length *= factor;
+            }
         }
         self.opening = self.opening.map(|opening| StatedOpening { stated: scaled(opening.stated, factor), ..opening });
         self.fields = self.fields.take().map(|fields| scaled_fields(fields, factor));
@@ -193,16 +224,27 @@ impl RawLens {
     /// Converts at least an object, one surface and an image to a prescription.
     pub(super) fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
+        unfold(file, &mut self.surfaces)?;
         let [object, surfaces @ .., image] = &self.surfaces[..] else {
             return Err(Error::new(
                 file,
                 "the file has fewer than three surfaces; expected object, surfaces and image",
             ));
         };
+        if image.curvature != 0.0 {
+            let note =
+                format!("line {}: the image surface is curved; the sensor is a plane through its vertex", image.line);
+            self.notes.push(note);
+        }
         let (before_mm, mut surfaces) = effective_surfaces(surfaces, unit);
+        widen_obscuring_planes(&mut surfaces, self.opening.map(|opening| scaled(opening.stated, unit)));
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
-        let primary_nm = self.primary.map_or(Ok(None), |primary| primary.nm(file, &self.wavelengths_nm))?;
+        let primary_nm = match (self.primary, &self.wavelengths_nm[..]) {
+            (Some(primary), list) => primary.nm(file, list)?,
+            (None, [only]) if (MIN_NM..=MAX_NM).contains(only) => Some(*only),
+            (None, _) => None,
+        };
         let shift_mm = image.thickness * unit;
         self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
@@ -248,19 +290,71 @@ fn near_enough(file: &Path, opening: StatedOpening, object_distance_mm: f64) -> 
 /// Removes a mask in the image plane, with a note: no plane may coincide with the sensor.
 fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
     let [.., before, last] = &surfaces[..] else { return None };
-    let mask = last.glass == before.glass && !last.stop && last.thickness_mm == 0.0;
+    let bends = last.glass != before.glass || last.mirror || last.thin_lens_mm.is_some();
+    let mask = !bends && !last.stop && last.thickness_mm == 0.0;
     let last = if mask { surfaces.pop()? } else { return None };
     Some(format!("line {}: an aperture in the image plane is not modelled; it would limit the field", last.line))
 }
 
+/// Unfolds mirrors: reverses z behind each, so that light travels towards +z. Fills in the media behind mirrors and coordinate breaks.
+fn unfold(file: &Path, surfaces: &mut [RawSurface]) -> Result<(), Error> {
+    let (mut sign, mut before) = (1.0, GlassAsset::Air);
+    for (i, surface) in surfaces.iter_mut().enumerate() {
+        if surface.mirror || surface.form == SurfaceForm::CoordinateBreak {
+            surface.glass = before;
+        } else if let SurfaceForm::ThinLens(focal_length) = surface.form
+            && (surface.glass != GlassAsset::Air
+                || before != GlassAsset::Air
+                || sign < 0.0
+                || !focal_length.is_finite())
+        {
+            let what = format!(
+                "surface {i} of type PARAXIAL is not an ideal lens in air, of a focal length (PARM 1) other than 0, behind an even number of mirrors; \
+                 only such a lens is supported"
+            );
+            return Err(Error::at(file, surface.line, what).with_code(ErrorCode::UnsupportedFile));
+        }
+        before = surface.glass.clone();
+        surface.curvature *= sign;
+        surface.asphere.iter_mut().flat_map(|terms| terms.iter_mut()).for_each(|a| *a *= sign);
+        sign = if surface.mirror { -sign } else { sign };
+        surface.thickness *= sign;
+    }
+    Ok(())
+}
+
+/// Margin of the clear aperture of a plane that only obscures, relative to the largest aperture of the lens.
+const WIDE: f64 = 2.0;
+
+/// Widens planes that stop light at their centres alone: their stated size is that of the disc or of its drawing.
+fn widen_obscuring_planes(surfaces: &mut [SurfaceAsset], opening: Option<LensOpening>) {
+    let pupil_mm = match opening {
+        Some(LensOpening::EntrancePupil { diameter_mm }) => 0.5 * diameter_mm,
+        _ => 0.0,
+    };
+    let others = surfaces.iter().filter(|s| s.obscured_radius_mm == 0.0 || s.clips_light);
+    let widest_mm = others.filter_map(|s| s.semi_aperture_mm).fold(pupil_mm, f64::max);
+    let mut before = GlassAsset::Air;
+    for surface in surfaces {
+        let bends = surface.mirror || surface.thin_lens_mm.is_some() || surface.glass != before;
+        before = surface.glass.clone();
+        if surface.obscured_radius_mm > 0.0 && !bends && !surface.stop && !surface.clips_light {
+            // Its shape has no effect, and may end inside the wider aperture.
+            surface.radius_mm = f64::INFINITY;
+            surface.asphere = [0.0; ASPHERE_TERMS];
+            let wide_mm = WIDE * widest_mm.max(surface.obscured_radius_mm);
+            surface.semi_aperture_mm = (widest_mm > 0.0).then_some(wide_mm);
+        }
+    }
+}
+
 /// Surfaces in mm without those that have no effect, and the distance from the first of all to the first of them. A non-refracting surface stays if it is the
-/// stop or has a clear aperture: a baffle, a field stop.
+/// stop or has a clear aperture or an obscuration: a baffle, a field stop.
 fn effective_surfaces(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
-        let idle =
-            surface.glass == before && !surface.stop && !(surface.is_clear_aperture && surface.semi_aperture.is_some());
+        let idle = surface.is_idle(&before);
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,
@@ -273,6 +367,12 @@ fn effective_surfaces(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAs
 
 fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
     SurfaceAsset {
+        mirror: s.mirror,
+        thin_lens_mm: match s.form {
+            SurfaceForm::ThinLens(focal_length) => Some(focal_length * unit),
+            SurfaceForm::Standard | SurfaceForm::Even | SurfaceForm::Odd | SurfaceForm::CoordinateBreak => None,
+        },
+        obscured_radius_mm: s.obscured_radius * unit,
         radius_mm: if s.curvature == 0.0 { f64::INFINITY } else { unit / s.curvature },
         conic: s.conic,
         asphere: s.asphere.as_deref().map_or([0.0; ASPHERE_TERMS], |terms| scaled_asphere(*terms, unit)),

@@ -2,8 +2,8 @@
 //!
 //! | file | read | refused |
 //! | --- | --- | --- |
-//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | mirrors, other surfaces, tilts, other apertures, non-sequential parts |
-//! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, RDY, CUY, THI, GLA, STO, K, A–H, J, CIR (of the current surface or of named ones), SCA, EPD, FNO, NA, NAO, PIM, PRV, WL, REF, YAN, YOB, YIM, VUY, VLY, TITLE | mirrors, tilts and decentres, other surface forms, zooms, solves of named surfaces, surfaces inserted or deleted |
+//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, GCAT, SURF, TYPE STANDARD, EVENASPH, ODDASPHE without odd terms, PARAXIAL, COORDBRK of zeros, CURV, CONI, PARM, DISZ, GLAS (MIRROR, catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, OBSC (a disc), STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | other surfaces, tilts, other apertures, non-sequential parts |
+//! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, RDY, CUY, THI, GLA (REFL: mirror), RMD, STO, K, A–H, J, CIR, also OBS and HOL (of the current surface or of named ones), SCA, EPD, FNO, NA, NAO, PIM, PRV, WL, REF, YAN, YOB, YIM, VUY, VLY, TITLE | tilts and decentres, other surface forms, zooms, solves of named surfaces, surfaces inserted or deleted |
 //!
 //! Both become a [`PrescriptionAsset`] in mm. Other content (tolerances, plots, solves, merit functions) does not describe the lens itself and is ignored. No
 //! program of the files is run.
@@ -15,6 +15,7 @@ mod seq;
 mod seq_edit;
 mod text;
 mod zmx;
+mod zmx_surface;
 
 use std::path::Path;
 

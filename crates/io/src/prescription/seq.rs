@@ -4,7 +4,7 @@
 //! thickness and glass of the next surface, SO those of the object, SI of the image; later commands apply to the last of them. A glass is a catalogue name,
 //! optionally with its catalogue after an underscore, or a number: `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is
 //! from the file's own private catalogue (PRV … END). FNO and NA are those of the image, wherever the object is (as in rayoptics). A … H and J are the
-//! coefficients of r⁴ … r²⁰. The thickness of SI is a defocus; PIM leaves the image to be found. REF counts the wavelengths of WL.
+//! coefficients of r⁴ … r²⁰. REFL in the place of a glass makes a mirror. The thickness of SI is a defocus; PIM leaves the image to be found. REF counts the wavelengths of WL.
 //!
 //! A command takes effect from its line on, on a named surface (`RDY S1 25`, `THI S2..4 8`, `S3 25 8`; see `seq_edit.rs`), or on the whole lens as defined
 //! there (`SCA 2`). Commands that would change the lens in a way that is not modelled are refused with their line; unknown ones are noted.
@@ -22,8 +22,11 @@ use crate::{Error, ErrorCode};
 const REFUSED: &[&str] = &[
     "XDE", "YDE", "ZDE", "ADE", "BDE", "CDE", "DAR", "BEN", "REV", "RET", "GRT", "DIF", "HOE", "SPS", "XTO", "YTO",
     "CYL", "AAS", "ZOO", "NSS", "REFL", "GRX", "DOE", "REX", "REY", "ELX", "ELY", "ADX", "ADY", "ARO", "RDX", "CUX",
-    "KX", "RMD", "INS", "DEL", "COP", "FLI", "UDS", "XYP", "ZRN", "ZFR", "SPL", "TOR", "GRN",
+    "KX", "INS", "DEL", "COP", "FLI", "UDS", "XYP", "ZRN", "ZFR", "SPL", "TOR", "GRN",
 ];
+
+/// Commands of the list above that have no effect with the value 0: shifts and tilts.
+const SHIFTS: &[&str] = &["XDE", "YDE", "ZDE", "ADE", "BDE", "CDE"];
 
 /// Commands without an effect on the lens: weights and variables of optimisation, labels, surface forms that follow from their terms, and the end of input.
 const PASSED_OVER: &[&str] = &[
@@ -131,6 +134,7 @@ impl<'a> SeqReader<'a> {
             "SCA" => self.scale(w)?,
             "S" | "SO" | "SI" => self.surface(&name, w)?,
             _ if name.strip_prefix('S').is_some_and(is_count) => self.surface(&name, w)?,
+            _ if SHIFTS.contains(&name.as_str()) && shifts_nothing(w) => {}
             _ if REFUSED.contains(&name.as_str()) => {
                 return Err(w
                     .error(format!("{name} is not supported; only centred surfaces of revolution are"))
@@ -148,7 +152,19 @@ impl<'a> SeqReader<'a> {
             let list = list.join(", ");
             self.raw.notes.push(format!("unknown commands are ignored, as if they did not change the lens: {list}"));
         }
+        self.choose_stop();
         self.raw.finish(file)
+    }
+
+    /// Makes the first surface the stop if the file names none, as CODE V does.
+    fn choose_stop(&mut self) {
+        if self.raw.surfaces.len() > 2
+            && !self.raw.surfaces.iter().any(|surface| surface.stop)
+            && let Some(first) = self.raw.surfaces.get_mut(1)
+        {
+            first.stop = true;
+            self.raw.notes.push("no surface is the stop (STO): the first one is".to_owned());
+        }
     }
 
     fn fields_across(&mut self, name: &str, w: &Words<'_>) -> Result<(), Error> {
@@ -209,23 +225,24 @@ impl<'a> SeqReader<'a> {
             self.raw.surfaces[place].thickness = thickness(w.number(2)?);
         }
         if fresh || w.words.len() > 3 {
-            self.raw.surfaces[place].glass = self.glass(w, 3)?;
+            let medium = self.medium(w, 3)?;
+            medium.apply(&mut self.raw.surfaces[place]);
         }
         Ok(())
     }
 
-    pub(super) fn glass(&mut self, w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
+    /// Medium behind a surface, or the mirror that it is.
+    pub(super) fn medium(&mut self, w: &Words<'_>, place: usize) -> Result<Medium, Error> {
+        match w.word(place).to_ascii_uppercase().as_str() {
+            "" | "AIR" => Ok(Medium::Glass(GlassAsset::Air)),
+            "REFL" => Ok(Medium::Mirror),
+            _ => self.glass(w, place).map(Medium::Glass),
+        }
+    }
+
+    fn glass(&mut self, w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
         let name = w.word(place);
         let plain = name.trim_start_matches(['\'', '"']);
-        match name.to_ascii_uppercase().as_str() {
-            "" | "AIR" => return Ok(GlassAsset::Air),
-            "REFL" => {
-                return Err(w
-                    .error("mirrors are not supported; only refracting lenses are")
-                    .with_code(ErrorCode::UnsupportedFile));
-            }
-            _ => {}
-        }
         if let Some(glass) = self.private.find(plain) {
             return Ok(glass);
         }
@@ -236,6 +253,28 @@ impl<'a> SeqReader<'a> {
         self.raw.notes.extend(found.note.map(|note| format!("line {}: {note}", w.line)));
         Ok(found.glass)
     }
+}
+
+/// Space behind a surface.
+pub(super) enum Medium {
+    Glass(GlassAsset),
+    /// Reflected: the space before the surface.
+    Mirror,
+}
+
+impl Medium {
+    pub(super) fn apply(&self, surface: &mut RawSurface) {
+        match self {
+            Self::Glass(glass) => (surface.glass, surface.mirror) = (glass.clone(), false),
+            Self::Mirror => surface.mirror = true,
+        }
+    }
+}
+
+/// True if all values of a command are 0.
+fn shifts_nothing(w: &Words<'_>) -> bool {
+    let values: Vec<&str> = w.words[1..].iter().copied().filter(|word| !word.starts_with(['S', 's'])).collect();
+    !values.is_empty() && values.iter().all(|word| word.parse() == Ok(0.0))
 }
 
 fn unit(w: &Words<'_>) -> Result<f64, Error> {

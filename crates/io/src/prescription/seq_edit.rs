@@ -19,7 +19,7 @@ struct EditTarget {
 impl SeqReader<'_> {
     /// Handles a command about surfaces; returns false for others.
     pub(super) fn edit(&mut self, name: &str, w: &Words<'_>) -> Result<bool, Error> {
-        let known = ["RDY", "CUY", "THI", "GLA", "CIR", "STO", "K"].contains(&name) || order(name).is_some();
+        let known = ["RDY", "CUY", "THI", "GLA", "RMD", "CIR", "STO", "K"].contains(&name) || order(name).is_some();
         if !known {
             return Ok(false);
         }
@@ -38,11 +38,11 @@ impl SeqReader<'_> {
         if name == "STO" && target.named {
             self.raw.surfaces.iter_mut().for_each(|surface| surface.stop = false);
         }
-        let glass = if name == "GLA" { Some(self.glass(w, target.value)?) } else { None };
+        let medium = if name == "GLA" { Some(self.medium(w, target.value)?) } else { None };
         for place in target.surfaces {
             let surface = &mut self.raw.surfaces[place];
-            match &glass {
-                Some(glass) => surface.glass = glass.clone(),
+            match &medium {
+                Some(medium) => medium.apply(surface),
                 None => property(surface, name, w, target.value)?,
             }
         }
@@ -125,21 +125,38 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -
         "THI" => surface.thickness = thickness(w.number(value)?),
         "STO" => surface.stop = true,
         "K" => surface.conic = w.number(value)?,
-        "CIR" => match w.word(value).to_ascii_uppercase().as_str() {
-            // The glass's edge is no clear aperture.
-            "EDG" | "HOL" => {}
-            "OBS" => {
+        "RMD" => match w.word(value).to_ascii_uppercase().as_str() {
+            "REFL" => surface.mirror = true,
+            "REFR" => surface.mirror = false,
+            other => {
                 return Err(w
-                    .error("obscurations are not supported; only round, open apertures are")
+                    .error(format!("RMD {other} is not supported; only REFR and REFL are"))
                     .with_code(ErrorCode::UnsupportedFile));
             }
-            _ => (surface.semi_aperture, surface.is_clear_aperture) = (Some(w.number(value)?), true),
         },
+        "CIR" => circle(surface, w, value)?,
         _ => {
             if let Some(place) = order(name) {
                 surface.set_coefficient(place, w.number(value)?);
             }
         }
+    }
+    Ok(())
+}
+
+/// `CIR 5`, `CIR OBS 5`, `CIR OBS L'A' 5`: a kind and a label may precede the radius.
+fn circle(surface: &mut RawSurface, w: &Words<'_>, value: usize) -> Result<(), Error> {
+    let kind = w.word(value).to_ascii_uppercase();
+    let is_kind = ["CLR", "EDG", "HOL", "OBS"].contains(&kind.as_str());
+    let place = value + usize::from(is_kind);
+    let is_label = ["L'", "L\"", "l'", "l\""].iter().any(|begin| w.word(place).starts_with(begin));
+    let radius = w.number(place + usize::from(is_label))?;
+    match kind.as_str() {
+        // The glass's edge is no clear aperture.
+        "EDG" => {}
+        // Light within a hole meets no glass or mirror.
+        "HOL" | "OBS" => surface.obscured_radius = radius,
+        _ => (surface.semi_aperture, surface.is_clear_aperture) = (Some(radius), true),
     }
     Ok(())
 }

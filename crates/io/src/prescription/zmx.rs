@@ -1,7 +1,7 @@
 //! Zemax lens files.
 //!
 //! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1) gives index and Abbe number of a
-//! model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of field and the numbers of fields and wavelengths, as YFLN and WAVM are
+//! model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ, of an ODDASPHE that of rⁱ. FTYP holds the kind of field and the numbers of fields and wavelengths, as YFLN and WAVM are
 //! padded. PWAV counts the wavelengths.
 //!
 //! Glasses are those of GLAS lines.
@@ -19,6 +19,7 @@ use etendue_scene::asset::{GlassAsset, GlassCatalogueAsset, LensFields, Prescrip
 use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening};
 use super::glasses::{self, GlassSearch, NotedGlass};
 use super::text::Words;
+use super::zmx_surface::property;
 use crate::{Error, ErrorCode};
 
 pub(super) fn read(file: &Path, text: &str, catalogues: &[GlassCatalogueAsset]) -> Result<PrescriptionAsset, Error> {
@@ -106,10 +107,13 @@ impl<'a> ZmxReader<'a> {
                 self.glasses.search.prefer(&w.words[1..]);
                 Ok(())
             }
-            _ => match self.raw.surfaces.last_mut() {
-                Some(surface) => property(surface, w),
-                None => Ok(()),
-            },
+            _ => {
+                let number = self.raw.surfaces.len().wrapping_sub(1);
+                match self.raw.surfaces.last_mut() {
+                    Some(surface) => property(surface, number, w),
+                    None => Ok(()),
+                }
+            }
         }
     }
 
@@ -146,6 +150,11 @@ impl<'a> ZmxReader<'a> {
     }
 
     fn glass(&mut self, w: &Words<'_>) -> Result<(), Error> {
+        let copied = if w.word(2) == "2" { self.raw.surfaces.get(w.number(3)? as usize) } else { None };
+        if w.word(1) == "MIRROR" || copied.is_some_and(|surface| surface.mirror) {
+            self.raw.surfaces.last_mut().into_iter().for_each(|surface| surface.mirror = true);
+            return Ok(());
+        }
         let NotedGlass { glass, note, .. } = self.glasses.read(w, &self.raw.surfaces)?;
         self.raw.notes.extend(note.map(|note| format!("line {}: {note}", w.line)));
         if let Some(surface) = self.raw.surfaces.last_mut() {
@@ -166,58 +175,9 @@ impl<'a> ZmxReader<'a> {
     }
 }
 
-fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
-    match w.word(0) {
-        "TYPE" if !["STANDARD", "EVENASPH"].contains(&w.word(1)) => {
-            let kind = w.word(1);
-            return Err(w
-                .error(format!("surfaces of type {kind} are not supported; only STANDARD and EVENASPH are"))
-                .with_code(ErrorCode::UnsupportedFile));
-        }
-        "TYPE" => surface.aspheric = w.word(1) == "EVENASPH",
-        "CURV" => surface.curvature = w.number(1)?,
-        "CONI" => surface.conic = w.number(1)?,
-        // A STANDARD surface has no parameters.
-        "PARM" if surface.aspheric => coefficient(surface, w)?,
-        "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
-        // A clear aperture overrides the diameter for drawing.
-        "CLAP" if w.number(1)? != 0.0 => {
-            return Err(w
-                .error("obscurations are not supported; only round, open apertures are")
-                .with_code(ErrorCode::UnsupportedFile));
-        }
-        "CLAP" => (surface.semi_aperture, surface.is_clear_aperture) = (Some(w.number(2)?), true),
-        // A floating aperture clips at the diameter.
-        "FLAP" => surface.is_clear_aperture = true,
-        "DIAM" if surface.semi_aperture.is_none() => surface.semi_aperture = Some(w.number(1)?).filter(|d| *d > 0.0),
-        "STOP" => surface.stop = true,
-        "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
-        aperture @ ("SQAP" | "ELAP" | "OBSC" | "SQOB" | "ELOB" | "UDAD" | "OBDC") => {
-            return Err(w
-                .error(format!("apertures of type {aperture} are not supported; only round, centred apertures are"))
-                .with_code(ErrorCode::UnsupportedFile));
-        }
-        _ => {}
-    }
-    Ok(())
-}
-
 /// Micrometres in nm, to the precision of files.
 fn nanometres(um: f64) -> f64 {
     (1e9 * um).round() / 1e6
-}
-
-/// Number of parameters of an EVENASPH that are coefficients.
-const EVEN_TERMS: f64 = 8.0;
-
-fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
-    let (place, value) = (w.number(1)?, w.number(2)?);
-    match place {
-        1.0..=EVEN_TERMS if place.fract() == 0.0 => surface.set_coefficient(place as usize - 1, value),
-        _ if value == 0.0 => {}
-        _ => return Err(w.error(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
-    }
-    Ok(())
 }
 
 /// Aperture of the lens; `None` if the stop's own size defines it (FLOA).
@@ -254,11 +214,6 @@ struct GlassOfLine {
 impl Glasses<'_> {
     /// Glass of a GLAS line, and a note on it.
     fn read(&mut self, w: &Words<'_>, surfaces: &[RawSurface]) -> Result<NotedGlass, Error> {
-        if w.word(1) == "MIRROR" {
-            return Err(w
-                .error("mirrors are not supported; only refracting lenses are")
-                .with_code(ErrorCode::UnsupportedFile));
-        }
         match w.word(2) {
             "1" => Ok(NotedGlass::plain(model_glass(w.number(4)?, w.number(5)?))),
             "2" => {

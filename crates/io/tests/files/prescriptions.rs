@@ -83,8 +83,7 @@ fn inches_become_millimetres() {
 fn what_is_not_modelled_is_refused_with_its_line() {
     let zmx = |from: &str, to: &str| read("lens.zmx", &ZMX.replacen(from, to, 1)).expect_err("refused");
     let line = 1 + ZMX.lines().position(|l| l.contains("GLAS N-BK7")).expect("a line");
-    assert!(zmx("GLAS N-BK7", "GLAS MIRROR").starts_with(&format!("{line}: mirrors are not supported")));
-    assert!(zmx("GLAS N-BK7", "GLAS UNOBTAINIUM").contains("unknown glass `UNOBTAINIUM`"));
+    assert!(zmx("GLAS N-BK7", "GLAS UNOBTAINIUM").starts_with(&format!("{line}: unknown glass `UNOBTAINIUM`")));
     assert!(zmx("TYPE EVENASPH", "TYPE COORDBRK").contains("type COORDBRK"));
     assert!(zmx("MODE SEQ", "MODE NSC").starts_with("2: a non-sequential lens"));
     assert!(zmx("  STOP\n", "").contains("0 surfaces are aperture stops"));
@@ -99,10 +98,10 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     let working = read("lens.zmx", &ZMX.replace("ENPD 10.0", "FNUM 4 1")).expect("a working f-number");
     assert_eq!(working.opening, Some(LensOpening::ImageCone { sine: 0.125 }));
     assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));
-    assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("obscurations"));
+    assert!(zmx("CLAP 0 6.5 0", "OBSC 2 6.5 0").contains("in the form of a ring is not supported"));
     assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not supported"));
     assert!(seq("RDM;LEN", "LEN").contains("surfaces precede RDM"));
-    assert!(seq("3.5 NBK7_SCHOTT", "3.5 REFL").contains("mirrors are not supported"));
+    assert!(seq("  ASP", "  RMD TIR").contains("RMD TIR is not supported"));
     assert!(read("lens.txt", SEQ).expect_err("what kind").contains(".zmx"));
     assert!(read_prescription(Path::new("nowhere.zmx")).is_err());
 }
@@ -372,4 +371,76 @@ fn parameters_of_a_standard_surface_are_no_coefficients() {
     let text = ZMX.replace("TYPE EVENASPH", "TYPE STANDARD");
     let lens = read("lens.zmx", &text).expect("a lens");
     assert_eq!(lens.surfaces[1].asphere, [0.0; 10]);
+}
+
+/// Radii, thicknesses and conics as light meets them: the Cassegrain of both programs, in inches.
+#[test]
+fn mirrors_are_unfolded() {
+    let zmx = "MODE SEQ\nUNIT IN X W\nENPD 10\nWAVM 1 0.55 1\nPWAV 1\nSURF 0\n  TYPE STANDARD\n  CURV 0\n  DISZ INFINITY\n\
+               SURF 1\n  TYPE STANDARD\n  CURV 0\n  DISZ 30\n  OBSC 0 2 0\n  DIAM 2\n\
+               SURF 2\n  STOP\n  TYPE EVENASPH\n  CURV -0.0125\n  CONI -1\n  PARM 2 1e-6\n  GLAS MIRROR 0 0 1.5 40\n  DISZ -30\n  CLAP 1.5 5 0\n\
+               SURF 3\n  TYPE EVENASPH\n  CURV -0.025\n  CONI -9\n  PARM 2 -2e-6\n  GLAS MIRROR 0 0 1.5 40\n  DISZ 10\n  DIAM 1.8\n\
+               SURF 4\n  TYPE STANDARD\n  CURV 0\n  DISZ 10\n  DIAM 3\nSURF 5\n  TYPE STANDARD\n  CURV 0\n  DISZ 0\n";
+    let seq = "RDM\nDIM I\nEPD 10\nWL 550\nSO 0 1e13\nS 0 30\n CIR OBS 2\n CIR 10\nS -80 -30 REFL\n STO\n K -1\n A 1e-6\n CIR 5\n CIR HOL L'B' 1.5\n\
+               S -40 10\n RMD REFL\n K -9\n A -2e-6\n CIR 1.8\nS 0 10\n XDE 0.0; ADE 0\nSI 0 0\nGO\n";
+    for lens in [read("lens.zmx", zmx).expect("a lens"), read("lens.seq", seq).expect("a lens")] {
+        let [disc, primary, secondary] = &lens.surfaces[..] else { panic!("{:?}", lens.surfaces) };
+        assert!(primary.mirror && secondary.mirror && !disc.mirror && primary.stop);
+        // The plane with the disc does not clip at the disc's own size.
+        assert!(disc.obscured_radius_mm == 50.8 && disc.semi_aperture_mm.is_some_and(|mm| mm >= 250.0), "{disc:?}");
+        assert!((primary.obscured_radius_mm - 38.1).abs() < 1e-12 && secondary.obscured_radius_mm == 0.0);
+        assert!((primary.radius_mm + 2032.0).abs() < 1e-9 && (secondary.radius_mm - 1016.0).abs() < 1e-9);
+        // The sag of r⁴ turns with z: 1 in⁻³ is 25.4⁻³ mm⁻³.
+        let per_mm3 = 25.4_f64.powi(-3);
+        assert!((primary.asphere[1] / (1e-6 * per_mm3) - 1.0).abs() < 1e-12);
+        assert!((secondary.asphere[1] / (2e-6 * per_mm3) - 1.0).abs() < 1e-12);
+        let thickness: Vec<f64> = lens.surfaces.iter().map(|s| s.thickness_mm).collect();
+        assert_eq!(thickness, [762.0, 762.0, 508.0]);
+        assert!((lens.back_focus_mm - 508.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_mirror_keeps_the_medium_before_it_and_codev_s_first_surface_is_the_stop() {
+    let mangin = "RDM\nEPD 20\nSO 0 1e13\nS -120 5 NBK7_SCHOTT\nS -100 -5 REFL\nS -120 -50\nSI 0 -0.5\nGO\n";
+    let lens = read("lens.seq", mangin).expect("a lens");
+    let glass = GlassAsset::Named("N-BK7".into());
+    let [front, mirror, back] = &lens.surfaces[..] else { panic!("three surfaces") };
+    assert_eq!((&front.glass, &mirror.glass, &back.glass), (&glass, &glass, &GlassAsset::Air));
+    // Behind the mirror z is reversed: the same surface is convex towards the light, and the image 0.5 mm further along it.
+    assert_eq!([front.radius_mm, mirror.radius_mm, back.radius_mm], [-120.0, -100.0, 120.0]);
+    assert_eq!((mirror.thickness_mm, lens.back_focus_mm), (5.0, 50.5));
+    assert!(front.stop && lens.notes.iter().any(|note| note.contains("no surface is the stop")), "{:?}", lens.notes);
+}
+
+#[test]
+fn dummy_ideal_and_odd_surfaces_of_zemax() {
+    let with = |from: &str, to: &str| read("lens.zmx", &ZMX.replacen(from, to, 1));
+    let zeros = "TYPE COORDBRK\n  PARM 1 0\n  PARM 4 0.0\n  PARM 6 1\n";
+    is_the_triplet(&with("TYPE STANDARD\n  CURV 0.0\n  DISZ 5.0", &format!("{zeros}  DISZ 5.0")).expect("a dummy"));
+    // Inside a glass a coordinate break is in that glass.
+    let split = format!(
+        "DISZ 1.5\n  GLAS N-BK7 0 0 1.5 40\nSURF 3\n  {zeros}  DISZ 2.0\n  DIAM 0\nSURF 4\n  TYPE STANDARD\n  CURV 0\n  DISZ 0\n"
+    );
+    let inside = with("DISZ 3.5\n", &split).expect("a lens");
+    assert_eq!((inside.surfaces[0].thickness_mm, inside.surfaces.len()), (3.5, 5));
+    let tilted =
+        with("TYPE STANDARD\n  CURV 0.0\n  DISZ 5.0", "TYPE COORDBRK\n  PARM 3 5\n  DISZ 5.0").expect_err("a tilt");
+    assert!(tilted.contains("surface 1 of type COORDBRK shifts or tilts by 5 (PARM 3)"), "{tilted}");
+    let ideal =
+        with("TYPE STANDARD\n  CURV 0.0\n  DISZ 5.0", "TYPE PARAXIAL\n  CURV 0\n  PARM 1 80\n  PARM 2 1\n  DISZ 5.0");
+    let ideal = ideal.expect("a lens");
+    assert_eq!((ideal.surfaces[0].thin_lens_mm, ideal.surfaces.len()), (Some(80.0), 6));
+    let in_glass =
+        with("TYPE STANDARD\n  CURV 0.0\n  DISZ 1.0", "TYPE PARAXIAL\n  PARM 1 80\n  GLAS N-BK7\n  DISZ 1.0");
+    assert!(in_glass.expect_err("in glass").contains("surface 4 of type PARAXIAL"));
+    // PARM i of an ODDASPHE belongs to rⁱ.
+    let odd = with(
+        "TYPE EVENASPH\n  CURV -0.02\n  PARM 1 0\n  PARM 2 1.1E-5\n  PARM 3 -2.0E-8",
+        "TYPE ODDASPHE\n  CURV -0.02\n  PARM 3 0\n  PARM 4 1.1E-5\n  PARM 6 -2.0E-8",
+    );
+    is_the_triplet(&odd.expect("even terms alone"));
+    let cubic =
+        with("TYPE EVENASPH\n  CURV -0.02\n  PARM 1 0", "TYPE ODDASPHE\n  CURV -0.02\n  PARM 3 1e-5").expect_err("r³");
+    assert!(cubic.contains("surface 3 of type ODDASPHE has 0.00001 as its coefficient of r^3"), "{cubic}");
 }

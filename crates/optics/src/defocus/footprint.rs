@@ -8,7 +8,7 @@
 //! the pupil moves over the field.
 //!
 //! Outlines are traced on a lattice over the image at 587.56 nm and interpolated. Left out: caustics within the blur (rings of spherical aberration,
-//! coma), separate outlines per colour, the pupil's own cos⁴ variation.
+//! coma), separate outlines per colour, the pupil's own cos⁴ variation, central obscurations.
 
 use core::f64::consts::PI;
 
@@ -191,7 +191,7 @@ impl Tracer<'_> {
 
     /// Pupil samples just inside the edge of the open part.
     fn edge(&self, sensor_mm: DVec2) -> Option<[DVec2; VERTICES]> {
-        let open = |pupil: DVec2| self.view.lens.ray(sensor_mm, pupil, PRINCIPAL_NM).is_some();
+        let open = |pupil: DVec2| self.view.lens.unobscured_ray(sensor_mm, pupil, PRINCIPAL_NM).is_some();
         let cell = |i: usize| (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5) / GRID as f64;
         let open_points: Vec<DVec2> = (0..GRID * GRID).map(cell).filter(|pupil| open(*pupil)).collect();
         let mean = open_points.iter().copied().sum::<DVec2>() / open_points.len() as f64;
@@ -215,11 +215,13 @@ impl Tracer<'_> {
     /// Rotation, in turns, of the pupil samples of a field point against the image. A prescription samples its pupil in the meridian's frame; the
     /// vertices keep the directions of the image, so that those of neighbouring nodes correspond.
     fn turn(&self, sensor_mm: DVec2) -> f64 {
+        let turn = |outward: DVec2| {
+            let outward = outward.normalize_or(DVec2::X);
+            atan2(outward.y, outward.x) / (2.0 * PI)
+        };
         match self.view.lens {
-            Lens::Prescription(_) | Lens::RayTransfer(_) => {
-                let outward = (-sensor_mm).normalize_or(DVec2::X);
-                atan2(outward.y, outward.x) / (2.0 * PI)
-            }
+            Lens::Prescription(lens) => turn(sensor_mm * -lens.prescription().inversion()),
+            Lens::RayTransfer(_) => turn(-sensor_mm),
             Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) | Lens::Telecentric(_) => 0.0,
         }
     }
@@ -228,7 +230,7 @@ impl Tracer<'_> {
     fn steps_px(&self, sensor_mm: DVec2, pupil: DVec2, other_per_m: f64) -> Option<[DVec2; 2]> {
         let lens = self.view.lens;
         let ahead = lens.direction(sensor_mm)?.normalize();
-        let ray = lens.ray(sensor_mm, pupil, PRINCIPAL_NM)?;
+        let ray = lens.unobscured_ray(sensor_mm, pupil, PRINCIPAL_NM)?;
         let across = if ahead.z > ACROSS_AXIS { DVec3::Z } else { ahead };
         let step = |inverse_per_m: f64| {
             let origin = ray.origin_m * inverse_per_m;

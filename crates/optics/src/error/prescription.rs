@@ -66,7 +66,7 @@ pub enum PrescriptionError {
     LastMedium,
     /// A lens without a real image.
     #[error(
-        "the prescription has a focal length of {focal_length_mm} mm: only a positive one images a scene onto a sensor"
+        "the prescription has a focal length of {focal_length_mm} mm and no real image of a distant scene, which a sensor needs"
     )]
     NoImage {
         /// Focal length at the reference wavelength, mm.
@@ -105,6 +105,12 @@ pub enum PrescriptionError {
         height_mm: f64,
         /// The stop's semi-aperture, mm.
         stop_mm: f64,
+    },
+    /// An obscuration as large as the axial bundle.
+    #[error("surface {surface} obscures the whole axial bundle; reduce its obscured radius (obscured_radius_mm)")]
+    Blocked {
+        /// The surface.
+        surface: usize,
     },
     /// An f-number beyond the opening of the stop.
     #[error(
@@ -183,7 +189,8 @@ impl PrescriptionError {
             Self::Number { surface, .. }
             | Self::Equator { surface, .. }
             | Self::TotalReflection { surface, .. }
-            | Self::NotTheStop { surface, .. } => Some(surface),
+            | Self::NotTheStop { surface, .. }
+            | Self::Blocked { surface } => Some(surface),
             Self::Overlap { second, .. } => Some(second),
             _ => None,
         }

@@ -25,7 +25,7 @@ const MAX_MM: f32 = 1e4;
 /// The end of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Node {
-    /// On the sensor, mm: away from the axis in the source's own direction, and across.
+    /// On the sensor, mm: away from the axis in the direction of the source's image, and across.
     x: f32,
     y: f32,
     /// Fraction of the light.
@@ -89,7 +89,8 @@ impl<'a> GhostBeam<'a> {
             let Ok(ghost) = self.lens.ghost_in(pair, ray, nm, &media) else { return Node::LOST };
             let d = ghost.ray.direction;
             let end = ghost.ray.point + d * ((self.lens.sensor_position_mm() - ghost.ray.point.z) / d.z);
-            let (x, y, weight, filling) = (end.x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
+            let x = end.x * self.lens.inversion();
+            let (x, y, weight, filling) = (x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
             // Rays parallel to the sensor or away from it do not land.
             let lands = d.z > 0.0 && x.abs().max(y.abs()) < MAX_MM;
             if lands { Node { x, y, weight, filling, cosine: d.z as f32 } } else { Node::LOST }

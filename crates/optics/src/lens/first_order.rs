@@ -10,7 +10,7 @@ impl Lens {
     pub fn focal_length_mm(&self) -> f64 {
         each!(self,
             lens => lens.parameters().focal_length_mm,
-            Prescription(lens) => lens.prescription().paraxial().focal_length_mm,
+            Prescription(lens) => lens.prescription().paraxial().focal_length_mm.abs(),
             RayTransfer(lens) => lens.focal_length_mm(),
             Calibrated(lens) => lens.focal_length_mm(),
             Telecentric(_) => f64::INFINITY,
@@ -39,6 +39,21 @@ impl Lens {
         )
     }
 
+    /// Radius of the pupil's central obscuration on the axis over the pupil's; 0 for none. The f-number ignores it.
+    #[must_use]
+    pub fn obscured_ratio(&self) -> f64 {
+        match self {
+            Self::Prescription(lens) => lens.obscured_ratio(),
+            _ => 0.0,
+        }
+    }
+
+    /// Open fraction of the pupil's area on the axis: 1 without a central obscuration.
+    #[must_use]
+    pub fn open_fraction(&self) -> f64 {
+        1.0 - self.obscured_ratio() * self.obscured_ratio()
+    }
+
     /// Transmittance τ.
     #[must_use]
     pub fn transmittance(&self) -> f64 {
@@ -51,10 +66,10 @@ impl Lens {
         )
     }
 
-    /// T-number N/√τ.
+    /// T-number N/√(τ a), a the open fraction of the pupil.
     #[must_use]
     pub fn t_number(&self) -> f64 {
-        self.f_number() / self.transmittance().sqrt()
+        self.f_number() / (self.transmittance() * self.open_fraction()).sqrt()
     }
 
     /// Distance of the plane in focus from the entrance pupil, m; `None` if everything is sharp.

@@ -108,7 +108,7 @@ impl Lens {
             Self::Prescription(lens) => {
                 let p = lens.prescription().paraxial();
                 let size = PupilSize { entrance_radius_mm: p.entrance_radius_mm };
-                size.hyperfocal_m(p.focal_length_mm, p.pupil_magnification(), circle_mm)
+                size.hyperfocal_m(p.focal_length_mm.abs(), p.pupil_magnification(), circle_mm)
             }
         }
     }

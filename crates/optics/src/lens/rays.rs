@@ -4,6 +4,7 @@ use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
 
 use super::Lens;
+use crate::prescription::trace::ApertureTest;
 
 /// The ray of ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +27,16 @@ impl Lens {
         )
     }
 
+    /// The same with central obscurations ignored.
+    pub(crate) fn unobscured_ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        match self {
+            Self::Prescription(lens) => lens.tested_ray(sensor_mm, pupil, wavelength_nm, ApertureTest::RimsOnly),
+            _ => self.ray(sensor_mm, pupil, wavelength_nm),
+        }
+    }
+
     /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit; `None` if it is clipped or the
-    /// sensor point has no image.
+    /// sensor point has no image. A central obscuration does not stop it.
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         each!(self,

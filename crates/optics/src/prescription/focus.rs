@@ -85,10 +85,14 @@ pub(super) fn open(
     media: &Media,
 ) -> Result<(), PrescriptionError> {
     let elements = elements(surfaces, places);
-    let focal_length_mm = -1.0 / matrix(&elements, media).c;
-    if !(focal_length_mm > 0.0 && focal_length_mm.is_finite()) {
+    let m = matrix(&elements, media);
+    let focal_length_mm = -1.0 / m.c;
+    // A negative focal length belongs to a diverging lens, or to one that images an intermediate image: behind that, the image is erect and real.
+    let forms_image = focal_length_mm > 0.0 || -m.a / m.c > 0.0;
+    if !(forms_image && focal_length_mm.is_finite()) {
         return Err(PrescriptionError::NoImage { focal_length_mm });
     }
+    let focal_length_mm = focal_length_mm.abs();
     let [entrance_mm, magnified] = entrance(&elements, stop, media);
     if !entrance_mm.is_finite() || entrance_mm.abs() > 1e6 * focal_length_mm {
         return Err(PrescriptionError::Telecentric);
@@ -160,13 +164,16 @@ fn conjugate_m(state: &State, image_mm: f64) -> f64 {
 struct Group {
     first: usize,
     last: usize,
-    /// Sensor position from the first vertex as given, mm.
+    /// Sensor position from the first and from the last vertex as given, mm.
     sensor_position_mm: f64,
+    back_mm: f64,
     /// Travel towards the scene and the sensor, mm.
     low_mm: f64,
     high_mm: f64,
     /// The last spaces before and behind the group.
     spaces_mm: [f64; 2],
+    /// True if light leaves the group towards the scene: after an odd number of mirrors.
+    turns_back: bool,
 }
 
 impl Group {
@@ -181,24 +188,30 @@ impl Group {
         let after = if last + 1 == count { back_mm } else { surfaces[last].thickness_mm };
         let total: f64 = surfaces[..count - 1].iter().map(|s| s.thickness_mm).sum();
         let low_mm = -before.min(total + back_mm);
+        let turns_back = surfaces[first..=last].iter().filter(|s| s.is_mirror()).count() % 2 == 1;
         Ok(Self {
             first,
             last,
             sensor_position_mm: total + back_mm,
+            back_mm,
             low_mm,
-            high_mm: after,
+            high_mm: if turns_back { total + back_mm } else { after },
             spaces_mm: [before, after],
+            turns_back,
         })
     }
 
-    /// Moves the group by `shift_mm` towards the sensor; returns the sensor's distance behind the last vertex.
+    /// Moves the group by `shift_mm` along the light that enters it; returns the sensor's distance behind the last vertex.
     fn shift(&self, surfaces: &mut [Surface], shift_mm: f64) -> f64 {
         let count = surfaces.len();
         if self.first > 0 {
             surfaces[self.first - 1].thickness_mm = self.spaces_mm[0] + shift_mm;
         }
         if self.last + 1 < count {
-            surfaces[self.last].thickness_mm = self.spaces_mm[1] - shift_mm;
+            surfaces[self.last].thickness_mm = self.spaces_mm[1] - if self.turns_back { -shift_mm } else { shift_mm };
+        }
+        if self.turns_back {
+            return self.back_mm + if self.last + 1 == count { shift_mm } else { 0.0 };
         }
         let total: f64 = surfaces[..count - 1].iter().map(|s| s.thickness_mm).sum();
         // The lens frame moves with the first surface.
@@ -249,8 +262,8 @@ fn bisect(error: &mut impl FnMut(f64) -> f64, bracket: [f64; 2], ends: [f64; 2])
     0.5 * (a + b)
 }
 
-/// Height on the sensor per tangent at the entrance pupil, mm.
+/// Height on the sensor per tangent at the entrance pupil, mm, positive also for an erect image.
 pub(super) fn principal_distance_mm(elements: &[Element], p: &Paraxial, image_mm: f64, media: &Media) -> f64 {
     let m = matrix(elements, media).moved(image_mm);
-    m.b - m.a * p.entrance_pupil_position_mm
+    (m.b - m.a * p.entrance_pupil_position_mm) * p.focal_length_mm.signum()
 }

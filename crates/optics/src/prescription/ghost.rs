@@ -2,7 +2,7 @@
 //!
 //! Each of the n (n − 1)/2 pairs of n reflecting surfaces has a path: through the lens to the `rear` surface, back to the `front` one, and on to the
 //! sensor. A surface reflects what its coating does not transmit (coatings do not absorb): by Fresnel's equations if uncoated, everything beyond the
-//! critical angle. The sensor itself may be the rear one: a mirror in its plane.
+//! critical angle. The sensor itself may be the rear one: a mirror in its plane. Mirrors of the lens reflect on every path; they are not among the pairs.
 //!
 //! **First order** (Gauss): with signed indices, negative for light that travels back, a mirror is a surface at which n becomes −n, of power −2 n c,
 //! and reduced distances stay positive.
@@ -12,8 +12,9 @@
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
+use super::surface::{SurfaceHit, SurfaceKind};
 use super::trace::{Element, LensRay, RayLoss, RayLossReason, SurfaceVisitor, TravelDirection, bounce, walk};
-use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, surface::SurfaceHit};
+use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, paraxial::power};
 
 /// Two surfaces, counted from 0 at the scene, between which light is reflected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +88,7 @@ impl GhostVisitor {
 }
 
 impl Prescription {
-    /// All pairs of reflecting surfaces; with the sensor if it reflects.
+    /// All pairs of partly reflecting surfaces; with the sensor if it reflects.
     #[must_use]
     pub fn ghost_pairs(&self, with_sensor: bool) -> Vec<GhostPair> {
         let reflects = |e: &Element| e.media[0] != e.media[1];
@@ -169,6 +170,12 @@ impl Prescription {
             let (vertex_mm, curvature) =
                 self.elements.get(i).map_or((self.sensor_position_mm, 0.0), |e| (e.z_mm, e.shape.vertex_curvature()));
             m = m.moved((vertex_mm - z_mm) / index);
+            // The lens is unfolded: its own mirrors keep the index, and have their power in either direction.
+            if let Some(e) = self.elements.get(i).filter(|e| e.kind != SurfaceKind::Refracting) {
+                m = m.refracted(power(e, media));
+                z_mm = vertex_mm;
+                continue;
+            }
             let mirror = (turned == 0 && i == pair.rear) || (turned == 1 && i == pair.front);
             let behind = match (mirror, self.elements.get(i)) {
                 (false, Some(e)) => media[e.media[usize::from(to_sensor)]] * if to_sensor { 1.0 } else { -1.0 },

@@ -1,8 +1,12 @@
 //! Prescriptions: lenses described surface by surface, as published by their designers, and traced in double precision.
 //!
-//! **Modelled**: refraction by Snell's law at spheres, conics, even aspheres and planes; a real stop and real clear apertures; dispersion of every
-//! glass; losses by reflection; focusing by moving the sensor or a group of surfaces. A wavelength that is totally reflected, misses a surface or
-//! falls outside a clear aperture is blocked.
+//! **Modelled**: refraction by Snell's law at spheres, conics, even aspheres and planes; mirrors of these shapes; thin lenses without aberrations; a
+//! real stop, real clear apertures and central obscurations; dispersion of every glass; losses by reflection; focusing by moving the sensor or a group
+//! of surfaces. A wavelength that is totally reflected, misses a surface, falls outside a clear aperture or inside an obscuration is blocked.
+//!
+//! Surfaces are numbered in the order in which light meets them. Mirrors are unfolded ([`surface`]), and other parts of a folded lens stop no light
+//! but where a surface states an obscured radius. An erect image (of a negative focal length) is turned like the inverted one, so that both show the
+//! scene upright.
 //!
 //! **Left out**: absorption in glass, light that is reflected twice (see [`ghost`]: a separate layer) or more, scatter, diffraction, tilts and
 //! decentres.
@@ -32,7 +36,7 @@ use trace::{
 pub use crate::error::PrescriptionError;
 pub use focus::Focus;
 pub use paraxial::AxialClipping;
-pub use surface::Surface;
+pub use surface::{Surface, SurfaceKind};
 
 /// Parameters of a prescription.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,6 +130,22 @@ impl Prescription {
         self.axial_opening.radius_ratio
     }
 
+    /// Radius of the obscured part of the bundle on the axis over that of the bundle; 0 without an obscuration.
+    #[must_use]
+    pub fn axial_obscured_ratio(&self) -> f64 {
+        self.axial_opening.obscured_ratio
+    }
+
+    /// True if a surface has an obscured radius.
+    pub(crate) fn is_obscured(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.obscured_radius_mm > 0.0)
+    }
+
+    /// 1 if the light's image is inverted, as that of most lenses, −1 if it is erect.
+    pub(crate) fn inversion(&self) -> f64 {
+        self.paraxial.focal_length_mm.signum()
+    }
+
     /// Sensor position in the lens frame: mm from the first vertex.
     #[must_use]
     pub fn sensor_position_mm(&self) -> f64 {
@@ -150,7 +170,7 @@ impl Prescription {
         self.magnification
     }
 
-    /// The principal distance c, mm: near the axis a tangent t at the entrance pupil is imaged at c·t on the sensor.
+    /// The principal distance c, mm, positive: near the axis a tangent t at the entrance pupil is imaged at c·t on the sensor.
     #[must_use]
     pub fn principal_distance_mm(&self) -> f64 {
         self.principal_distance_mm
@@ -173,7 +193,7 @@ impl Prescription {
     /// # Errors
     /// If the ray is lost.
     pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), RayLoss> {
-        self.through(ray, TravelDirection::ToSensor, nm)
+        self.through(ray, TravelDirection::ToSensor, nm, ApertureTest::Clip)
     }
 
     /// Traces a ray from the sensor (its direction towards the scene) to before the first surface; returns it with the transmittance of the surfaces.
@@ -181,11 +201,23 @@ impl Prescription {
     /// # Errors
     /// If the ray is lost.
     pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), RayLoss> {
-        self.through(ray, TravelDirection::ToScene, nm)
+        self.to_scene_tested(ray, nm, ApertureTest::Clip)
     }
 
-    fn through(&self, ray: LensRay, direction: TravelDirection, nm: f64) -> Result<(LensRay, f64), RayLoss> {
-        let mut journey = TransmittanceVisitor { nm, transmittance: 1.0 };
+    /// The same with another treatment of clear apertures and obscurations.
+    #[inline]
+    pub(crate) fn to_scene_tested(&self, ray: LensRay, nm: f64, test: ApertureTest) -> Result<(LensRay, f64), RayLoss> {
+        self.through(ray, TravelDirection::ToScene, nm, test)
+    }
+
+    fn through(
+        &self,
+        ray: LensRay,
+        direction: TravelDirection,
+        nm: f64,
+        test: ApertureTest,
+    ) -> Result<(LensRay, f64), RayLoss> {
+        let mut journey = TransmittanceVisitor { nm, test, transmittance: 1.0 };
         let ray = walk(&self.elements, 0, direction, &self.table.at(nm), ray, &mut journey)?;
         Ok((ray, journey.transmittance))
     }
@@ -219,7 +251,7 @@ impl Prescription {
     /// Smallest and largest distance of the last surface's clear aperture from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
         let vertex = self.sensor_position_mm - self.last_vertex_mm();
-        let sag_mm = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
+        let sag_mm = self.surfaces.last().and_then(|s| s.sag_behind(s.semi_aperture_mm)).unwrap_or(0.0);
         [vertex - sag_mm.max(0.0), vertex - sag_mm.min(0.0)]
     }
 
@@ -243,27 +275,25 @@ impl Prescription {
     pub(crate) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, RayLoss> {
         let behind = &self.elements[self.stop + 1..];
         let ray = walk(behind, self.stop + 1, TravelDirection::ToScene, media, ray, &mut ApertureTest::Ignore)?;
-        self.at_stop_surface(ray, -1.0)
+        self.at_stop_surface(ray, TravelDirection::ToScene)
     }
 
     /// The same for a ray from the scene.
     pub(crate) fn stop_point_from_scene(&self, ray: LensRay, media: &Media) -> Result<DVec3, RayLoss> {
         let ray =
             walk(&self.elements[..self.stop], 0, TravelDirection::ToSensor, media, ray, &mut ApertureTest::Ignore)?;
-        self.at_stop_surface(ray, 1.0)
+        self.at_stop_surface(ray, TravelDirection::ToSensor)
     }
 
-    fn at_stop_surface(&self, ray: LensRay, sense: f64) -> Result<DVec3, RayLoss> {
-        let element = &self.elements[self.stop];
-        let vertex = DVec3::new(0.0, 0.0, element.z_mm);
-        let hit = element.shape.hit(ray.point - vertex, ray.direction, sense);
-        hit.map(|h| h.point).ok_or(RayLoss { surface: self.stop, loss: trace::RayLossReason::Missed })
+    fn at_stop_surface(&self, ray: LensRay, direction: TravelDirection) -> Result<DVec3, RayLoss> {
+        let hit = trace::meet(&self.elements[self.stop], direction, ray);
+        hit.map(|h| h.point).map_err(|loss| RayLoss { surface: self.stop, loss })
     }
 
-    /// Transmittance of the coatings on the axis.
+    /// Transmittance of the coatings on the axis, obscured or not.
     #[must_use]
     pub fn axial_transmittance(&self, nm: f64) -> f64 {
         let axis = LensRay { point: DVec3::new(0.0, 0.0, self.sensor_position_mm), direction: DVec3::NEG_Z };
-        self.to_scene(axis, nm).map_or(0.0, |(_, transmittance)| transmittance)
+        self.to_scene_tested(axis, nm, ApertureTest::RimsOnly).map_or(0.0, |(_, transmittance)| transmittance)
     }
 }

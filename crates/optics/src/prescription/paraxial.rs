@@ -2,14 +2,17 @@
 //!
 //! With ν = n u, a surface of power φ = (n′ − n) c maps (y, ν) to (y, ν − φ y) and a space of thickness t maps it to (y + t ν/n, ν). For the whole
 //! lens in air, M = [[A, B], [C, D]]: f = −1/C, the rear focal point at −A/C behind the last vertex, the front one at D/C from the first. The pupils
-//! are the stop's images through the surfaces before and behind it.
+//! are the stop's images through the surfaces before and behind it. In the unfolded lens a mirror of curvature c has the power −2 n c; a thin lens has
+//! its own.
 
+use super::surface::SurfaceKind;
 use super::{indices::Media, trace::Element};
 
 /// First-order quantities at one wavelength. Positions in mm along the axis towards the sensor: object-side positions from the first vertex,
 /// image-side positions from the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraxial {
+    /// Focal length, mm; negative for a lens whose image is erect: it images an intermediate image once more.
     pub focal_length_mm: f64,
     /// Front focal point from the first vertex, mm.
     pub front_focus_mm: f64,
@@ -26,8 +29,8 @@ pub struct Paraxial {
     /// Exit pupil from the last vertex, mm; infinite for an image-side telecentric lens.
     pub exit_pupil_position_mm: f64,
     pub exit_radius_mm: f64,
-    /// Radius of the Petzval surface, mm, with the sign convention of lens surfaces: 1/R = −Σ φ/(n n′); negative if the edges of the
-    /// Petzval surface are nearer to the lens than its vertex.
+    /// Radius of the Petzval surface, mm, with the sign convention of lens surfaces: 1/R = −Σ φ/(n n′) with n′ = −n for a mirror; negative if the edges
+    /// of the Petzval surface are nearer to the lens than its vertex.
     pub petzval_radius_mm: f64,
 }
 
@@ -48,18 +51,20 @@ pub(super) struct AxialOpening {
     pub(super) radius_ratio: f64,
     /// The surface whose clear aperture limits it, if that is not the stop.
     pub(super) limit: Option<usize>,
+    /// Radius of its obscured part over its own.
+    pub(super) obscured_ratio: f64,
 }
 
 impl AxialOpening {
     /// Limited by the stop.
-    pub(super) const STOP: Self = Self { radius_ratio: 1.0, limit: None };
+    pub(super) const STOP: Self = Self { radius_ratio: 1.0, limit: None, obscured_ratio: 0.0 };
 }
 
 impl Paraxial {
-    /// f/(2 · entrance radius).
+    /// |f|/(2 · entrance radius).
     #[must_use]
     pub fn f_number(&self) -> f64 {
-        self.focal_length_mm / (2.0 * self.entrance_radius_mm)
+        self.focal_length_mm.abs() / (2.0 * self.entrance_radius_mm)
     }
 
     /// The same for a bundle reduced to a fraction of the pupil radii.
@@ -106,9 +111,13 @@ impl Matrix {
 }
 
 /// Power of a surface, 1/mm.
-fn power(element: &Element, media: &Media) -> f64 {
+pub(super) fn power(element: &Element, media: &Media) -> f64 {
     let [before, after] = element.media.map(|i| media[i]);
-    (after - before) * element.shape.vertex_curvature()
+    match element.kind {
+        SurfaceKind::Refracting => (after - before) * element.shape.vertex_curvature(),
+        SurfaceKind::Mirror => -2.0 * before * element.shape.vertex_curvature(),
+        SurfaceKind::ThinLens { focal_length_mm } => before / focal_length_mm,
+    }
 }
 
 /// The matrix from before the first of `elements` (at its vertex) to behind the last.
@@ -138,7 +147,10 @@ pub(super) fn paraxial(elements: &[Element], stop: usize, stop_mm: f64, media: &
     let [entrance_pupil_position_mm, magnified] = entrance(elements, stop, media);
     // From the stop's plane on; a stop on a refracting surface refracts behind its opening.
     let rear = matrix(&elements[stop..], media);
-    let petzval = |e: &Element| power(e, media) / (media[e.media[0]] * media[e.media[1]]);
+    let petzval = |e: &Element| {
+        let term = power(e, media) / (media[e.media[0]] * media[e.media[1]]);
+        if e.kind == SurfaceKind::Mirror { -term } else { term }
+    };
     Paraxial {
         focal_length_mm,
         front_focus_mm: m.d / m.c,

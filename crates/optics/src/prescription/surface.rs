@@ -6,6 +6,9 @@
 //! **Choice between two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or back. The sign of
 //! direction · normal is therefore known in advance and selects the root, also for rays so oblique that they run backwards along the axis. Only the
 //! sheet at the vertex counts, up to its equator.
+//!
+//! **Mirrors** are unfolded: z is reversed at every mirror, so that light always travels towards +z and all thicknesses are positive. The shape of a
+//! mirror is described in the space before it.
 
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
@@ -15,10 +18,26 @@ use super::coating::Coating;
 /// Number of aspheric terms: r², r⁴ … r²⁰.
 pub const ASPHERE_TERMS: usize = 10;
 
-/// One surface and the space behind it.
+/// Effect of a surface on a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SurfaceKind {
+    /// Snell's law, or no effect between equal media.
+    Refracting,
+    /// Reflection; the space behind has the medium of the space before.
+    Mirror,
+    /// A thin lens without aberrations in the vertex plane, between equal media: slopes change by −r/f.
+    ThinLens {
+        /// Focal length f, mm; not 0.
+        focal_length_mm: f64,
+    },
+}
+
+/// One surface and the space behind it, in the unfolded lens: light travels towards +z everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// Radius of curvature, mm, positive if the centre lies towards the sensor; infinite for a plane.
+    /// Effect on rays.
+    pub kind: SurfaceKind,
+    /// Radius of curvature, mm, positive if the centre lies behind the surface as the light meets it; infinite for a plane.
     pub radius_mm: f64,
     /// Conic constant k.
     pub conic: f64,
@@ -26,11 +45,13 @@ pub struct Surface {
     pub asphere: [f64; ASPHERE_TERMS],
     /// Radius of the clear aperture, mm.
     pub semi_aperture_mm: f64,
-    /// Distance along the axis to the next surface, mm; ignored for the last.
+    /// Radius about the axis within which the surface stops light, mm: a hole of a mirror, or a disc before the surface. 0 for none.
+    pub obscured_radius_mm: f64,
+    /// Distance along the path of the light to the next surface, mm; ignored for the last.
     pub thickness_mm: f64,
-    /// Medium behind the surface.
+    /// Medium behind the surface; ignored for a mirror.
     pub glass: Dispersion,
-    /// Reflecting coating.
+    /// Coating; a constant is the reflectance of a mirror.
     pub coating: Coating,
     /// True for the aperture stop.
     pub stop: bool,
@@ -40,9 +61,36 @@ impl Surface {
     /// A refracting sphere (or plane, for an infinite radius) without coating.
     #[must_use]
     pub fn sphere(radius_mm: f64, thickness_mm: f64, glass: Dispersion, semi_aperture_mm: f64) -> Self {
-        let (conic, asphere) = (0.0, [0.0; ASPHERE_TERMS]);
-        let coating = Coating::Uncoated;
-        Self { radius_mm, conic, asphere, semi_aperture_mm, thickness_mm, glass, coating, stop: false }
+        Self {
+            kind: SurfaceKind::Refracting,
+            radius_mm,
+            conic: 0.0,
+            asphere: [0.0; ASPHERE_TERMS],
+            semi_aperture_mm,
+            obscured_radius_mm: 0.0,
+            thickness_mm,
+            glass,
+            coating: Coating::Uncoated,
+            stop: false,
+        }
+    }
+
+    /// A spherical (or plane) mirror in air that reflects all light.
+    #[must_use]
+    pub fn mirror(radius_mm: f64, thickness_mm: f64, semi_aperture_mm: f64) -> Self {
+        let kind = SurfaceKind::Mirror;
+        Self { kind, ..Self::sphere(radius_mm, thickness_mm, Dispersion::AIR, semi_aperture_mm) }
+    }
+
+    /// True for a mirror.
+    #[must_use]
+    pub fn is_mirror(&self) -> bool {
+        self.kind == SurfaceKind::Mirror
+    }
+
+    /// Sag at a distance from the axis in the space behind the surface, mm; `None` beyond the equator.
+    pub(crate) fn sag_behind(&self, r: f64) -> Option<f64> {
+        self.shape().sag(r).map(|sag| if self.is_mirror() { -sag } else { sag })
     }
 
     /// A stop in air.

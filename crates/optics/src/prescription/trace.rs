@@ -2,13 +2,16 @@
 //!
 //! Lens frame: mm, z along the axis from the scene to the sensor, origin at the vertex of the first surface. Rays are straight between surfaces. They
 //! may run backwards where surfaces are so curved that the order of their vertices is not the order in which an oblique ray meets them.
+//!
+//! The lens is unfolded: at a mirror, z of points and directions relative to its vertex is negated, after the reflection for light from the scene,
+//! before it for rays from the sensor. Rays therefore meet every mirror in the sense of the light.
 
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
 use super::coating::{Coating, Crossing};
 use super::indices::{MAX_MEDIA, Media};
-use super::surface::{Shape, Surface, SurfaceHit};
+use super::surface::{Shape, Surface, SurfaceHit, SurfaceKind};
 use crate::error::PrescriptionError;
 
 /// A ray in the lens frame.
@@ -27,6 +30,8 @@ pub enum RayLossReason {
     Missed,
     /// The ray meets a surface outside its clear aperture.
     Clipped,
+    /// The ray meets a surface within its obscured radius.
+    Obscured,
     /// The ray is totally reflected.
     TotalReflection,
 }
@@ -43,11 +48,14 @@ pub struct RayLoss {
 /// A surface prepared for tracing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Element {
+    pub(super) kind: SurfaceKind,
     pub(super) shape: Shape,
     /// Vertex, mm.
     pub(super) z_mm: f64,
     /// Square of the clear semi-aperture, mm².
     pub(super) open_mm2: f64,
+    /// Square of the obscured radius, mm².
+    pub(super) obscured_mm2: f64,
     /// Indices into the table of media: the scene's side and the sensor's side.
     pub(super) media: [usize; 2],
     pub(super) coating: Coating,
@@ -66,10 +74,13 @@ impl Element {
         if direction == TravelDirection::ToSensor { [a, b] } else { [b, a] }
     }
 
-    /// Squared distance of a hit from the axis over the squared radius of the clear aperture.
+    /// Squared distance of a hit from the axis over the squared radius of the clear aperture. Within the obscured radius o it is 2 − r²/o², which is
+    /// above 1 as well and continuous at the edge.
     #[inline]
     pub(super) fn filling(&self, hit: &SurfaceHit) -> f64 {
-        hit.point.truncate().length_squared() / self.open_mm2
+        let r2 = hit.point.truncate().length_squared();
+        let filling = r2 / self.open_mm2;
+        if self.obscured_mm2 > 0.0 { filling.max(2.0 - r2 / self.obscured_mm2) } else { filling }
     }
 }
 
@@ -86,11 +97,38 @@ impl TravelDirection {
     }
 }
 
-/// Treatment of clear apertures.
+/// Treatment of clear apertures and obscurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ApertureTest {
+    /// Both stop rays.
     Clip,
+    /// Clear apertures stop rays, obscurations do not.
+    RimsOnly,
+    /// Obscurations stop rays, clear apertures do not.
+    ObscurationsOnly,
+    /// Neither stops rays.
     Ignore,
+}
+
+impl ApertureTest {
+    #[inline]
+    fn check(self, element: &Element, hit: &SurfaceHit) -> Result<(), RayLossReason> {
+        let r2 = hit.point.x * hit.point.x + hit.point.y * hit.point.y;
+        let (rims, obscurations) = match self {
+            Self::Clip => (true, true),
+            Self::RimsOnly => (true, false),
+            Self::ObscurationsOnly => (false, true),
+            Self::Ignore => (false, false),
+        };
+        let within = r2 <= element.open_mm2;
+        if rims && !within {
+            Err(RayLossReason::Clipped)
+        } else if obscurations && r2 < element.obscured_mm2 {
+            Err(RayLossReason::Obscured)
+        } else {
+            Ok(())
+        }
+    }
 }
 
 /// Visitor of a ray's surface crossings; may stop the ray.
@@ -105,9 +143,10 @@ pub(super) trait SurfaceVisitor {
     ) -> Result<(), RayLossReason>;
 }
 
-/// Clear apertures clip, coatings attenuate.
+/// Clear apertures clip as `test` states, coatings attenuate.
 pub(super) struct TransmittanceVisitor {
     pub(super) nm: f64,
+    pub(super) test: ApertureTest,
     pub(super) transmittance: f64,
 }
 
@@ -120,17 +159,17 @@ impl SurfaceVisitor for TransmittanceVisitor {
         hit: &SurfaceHit,
         crossing: &Crossing,
     ) -> Result<(), RayLossReason> {
-        inside(element, hit)?;
+        self.test.check(element, hit)?;
         self.transmittance *= element.coating.transmittance(crossing, self.nm);
         Ok(())
     }
 }
 
-/// Geometry: clear apertures only, or none.
+/// Geometry only.
 impl SurfaceVisitor for ApertureTest {
     #[inline]
     fn crosses(&mut self, _: usize, element: &Element, hit: &SurfaceHit, _: &Crossing) -> Result<(), RayLossReason> {
-        if *self == Self::Clip { inside(element, hit) } else { Ok(()) }
+        self.check(element, hit)
     }
 }
 
@@ -146,12 +185,6 @@ impl SurfaceVisitor for ApertureFillingVisitor {
         self.max_filling = self.max_filling.max(element.filling(hit));
         Ok(())
     }
-}
-
-#[inline]
-fn inside(element: &Element, hit: &SurfaceHit) -> Result<(), RayLossReason> {
-    let r2 = hit.point.x * hit.point.x + hit.point.y * hit.point.y;
-    if r2 <= element.open_mm2 { Ok(()) } else { Err(RayLossReason::Clipped) }
 }
 
 /// Traces `ray` through the surfaces `elements` (numbered from `first`), in the order of its direction.
@@ -182,18 +215,65 @@ fn cross(
     ray: LensRay,
     journey: &mut impl SurfaceVisitor,
 ) -> Result<LensRay, RayLossReason> {
+    if element.kind == SurfaceKind::Mirror {
+        return reflect(element, index, travel, media, ray, journey);
+    }
     let hit = meet(element, travel, ray)?;
     let n = element.indices(travel, media);
-    let refracted = refract(ray.direction, &hit, n[0] / n[1], travel.sense());
-    let (direction, cosine) = refracted.ok_or(RayLossReason::TotalReflection)?;
+    let (direction, cosine) = match element.kind {
+        SurfaceKind::ThinLens { focal_length_mm } => thin_lens(ray.direction, &hit, focal_length_mm, travel.sense()),
+        _ => refract(ray.direction, &hit, n[0] / n[1], travel.sense()).ok_or(RayLossReason::TotalReflection)?,
+    };
     journey.crosses(index, element, &hit, &Crossing { n, cosine })?;
     Ok(LensRay { point: hit.point + element.vertex(), direction })
 }
 
-/// Intersection of a ray with a surface, relative to its vertex.
+/// Intersection of a ray with a surface, relative to its vertex: for a mirror in the space before it.
 #[inline]
-fn meet(element: &Element, direction: TravelDirection, ray: LensRay) -> Result<SurfaceHit, RayLossReason> {
-    element.shape.hit(ray.point - element.vertex(), ray.direction, direction.sense()).ok_or(RayLossReason::Missed)
+pub(super) fn meet(element: &Element, travel: TravelDirection, ray: LensRay) -> Result<SurfaceHit, RayLossReason> {
+    let from_vertex = ray.point - element.vertex();
+    let hit = if element.kind == SurfaceKind::Mirror && travel == TravelDirection::ToScene {
+        element.shape.hit(reversed(from_vertex), reversed(ray.direction), 1.0)
+    } else {
+        element.shape.hit(from_vertex, ray.direction, travel.sense())
+    };
+    hit.ok_or(RayLossReason::Missed)
+}
+
+/// A vector with its z negated.
+#[inline]
+fn reversed(v: DVec3) -> DVec3 {
+    DVec3::new(v.x, v.y, -v.z)
+}
+
+/// Reflection by a mirror, d′ = d − 2 (d·n) n, and the reversal of z.
+#[inline]
+fn reflect(
+    element: &Element,
+    index: usize,
+    travel: TravelDirection,
+    media: &Media,
+    ray: LensRay,
+    journey: &mut impl SurfaceVisitor,
+) -> Result<LensRay, RayLossReason> {
+    let hit = meet(element, travel, ray)?;
+    let to_sensor = travel == TravelDirection::ToSensor;
+    let incident = if to_sensor { ray.direction } else { reversed(ray.direction) };
+    let along = incident.dot(hit.normal);
+    let crossing = Crossing { n: [media[element.media[0]]; 2], cosine: [along.abs(); 2] };
+    journey.crosses(index, element, &hit, &crossing)?;
+    let reflected = incident - hit.normal * (2.0 * along);
+    let (point, direction) =
+        if to_sensor { (reversed(hit.point), reversed(reflected)) } else { (hit.point, reflected) };
+    Ok(LensRay { point: point + element.vertex(), direction })
+}
+
+/// A thin lens of focal length f maps a slope t, along +z, at the point r to t − r/f; and back. Returns the direction and both cosines.
+#[inline]
+fn thin_lens(d: DVec3, hit: &SurfaceHit, focal_length_mm: f64, sense: f64) -> (DVec3, [f64; 2]) {
+    let slope = DVec3::new(d.x / d.z, d.y / d.z, 1.0);
+    let direction = (slope - hit.point * (sense / focal_length_mm)).normalize() * sense;
+    (direction, [d.z.abs(), direction.z.abs()])
 }
 
 /// A ray in direction `way` reflected by a surface: d′ = d − 2 (d·n) n; with the reflectance.
@@ -257,9 +337,11 @@ pub(super) fn elements(surfaces: &[Surface], places: &[[usize; 2]]) -> Vec<Eleme
     let mut z_mm = 0.0;
     let element = |(surface, media): (&Surface, &[usize; 2])| {
         let element = Element {
+            kind: surface.kind,
             shape: surface.shape(),
             z_mm,
             open_mm2: surface.semi_aperture_mm * surface.semi_aperture_mm,
+            obscured_mm2: surface.obscured_radius_mm * surface.obscured_radius_mm,
             media: *media,
             coating: surface.coating,
         };

@@ -11,6 +11,7 @@ mod glare;
 mod lens_geometry;
 mod lens_light;
 mod lens_programs;
+mod mirrors;
 mod openings;
 mod prescribed;
 mod prescription;

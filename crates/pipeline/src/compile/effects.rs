@@ -178,7 +178,7 @@ fn psf(record: &description::Psf, lens: &Lens, image_raster: &Raster) -> Result<
         blades: record.blades.as_ref().map_or(0, |b| b.value as u32),
         curvature: number(&record.blade_curvature),
         rotation_rad: number(&record.rotation_deg).to_radians(),
-        obstruction: number(&record.obstruction),
+        obstruction: record.obstruction.as_ref().map_or(lens.obscured_ratio(), |ratio| ratio.value),
         wavefront: record.wavefront.iter().map(term).collect(),
         reach_mm: record.reach_mm.as_ref().map(|r| r.value),
         patches: record.patches.as_ref().map(counts),

@@ -135,7 +135,7 @@ fn enlarged(matrix: CameraMatrix, ratio: f64) -> CameraMatrix {
 
 /// Lens of the rectified camera: for a paraxial lens a pinhole at its principal distance, otherwise a projection by the matrix.
 fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -> Result<Lens, RectifiedCameraError> {
-    let (f_number, transmittance) = (lens.f_number(), lens.transmittance());
+    let (f_number, transmittance) = (lens.f_number(), lens.transmittance() * lens.open_fraction());
     if matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_)) {
         let focal_length_mm = lens.principal_distance_mm() * scale;
         return Ok(Lens::pinhole(PinholeParameters { focal_length_mm, f_number, transmittance })?);

@@ -13,7 +13,7 @@ pub const ASPHERE_TERMS: usize = 10;
 pub struct PrescriptionAsset {
     /// Title in the file; may be empty.
     pub title: String,
-    /// Surfaces. Those that neither refract nor clip light are omitted, and their thickness is added to the preceding one.
+    /// Surfaces. Those that neither refract, reflect nor stop light are omitted, and their thickness is added to the preceding one.
     pub surfaces: Vec<SurfaceAsset>,
     /// Distance of the object before the first surface, mm; infinite for a distant one.
     pub object_distance_mm: f64,
@@ -39,10 +39,15 @@ pub struct PrescriptionAsset {
     pub hash: [u8; 32],
 }
 
-/// A surface and the space behind it.
+/// A surface and the space behind it, in the unfolded lens: light travels towards +z everywhere, so that after an odd number of mirrors curvatures, sags
+/// and distances have the opposite sign of those in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceAsset {
-    /// Radius of curvature, mm, positive where the centre lies towards the sensor; infinite for a plane.
+    /// True for a mirror; its medium is that of the space before it.
+    pub mirror: bool,
+    /// Focal length of an ideal thin lens in the vertex plane, mm.
+    pub thin_lens_mm: Option<f64>,
+    /// Radius of curvature, mm, positive where the centre lies behind the surface as the light meets it; infinite for a plane.
     pub radius_mm: f64,
     /// Conic constant.
     pub conic: f64,
@@ -50,6 +55,8 @@ pub struct SurfaceAsset {
     pub asphere: [f64; ASPHERE_TERMS],
     /// Clear semi-aperture, mm; `None` where the file leaves it to be computed from the light.
     pub semi_aperture_mm: Option<f64>,
+    /// Radius within which the surface stops light, mm; 0 for none.
+    pub obscured_radius_mm: f64,
     /// True if the file states that this aperture clips light (Zemax CLAP and FLAP, CODE V CIR); false for a drawing size (DIAM).
     pub clips_light: bool,
     /// Distance to the next surface (from the last one: to the image), mm.

@@ -35,7 +35,7 @@ record! {
         optional blade_curvature: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With "blades": direction of a corner, from right towards bottom. Default: 0.
         optional rotation_deg: Placed<f64> = number("deg");
-        /// Radius of a central obstruction over the pupil's. Default: 0.
+        /// Radius of a central obstruction over the pupil's. Default: the prescription's obscuration on the axis, otherwise 0.
         optional obstruction: Placed<f64> = number("").at_least(0.0).at_most(0.9);
         /// Zernike terms of the wavefront error.
         many wavefront: ZernikeTerm = list(record::<ZernikeTerm>(), 1);

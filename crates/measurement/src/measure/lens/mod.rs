@@ -99,6 +99,7 @@ fn traced_json(lens: &PrescriptionLens, r: &LensReport) -> Value {
         "rear_principal_from_last_vertex_mm": p.rear_principal_mm,
         "entrance_pupil_from_first_vertex_mm": p.entrance_pupil_position_mm,
         "entrance_pupil_diameter_mm": 2.0 * p.entrance_radius_mm,
+        "obscured_ratio": lens.obscured_ratio(),
         "exit_pupil_from_last_vertex_mm": finite(p.exit_pupil_position_mm),
         "exit_pupil_diameter_mm": finite(2.0 * p.exit_radius_mm),
         "petzval_radius_mm": finite(p.petzval_radius_mm),
@@ -161,6 +162,10 @@ fn traced_text(lens: &PrescriptionLens, r: &LensReport) -> String {
         if r.focus_distance_m.is_finite() { format!("{} m", r.focus_distance_m) } else { "infinity".to_owned() };
     let mm = |x: f64| fixed(x, 4);
     let mut text = String::new();
+    let obscured = match lens.obscured_ratio() {
+        0.0 => String::new(),
+        ratio => format!(", the inner {ratio:.4} of it obscured"),
+    };
     let mut line = |name: &str, value: String| {
         // Writing to a text does not fail.
         let _ = writeln!(text, "{name:<22} {value}");
@@ -179,7 +184,7 @@ fn traced_text(lens: &PrescriptionLens, r: &LensReport) -> String {
     line("principal planes", format!("{} mm, {} mm", mm(p.front_principal_mm), mm(p.rear_principal_mm)));
     line(
         "entrance pupil",
-        format!("{} mm, {:.4} mm across", mm(p.entrance_pupil_position_mm), 2.0 * p.entrance_radius_mm),
+        format!("{} mm, {:.4} mm across{obscured}", mm(p.entrance_pupil_position_mm), 2.0 * p.entrance_radius_mm),
     );
     line("exit pupil", format!("{} mm, {:.4} mm across", mm(p.exit_pupil_position_mm), 2.0 * p.exit_radius_mm));
     line("Petzval radius", format!("{:.3} mm", p.petzval_radius_mm));

@@ -151,6 +151,10 @@ impl Psf {
             0 => "a circle".to_owned(),
             n => format!("{n} blades of curvature {}", self.parameters.curvature),
         };
+        let obstruction = match (self.parameters.obstruction * 1e3).round() / 1e3 {
+            0.0 => String::new(),
+            ratio => format!(" with a central obstruction of {ratio} of its radius"),
+        };
         let error = match self.parameters.wavefront.len() {
             0 => "no wavefront error".to_owned(),
             1 => "1 Zernike term".to_owned(),
@@ -158,7 +162,7 @@ impl Psf {
         };
         let [x, y] = self.patches;
         let n = (self.f_number * 1e3).round() / 1e3;
-        EffectStatus::Modelled(format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
+        EffectStatus::Modelled(format!("diffraction of {shape}{obstruction} at f/{n}, {error}, in {x} × {y} patches"))
     }
 
     /// Columns and rows over which light is spread.

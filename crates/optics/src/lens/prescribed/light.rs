@@ -8,27 +8,39 @@ use glam::{DVec2, DVec3};
 use super::opening::{Meridian, PupilOpening};
 use super::{PrescriptionLens, region::Ellipse};
 use crate::lens::search::{GAUSS, unit};
+use crate::overlap::PRINCIPAL_NM;
+use crate::prescription::trace::{ApertureTest, LensRay};
 use crate::pupil::{MM, concentric};
-use crate::{overlap::PRINCIPAL_NM, prescription::trace::LensRay};
 
 /// Directions over half a turn for the étendue's quadrature.
 pub(crate) const DIRECTIONS: usize = 96;
 
 impl PrescriptionLens {
     pub(in crate::lens) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
-        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
+        self.tested_ray(sensor_mm, pupil, nm, ApertureTest::Clip)
+    }
+
+    /// The same with another treatment of clear apertures and obscurations.
+    pub(in crate::lens) fn tested_ray(
+        &self,
+        sensor_mm: DVec2,
+        pupil: DVec2,
+        nm: f64,
+        test: ApertureTest,
+    ) -> Option<PupilRay> {
+        let meridian = Meridian::new(sensor_mm, &self.prescription);
         let (disc, turn) = concentric(pupil);
         let proposal = self.regions.propose(meridian.s_mm, disc, turn)?;
-        let (ray, transmittance) = self.out(&meridian, proposal.slope, nm)?;
+        let (ray, transmittance) = self.out(&meridian, proposal.slope, nm, test)?;
         let weight_sr = proposal.area * Meridian::cos4(proposal.slope) * transmittance;
         Some(PupilRay { origin_m: self.point_m(ray.point), direction: flip(ray.direction), weight_sr })
     }
 
     /// A ray with slopes `t` in front of the lens, and its transmittance through coatings and filter.
     #[inline]
-    fn out(&self, meridian: &Meridian, t: DVec2, nm: f64) -> Option<(LensRay, f64)> {
+    fn out(&self, meridian: &Meridian, t: DVec2, nm: f64, test: ApertureTest) -> Option<(LensRay, f64)> {
         let ray = meridian.ray(t);
-        let (out, transmittance) = self.prescription.to_scene(ray, nm).ok()?;
+        let (out, transmittance) = self.prescription.to_scene_tested(ray, nm, test).ok()?;
         let filtered = if self.filter.is_none() { 1.0 } else { self.filtered(nm, -ray.direction.z) };
         Some((out, transmittance * filtered))
     }
@@ -42,11 +54,11 @@ impl PrescriptionLens {
         self.pupil_ray(sensor_mm, self.regions.centroid(sensor_mm.length())?)
     }
 
-    /// A meridional ray at 587.56 nm with the whole pupil's weight, from its point nearest to the entrance pupil's centre.
+    /// A meridional ray at 587.56 nm with the whole pupil's weight, from its point nearest to the entrance pupil's centre, obscured or not.
     fn pupil_ray(&self, sensor_mm: DVec2, slope: f64) -> Option<PupilRay> {
-        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
+        let meridian = Meridian::new(sensor_mm, &self.prescription);
         let t = DVec2::new(slope, 0.0);
-        let (ray, transmittance) = self.out(&meridian, t, PRINCIPAL_NM)?;
+        let (ray, transmittance) = self.out(&meridian, t, PRINCIPAL_NM, ApertureTest::RimsOnly)?;
         let weight_sr = self.regions.area(meridian.s_mm) * Meridian::cos4(t) * transmittance;
         let (origin_m, direction) = (self.point_m(ray.point), flip(ray.direction));
         Some(PupilRay { origin_m: origin_m - direction * origin_m.dot(direction), direction, weight_sr })
@@ -68,18 +80,19 @@ impl PrescriptionLens {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
         let meridian = Meridian::at(s_mm, self.prescription.sensor_position_mm());
-        let opening = PupilOpening { lens: &self.prescription, media: &media, meridian };
+        let opening = PupilOpening { lens: &self.prescription, media: &media, meridian, test: ApertureTest::Clip };
         let passing = |t: DVec2| self.passing(&meridian, t, nm);
         over_a_star(&opening, &ellipse, directions, &passing).unwrap_or_else(|| opening.integral(&passing))
     }
 
     fn passing(&self, meridian: &Meridian, t: DVec2, nm: f64) -> f64 {
-        self.out(meridian, t, nm).map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
+        self.out(meridian, t, nm, ApertureTest::Clip)
+            .map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
     }
 }
 
-/// An integral over an opening that is star-shaped about its region's centre: for a number of directions the edge is found by bisection, then Gauss's
-/// rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
+/// An integral over an opening that is star-shaped about its region's centre, with or without a central obscuration: for a number of directions the
+/// edges are found by bisection, then Gauss's rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
 fn over_a_star(
     opening: &PupilOpening<'_>,
     ellipse: &Ellipse,
@@ -89,16 +102,21 @@ fn over_a_star(
     let centre = DVec2::new(ellipse.centre, 0.0);
     let edge = |direction: DVec2| {
         let edge = opening.reach(centre, direction, 3.0, 48, 40);
-        opening.is_open_to(centre, direction * edge).then_some(edge)
+        Some(opening.open_way(centre, direction * edge)?.map(|fraction| fraction * edge))
     };
     for sense in [-1.0, 1.0] {
         edge(DVec2::new(sense * ellipse.axes.x, 0.0))?;
     }
     let sector = |i: usize| {
         let direction = unit(PI * (i as f64 + 0.5) / directions as f64) * ellipse.axes;
-        let edge = edge(direction)?;
-        let along = |[x, w]: [f64; 2]| w * x * f(centre + direction * (edge * x));
-        Some(edge * edge * GAUSS.into_iter().map(along).sum::<f64>())
+        let [inner, outer] = edge(direction)?;
+        if inner == 0.0 {
+            let along = |[x, w]: [f64; 2]| w * x * f(centre + direction * (outer * x));
+            return Some(outer * outer * GAUSS.into_iter().map(along).sum::<f64>());
+        }
+        let radius = |x: f64| inner + (outer - inner) * x;
+        let along = |[x, w]: [f64; 2]| w * radius(x) * f(centre + direction * radius(x));
+        Some((outer - inner) * GAUSS.into_iter().map(along).sum::<f64>())
     };
     let turn = 2.0 * PI / directions as f64;
     let sum = (0..directions).map(sector).sum::<Option<f64>>()?;

@@ -7,7 +7,7 @@
 //!
 //! - Rays begin where they leave the first surface. Principal rays start at their point nearest to the centre of the paraxial entrance pupil, the
 //!   origin of the camera frame: real pupils of wide lenses move and tilt with the field.
-//! - f-number: focal length over the diameter of the paraxial entrance pupil. On the axis light follows the real bundle; a lens corrected for coma
+//! - f-number (geometric, also of an obscured pupil): focal length over the diameter of the paraxial entrance pupil. On the axis light follows the real bundle; a lens corrected for coma
 //!   gives E = π τ L/4N², not the flat disc's π τ L/(1 + 4N²).
 //! - Neither pupil is constant: each field point has the pupil that its rays pass.
 //! - [`PrescriptionLens::projected_solid_angle_sr`] holds at 587.56 nm, by a quadrature accurate to about 1e-5.
@@ -98,6 +98,12 @@ impl PrescriptionLens {
         }
     }
 
+    /// Radius of the obscured part of the bundle on the axis over that of the bundle; 0 without an obscuration.
+    #[must_use]
+    pub fn obscured_ratio(&self) -> f64 {
+        self.prescription.axial_obscured_ratio()
+    }
+
     /// The angle from the axis seen by a height on the sensor, rad; `None` if it has no principal ray.
     pub(crate) fn field_angle(&self, height_mm: f64) -> Option<f64> {
         self.chiefs.ray(&self.prescription, height_mm).map(|ray| chief::field_angle(ray.direction))
@@ -123,8 +129,8 @@ impl PrescriptionLens {
     /// The principal ray's direction in the camera frame, clipped or not.
     pub(super) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         let ray = self.chiefs.ray(&self.prescription, sensor_mm.length())?;
-        // In the erect image the scene lies on the point's own side.
-        let across = -sensor_mm.normalize_or_zero() * ray.direction.x;
+        // In the upright image the scene lies on the point's own side.
+        let across = sensor_mm.normalize_or_zero() * (-self.prescription.inversion() * ray.direction.x);
         Some(across.extend(-ray.direction.z))
     }
 }

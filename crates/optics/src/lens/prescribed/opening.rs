@@ -7,7 +7,7 @@
 //!
 //! In slopes (see [`Meridian`]) the open part at one wavelength is nearly an intersection of discs: one for each clear aperture that clips. It is
 //! symmetric about the meridional plane and, being nearly convex, star-shaped about the centre of its interval on that plane. Strong aberrations fold
-//! it: a sensor point then sees the scene through several openings, such as a ring about the pupil.
+//! it: a sensor point then sees the scene through several openings, such as a ring about the pupil. A central obscuration makes a ring of it.
 
 use glam::{DVec2, DVec3};
 
@@ -27,10 +27,10 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    /// The frame of a point of the erect image; the light itself falls on its negative.
-    pub(super) fn new(point_mm: DVec2, sensor_mm: f64) -> Self {
-        let outward = (-point_mm).normalize_or(DVec2::X);
-        Self { s_mm: point_mm.length(), outward, sensor_mm }
+    /// The frame of a point of the upright image; the light itself falls on its negative, or on the point if it forms an erect image.
+    pub(super) fn new(point_mm: DVec2, lens: &Prescription) -> Self {
+        let outward = (point_mm * -lens.inversion()).normalize_or(DVec2::X);
+        Self { s_mm: point_mm.length(), outward, sensor_mm: lens.sensor_position_mm() }
     }
 
     /// The frame of any point at a distance from the axis.
@@ -65,12 +65,14 @@ pub(super) struct PupilOpening<'a> {
     pub(super) lens: &'a Prescription,
     pub(super) media: &'a Media,
     pub(super) meridian: Meridian,
+    pub(super) test: ApertureTest,
 }
 
 /// Steps of the search along the meridian: 1/SCAN of the rear opening is the smallest detectable pupil.
 const SCAN: usize = 1024;
-/// Bisections of the scan's step.
+/// Bisections of the scan's step, and of the edge of an obscuration.
 const HALVINGS: usize = 24;
+const EDGE_HALVINGS: usize = 40;
 /// Positions along a radius at which an opening is tested for gaps.
 const GAP_SAMPLES: usize = 20;
 /// Positions of the meridional plane, and of a grid across all slopes, at which separate pieces are distinguished.
@@ -85,7 +87,7 @@ const CONVERGED: f64 = 1e-6;
 
 impl PupilOpening<'_> {
     pub(super) fn passes(&self, t: DVec2) -> bool {
-        self.lens.passes(self.meridian.ray(t), self.media, ApertureTest::Clip).is_ok()
+        self.lens.passes(self.meridian.ray(t), self.media, self.test).is_ok()
     }
 
     /// The interval of meridional slopes that passes, from its first to its last point; `None` if none passes. `seed` is a slope likely to be inside
@@ -143,9 +145,17 @@ impl PupilOpening<'_> {
         held.high.is_finite().then(|| Cell { low: DVec2::new(held.low.x - step.x, 0.0), high: held.high + step })
     }
 
-    /// True if everything passes from `centre` to an edge.
-    pub(super) fn is_open_to(&self, centre: DVec2, edge: DVec2) -> bool {
-        (0..GAP_SAMPLES).all(|i| self.passes(centre + edge * (i as f64 / GAP_SAMPLES as f64)))
+    /// The interval that passes on the way from `centre` to an edge, as fractions of the way: from 0, or from the edge of an obscuration that hides the
+    /// centre. `None` if it has gaps.
+    pub(super) fn open_way(&self, centre: DVec2, edge: DVec2) -> Option<[f64; 2]> {
+        let at = |i: usize| i as f64 / GAP_SAMPLES as f64;
+        let along = |fraction: f64| self.passes(centre + edge * fraction);
+        let first = if self.lens.is_obscured() { (0..GAP_SAMPLES).find(|i| along(at(*i)))? } else { 0 };
+        if !(first..GAP_SAMPLES).all(|i| along(at(i))) {
+            return None;
+        }
+        let inner = if first == 0 { 0.0 } else { last_open([at(first), at(first - 1)], EDGE_HALVINGS, along) };
+        Some([inner, 1.0])
     }
 
     /// The integral of a function over all that passes, summed over the separate parts.

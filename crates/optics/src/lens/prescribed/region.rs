@@ -5,7 +5,7 @@
 //! at the interval's ends and between them, at all of [`WAVELENGTHS_NM`], so that no light is lost; a margin covers what lies between the tabulated
 //! points.
 //!
-//! Where a sensor point sees several openings, the region is the ellipse about a box that contains them all.
+//! Where a sensor point sees several openings, the region is the ellipse about a box that contains them all. The region includes obscured parts.
 //!
 //! A point (ρ, φ) of the unit disc maps to centre + ρ R(φ) (a cos φ, b sin φ). With samples uniform in the disc, the slope area per sample is π a b
 //! R², the inverse of the sampling density; it is part of the weight.
@@ -17,7 +17,9 @@ use glam::DVec2;
 use super::bundles::Cell;
 use super::opening::{Meridian, PupilOpening};
 use crate::lens::search::{max_lit_radius, unit};
-use crate::{overlap::PRINCIPAL_NM, prescription::Prescription};
+use crate::{
+    overlap::PRINCIPAL_NM, prescription::Prescription, prescription::indices::Media, prescription::trace::ApertureTest,
+};
 
 /// Wavelengths whose bundles the region contains, nm; dispersion is monotone, so bundles in between lie in between.
 const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
@@ -138,11 +140,17 @@ impl Regions {
     }
 }
 
+/// The opening of the clear apertures at a height, without obscurations.
+fn rim_opening<'a>(lens: &'a Prescription, media: &'a Media, s_mm: f64) -> PupilOpening<'a> {
+    let meridian = Meridian::at(s_mm, lens.sensor_position_mm());
+    PupilOpening { lens, media, meridian, test: ApertureTest::RimsOnly }
+}
+
 /// The passing region at one height, by its interval of the meridian and its width across, at the first wavelength that passes.
 pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Option<Ellipse> {
     WAVELENGTHS_NM.into_iter().find_map(|nm| {
         let media = lens.media(nm);
-        let opening = PupilOpening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
+        let opening = rim_opening(lens, &media, s_mm);
         let [low, high] = opening.meridional(chief)?;
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let across = match opening.extent().filter(|_| !opening.is_one_piece()) {
@@ -169,7 +177,7 @@ impl Interval {
     /// Raises R until the region contains all that passes at one height and wavelength: first at the tabulated directions, then between them.
     fn include(&mut self, lens: &Prescription, s_mm: f64, fraction: f64, nm: f64) {
         let media = lens.media(nm);
-        let opening = PupilOpening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
+        let opening = rim_opening(lens, &media, s_mm);
         let ellipse = self.ends[0].mix(&self.ends[1], fraction);
         if !opening.is_one_piece() {
             if let Some(Cell { low, high }) = opening.extent() {

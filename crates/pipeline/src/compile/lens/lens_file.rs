@@ -4,7 +4,7 @@
 
 use super::super::context::Context;
 use crate::compile::stated::focus_m;
-use etendue_optics::prescription::{Focus, Surface};
+use etendue_optics::prescription::{Focus, Surface, SurfaceKind};
 use etendue_optics::{PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_scene::asset::{GlassAsset, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::record::lens::prescription as record;
@@ -45,9 +45,9 @@ impl FileAperture {
         let pupil_mm = match asset.opening {
             None => None,
             Some(LensOpening::EntrancePupil { diameter_mm }) => Some(0.5 * diameter_mm),
-            Some(LensOpening::FNumber { f_number }) => Some(0.5 * p.focal_length_mm / f_number),
+            Some(LensOpening::FNumber { f_number }) => Some(0.5 * p.focal_length_mm.abs() / f_number),
             Some(LensOpening::ObjectCone { sine }) => Some(radius_from_cone(sine, distance_m)?),
-            Some(LensOpening::ImageCone { sine }) if distance_m.is_infinite() => Some(p.focal_length_mm * sine),
+            Some(LensOpening::ImageCone { sine }) if distance_m.is_infinite() => Some(p.focal_length_mm.abs() * sine),
             // By the sine condition, which lenses for wide cones are designed to fulfil.
             Some(LensOpening::ImageCone { sine }) => Some(radius_from_cone(near.magnification() * sine, distance_m)?),
         };
@@ -73,7 +73,7 @@ pub(super) fn reference_nm(asset: &PrescriptionAsset) -> f64 {
     asset.primary_nm.unwrap_or(PRINCIPAL_NM)
 }
 
-/// The lens with its stop nearly closed, and its sensor close to the paraxial image.
+/// The lens with its stop nearly closed and nothing obscured, and its sensor close to the paraxial image.
 pub(super) fn paraxial_lens(
     surfaces: &[Surface],
     focus: Focus,
@@ -82,7 +82,7 @@ pub(super) fn paraxial_lens(
 ) -> Result<Prescription, PrescriptionError> {
     let close = |s: &Surface| {
         let part = if s.stop { PARAXIAL_OPENING } else { 1.0 };
-        Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
+        Surface { semi_aperture_mm: part * s.semi_aperture_mm, obscured_radius_mm: 0.0, ..*s }
     };
     let surfaces = surfaces.iter().map(close).collect();
     Prescription::new(PrescriptionParameters {
@@ -125,6 +125,12 @@ pub(super) fn note_differences(
             i + 1,
             n * lens.axial_radius_ratio()
         ));
+    }
+    if asset.surfaces.iter().any(|s| s.mirror) && asset.surfaces.iter().all(|s| s.obscured_radius_mm == 0.0) {
+        record_note(
+            "it states no central obscuration: its mirrors and the sensor take no light from the beam before them"
+                .to_owned(),
+        );
     }
     if let Some(n) = record.f_number.as_ref().filter(|_| asset.opening.is_some()) {
         record_note(format!("f/{} of the description replaces the file's aperture", n.value));
@@ -178,7 +184,14 @@ pub(super) fn surface_from_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -
         GlassAsset::Index(n) => Dispersion::Constant { n: *n }.checked()?,
         GlassAsset::Abbe { index, abbe } => Dispersion::from_abbe(*index, *abbe)?,
     };
+    let kind = match surface.thin_lens_mm {
+        Some(focal_length_mm) => SurfaceKind::ThinLens { focal_length_mm },
+        None if surface.mirror => SurfaceKind::Mirror,
+        None => SurfaceKind::Refracting,
+    };
     Ok(Surface {
+        kind,
+        obscured_radius_mm: surface.obscured_radius_mm,
         conic: surface.conic,
         asphere: surface.asphere,
         stop: surface.stop,

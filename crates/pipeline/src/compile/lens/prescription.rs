@@ -10,7 +10,7 @@ use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
-use etendue_optics::prescription::{AxialClipping, Focus, Surface};
+use etendue_optics::prescription::{AxialClipping, Focus, Surface, SurfaceKind};
 use etendue_optics::{Lens, PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionLens, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_scene::asset::PrescriptionAsset;
@@ -131,16 +131,19 @@ fn surface(s: &record::Surface, lens: &record::Prescription, context: &mut Conte
     let mut asphere = [0.0; ASPHERE_TERMS];
     asphere.iter_mut().zip(s.asphere.iter().flatten()).for_each(|(to, from)| *to = from.value);
     let radius_mm = number(&s.radius_mm, f64::INFINITY);
+    let is_set = |flag: &Option<Placed<bool>>| flag.as_ref().is_some_and(|flag| flag.value);
     Some(Surface {
+        kind: if is_set(&s.mirror) { SurfaceKind::Mirror } else { SurfaceKind::Refracting },
+        obscured_radius_mm: number(&s.obscured_radius_mm, 0.0),
         conic: number(&s.conic, 0.0),
         asphere,
         coating: s.coating.as_ref().map_or(Coating::Uncoated, coating),
-        stop: s.stop.as_ref().is_some_and(|stop| stop.value),
+        stop: is_set(&s.stop),
         ..Surface::sphere(radius_mm, number(&s.thickness_mm, 0.0), glass, s.semi_aperture_mm.value)
     })
 }
 
-/// Applies the lens's coating to the surfaces against air that state none.
+/// Applies the lens's coating to the refracting surfaces against air that state none.
 fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surface> {
     let Some(coating) = record.coating.as_ref().map(coating) else { return surfaces };
     let own = |i: usize| match &record.source {
@@ -149,6 +152,9 @@ fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surf
     };
     let mut before = Dispersion::AIR;
     for (i, surface) in surfaces.iter_mut().enumerate() {
+        if surface.is_mirror() {
+            continue;
+        }
         let sides = [core::mem::replace(&mut before, surface.glass), surface.glass];
         if sides[0] != sides[1] && sides.contains(&Dispersion::AIR) && !own(i) {
             surface.coating = coating;

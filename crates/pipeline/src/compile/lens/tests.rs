@@ -90,7 +90,20 @@ fn faults_of_prescriptions_name_their_place() {
 
 fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset, stop: bool) -> SurfaceAsset {
     let (conic, asphere, thickness_mm, line) = (0.0, [0.0; ASPHERE_TERMS], 3.0, 12);
-    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, clips_light: false, thickness_mm, glass, stop, line }
+    SurfaceAsset {
+        mirror: false,
+        thin_lens_mm: None,
+        radius_mm,
+        conic,
+        asphere,
+        semi_aperture_mm,
+        obscured_radius_mm: 0.0,
+        clips_light: false,
+        thickness_mm,
+        glass,
+        stop,
+        line,
+    }
 }
 
 #[test]

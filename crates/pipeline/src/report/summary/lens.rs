@@ -20,8 +20,16 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         Lens::Telecentric(_) => String::new(),
         _ => format!(" {} mm", figure(lens.focal_length_mm())),
     };
+    let obscured = match lens.obscured_ratio() {
+        0.0 => String::new(),
+        ratio => format!(", {:.1} % of the pupil obscured", 100.0 * ratio * ratio),
+    };
     let wavelength = lens.first_order_nm().map_or_else(String::new, |nm| format!(" at {nm} nm"));
-    line(f, "lens", format!("{kind},{length} f/{n}{wavelength} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
+    line(
+        f,
+        "lens",
+        format!("{kind},{length} f/{n}{wavelength} (T {t:.3}){obscured}, {focus}, {}", field_of_view(camera)),
+    )?;
     line(f, "distortion", distortion(lens))?;
     if let Some(colour) = lens.lateral_colour() {
         let size = |nm: f64| format!("{:.5} at {nm} nm", colour.at(nm));

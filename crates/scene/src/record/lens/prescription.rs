@@ -56,22 +56,27 @@ keyed! {
 }
 
 record! {
-    /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁
-    /// r² + a₂ r⁴ + …, a the list `asphere`.
-    pub struct Surface {
-        /// Radius of curvature, positive with the centre towards the sensor. Default: a plane.
+    /// A surface and the space behind it, in the order in which light meets them. With c = 1/radius_mm and r the distance from the axis its sag is
+    /// c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁ r² + a₂ r⁴ + …, a the list `asphere`. Signs follow the light, also after mirrors: sags and distances are
+    /// positive in its direction.
+    pub struct Surface check(check_surface) {
+        /// Radius of curvature, positive with the centre behind the surface as the light meets it: a concave mirror's is negative. Default: a plane.
         optional radius_mm: Placed<f64> = number("mm");
         /// Conic constant: 0 sphere, −1 paraboloid. Default: 0.
         optional conic: Placed<f64> = number("");
         /// Coefficients of r², r⁴, r⁶ …; at most ten.
         optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
-        /// Distance to the next surface; omitted for the last.
+        /// Makes the surface a mirror; the light stays in the medium before it. Default: false.
+        optional mirror: Placed<bool> = flag();
+        /// Distance to the next surface along the light; omitted for the last.
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
         /// Radius of the clear aperture.
         required semi_aperture_mm: Placed<f64> = number("mm").above(0.0);
+        /// Radius about the axis within which light is stopped: a hole, or a disc before the surface. Default: 0.
+        optional obscured_radius_mm: Placed<f64> = number("mm").at_least(0.0);
         /// Medium behind the surface: a glass of a catalogue ("N-BK7"; as "F2_HOYA" of that maker), or a table. Default: air.
         optional glass: Glass = glass();
-        /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating.
+        /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating. Of a mirror its reflectance, by default 1.
         optional coating: Coating = coating();
         /// Marks the aperture stop. Default: false.
         optional stop: Placed<bool> = flag();
@@ -253,6 +258,28 @@ fn check(lens: &Prescription, errors: &mut DescriptionErrors) {
                 "give a radius, or omit the key for a plane",
             );
         }
+    }
+}
+
+fn check_surface(surface: &Surface, errors: &mut DescriptionErrors) {
+    let is_mirror = surface.mirror.as_ref().is_some_and(|mirror| mirror.value);
+    if let (true, Some(glass)) = (is_mirror, &surface.glass) {
+        let place = match glass {
+            Glass::Named(name) => &name.place,
+            Glass::Numbers(numbers) => &numbers.place,
+        };
+        let problem = "\"glass\" of a mirror has no effect: the light stays in the medium before it";
+        errors.add(ErrorCode::NoEffect, place, problem, "remove it");
+    }
+    if let (true, Some(Coating::QuarterWave(layer))) = (is_mirror, &surface.coating) {
+        let problem = "the coating of a mirror is its reflectance";
+        errors.add(ErrorCode::WrongType, &layer.place, problem, "give a number above 0, at most 1");
+    }
+    if let Some(obscured) = &surface.obscured_radius_mm
+        && obscured.value >= surface.semi_aperture_mm.value
+    {
+        let problem = format!("{} mm leaves nothing open of \"semi_aperture_mm\"", obscured.value);
+        errors.add(ErrorCode::OutOfRange, &obscured.place, problem, "give a smaller radius");
     }
 }
 
