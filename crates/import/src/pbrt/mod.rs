@@ -5,14 +5,18 @@
 //! pbrt's space is left-handed without an up axis: ours is its mirror image, with the axis nearest to the camera's up upwards, so that images are the same. A
 //! length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
 
+mod attributes;
 mod camera;
 mod colour;
 mod environment;
+mod infinite;
 mod interpreter;
+mod lens_table;
 mod light;
 mod material;
 mod parameters;
 mod shape;
+mod spectrum;
 mod texture;
 
 use std::path::Path;
@@ -23,6 +27,9 @@ use etendue_io::failure::{Error, ErrorCode};
 use super::written::ImportFiles;
 use crate::syntax::pbrt::read_pbrt;
 use interpreter::Interpreter;
+
+pub(super) use infinite::InfiniteLight;
+pub(super) use texture::{PlacedTexture, TextureTree};
 
 pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {
     let mut interpreter = Interpreter::new(file, folder);

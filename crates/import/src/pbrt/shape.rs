@@ -3,27 +3,30 @@
 use etendue_scene::record::material::Factor;
 
 use super::parameters::Parameters;
-use crate::scenery::{Graphics, SceneBuilder, Triangles, above_zero};
+use super::texture::TextureUse;
+use crate::scenery::{Graphics, SceneBuilder, TextureBase, Triangles, above_zero};
 
 impl SceneBuilder {
     pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let message = |what: String| format!("Shape \"{kind}\": {what}");
-        let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(message)? else { return Ok(()) };
+        let image_count = self.known.placed_images.len();
+        let base = self.known.texture_bases.get(&graphics.material).cloned();
+        self.known.placed_images.extend(base);
+        let Some(opaque) = self.with_alpha(parameters, graphics).map_err(message)? else { return Ok(()) };
+        let graphics = &Graphics { texture_base: self.common_base(image_count), ..opaque };
         match kind {
             "trianglemesh" => {
                 let mesh = Triangles::from_parameters(parameters).map_err(message)?;
-                let mesh = if self.has_image(graphics) { mesh.with_default_uvs() } else { mesh };
-                self.mesh(mesh, graphics).map_err(message)?;
+                self.mesh(mesh.with_uvs_for(graphics), graphics).map_err(message)?;
             }
             "plymesh" => {
                 let mesh = self.ply(parameters).map_err(message)?;
-                let mesh = if self.has_image(graphics) { mesh.with_default_uvs() } else { mesh };
-                self.mesh(mesh, graphics).map_err(message)?;
+                self.mesh(mesh.with_uvs_for(graphics), graphics).map_err(message)?;
             }
             "bilinearmesh" => {
                 self.report.note("bilinear patches become two triangles each, which is exact for flat patches");
                 let mesh = Triangles::from_patches(parameters).map_err(message)?;
-                self.mesh(mesh, graphics).map_err(message)?;
+                self.mesh(mesh.with_uvs_for(graphics), graphics).map_err(message)?;
             }
             "sphere" => self.sphere(parameters, graphics).map_err(message)?,
             "disk" => self.disc(parameters, graphics).map_err(message)?,
@@ -46,7 +49,7 @@ impl SceneBuilder {
 
     /// State of a shape with its "alpha"; `None` if alpha makes it invisible.
     fn with_alpha(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<Option<Graphics>, String> {
-        let opacity = match self.factor(parameters, "alpha", 1.0, |alpha| alpha)? {
+        let opacity = match self.factor(parameters, "alpha", 1.0, TextureUse::Numbers)? {
             Factor::Number(share) if share.value >= 1.0 => None,
             Factor::Number(share) if share.value <= 0.0 => {
                 // pbrt's scenes hide lights in this way: an invisible shape still emits light.
@@ -71,7 +74,7 @@ impl SceneBuilder {
         if parameters.find("displacement").is_some() {
             self.report.note("\"displacement\" of a mesh is not used");
         }
-        Triangles::read(&self.source_folder.join(name))
+        Triangles::read(&self.find_file(name))
     }
 
     fn sphere(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
@@ -79,7 +82,7 @@ impl SceneBuilder {
         let [a, b] = [parameters.number("zmin", -radius)?, parameters.number("zmax", radius)?];
         let heights = [a.min(b), a.max(b)].map(|z| z.clamp(-radius, radius));
         let turn_deg = turn_deg(parameters)?;
-        if heights == [-radius, radius] && turn_deg == 360.0 && !self.has_image(graphics) {
+        if heights == [-radius, radius] && turn_deg == 360.0 && graphics.texture_base.is_none() {
             self.whole_sphere(radius, graphics);
             return Ok(());
         }
@@ -90,7 +93,7 @@ impl SceneBuilder {
         let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
         let (inner, height) = (parameters.number("innerradius", 0.0)?, parameters.number("height", 0.0)?);
         let turn_deg = turn_deg(parameters)?;
-        if inner == 0.0 && turn_deg == 360.0 && !self.has_image(graphics) {
+        if inner == 0.0 && turn_deg == 360.0 && graphics.texture_base.is_none() {
             self.whole_disc(radius, height, graphics);
             return Ok(());
         }
@@ -107,12 +110,7 @@ impl SceneBuilder {
     /// Adds a round shape as one mesh.
     fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         self.report.note("cylinders, and spheres and discs that are textured or partial, become meshes of 256 sides");
-        self.surface(mesh, graphics, 1)
-    }
-
-    /// Returns true if the texture coordinates of a shape place an image.
-    fn has_image(&self, graphics: &Graphics) -> bool {
-        matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.with_images.contains(&graphics.material)
+        self.surface(mesh.with_uvs_for(graphics), graphics, 1)
     }
 }
 
@@ -150,9 +148,13 @@ impl Triangles {
         }
     }
 
-    /// The same, with pbrt's default texture coordinates if it has none.
-    fn with_default_uvs(self) -> Self {
-        if self.uvs.is_empty() { self.with_corners_as_uv() } else { self }
+    /// The same, with the texture coordinates that its images need: pbrt's default ones if it has none, or those of a projection.
+    fn with_uvs_for(self, graphics: &Graphics) -> Self {
+        match &graphics.texture_base {
+            Some(TextureBase::Surface) if self.uvs.is_empty() => self.with_corners_as_uv(),
+            Some(TextureBase::Projection(projection)) => self.with_projected_uvs(projection, graphics.to_world),
+            _ => self,
+        }
     }
 
     fn points(parameters: Parameters<'_>) -> Result<Self, String> {

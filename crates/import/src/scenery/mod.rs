@@ -1,7 +1,9 @@
 //! Construction of the imported scene: code shared by the readers of other programs' scenes.
 
 mod environment;
+mod lookup;
 mod objects;
+mod projection;
 mod round;
 mod spectra;
 mod stage;
@@ -14,8 +16,8 @@ pub(super) use environment::is_upright;
 pub(super) use environment::resampled;
 pub(super) use environment::{linear_pixels, to_ours};
 pub(super) use objects::above_zero;
+pub(super) use projection::{ProjectionKind, TextureBase, TextureProjection};
 pub(super) use round::Triangles;
-#[cfg(feature = "usd")]
 pub(super) use spectra::stored_pixels;
 pub(super) use spectra::{LightUnit, coefficient_from_rgb, illuminant_of};
 pub(super) use stage::AreaLight;

@@ -74,6 +74,10 @@ impl PbrtReader<'_, '_> {
                 "`Include \"{name}\"`: compressed files are not supported; decompress it and change the name"
             )));
         }
+        // An empty included file has no directives.
+        if std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() == 0) {
+            return Ok(());
+        }
         self.file(&path, depth + 1)
     }
 }
