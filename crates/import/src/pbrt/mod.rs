@@ -15,9 +15,13 @@ mod lens_table;
 mod light;
 mod material;
 mod parameters;
+mod patch;
 mod shape;
 mod spectrum;
 mod texture;
+
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 

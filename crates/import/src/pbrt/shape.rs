@@ -3,6 +3,7 @@
 use etendue_scene::record::material::Factor;
 
 use super::parameters::Parameters;
+use super::patch::{DIVISIONS, PatchMesh};
 use super::texture::TextureUse;
 use crate::scenery::{Graphics, SceneBuilder, TextureBase, Triangles, above_zero};
 
@@ -24,9 +25,16 @@ impl SceneBuilder {
                 self.mesh(mesh.with_uvs_for(graphics), graphics).map_err(message)?;
             }
             "bilinearmesh" => {
-                self.report.note("bilinear patches become two triangles each, which is exact for flat patches");
-                let mesh = Triangles::from_patches(parameters).map_err(message)?;
-                self.mesh(mesh.with_uvs_for(graphics), graphics).map_err(message)?;
+                let PatchMesh { mesh, patches, is_curved } = PatchMesh::from_parameters(parameters).map_err(message)?;
+                if is_curved {
+                    self.report.note(format!(
+                        "curved bilinear patches become {DIVISIONS} by {DIVISIONS} squares of two triangles"
+                    ));
+                }
+                if parameters.find("emissionfilename").is_some() {
+                    self.report.note("\"emissionfilename\" of a mesh is not used: its emission is uniform");
+                }
+                self.surface(mesh.with_uvs_for(graphics), graphics, patches).map_err(message)?;
             }
             "sphere" => self.sphere(parameters, graphics).map_err(message)?,
             "disk" => self.disc(parameters, graphics).map_err(message)?,
@@ -126,28 +134,6 @@ impl Triangles {
         Ok(Self { triangles, ..mesh })
     }
 
-    /// Corners of a patch are in rows: (0, 0), (1, 0), (0, 1), (1, 1).
-    fn from_patches(parameters: Parameters<'_>) -> Result<Self, String> {
-        let mesh = Self::points(parameters)?;
-        let patches = indices::<4>(parameters, mesh.positions.len())?;
-        if mesh.uvs.is_empty() {
-            return Ok(mesh.with_own_vertices(&patches));
-        }
-        let triangles = patches.into_iter().flat_map(halves).collect();
-        Ok(Self { triangles, ..mesh })
-    }
-
-    /// Patches with separate vertices and the texture coordinates of their corners: pbrt's default if a file has none.
-    fn with_own_vertices(self, patches: &[[u32; 4]]) -> Self {
-        let corners = patches.iter().flatten().map(|i| *i as usize);
-        Self {
-            normals: corners.clone().filter_map(|i| self.normals.get(i)).copied().collect(),
-            positions: corners.map(|i| self.positions[i]).collect(),
-            uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].repeat(patches.len()),
-            triangles: (0..patches.len() as u32).map(|i| [0, 1, 2, 3].map(|k| 4 * i + k)).flat_map(halves).collect(),
-        }
-    }
-
     /// The same, with the texture coordinates that its images need: pbrt's default ones if it has none, or those of a projection.
     fn with_uvs_for(self, graphics: &Graphics) -> Self {
         match &graphics.texture_base {
@@ -157,7 +143,7 @@ impl Triangles {
         }
     }
 
-    fn points(parameters: Parameters<'_>) -> Result<Self, String> {
+    pub(super) fn points(parameters: Parameters<'_>) -> Result<Self, String> {
         let positions = tuples::<3, f64>("P", parameters.numbers("P")?.ok_or("no \"P\"")?)?.to_vec();
         let normals = tuples::<3, f64>("N", parameters.numbers("N")?.unwrap_or_default())?.to_vec();
         let uvs = match parameters.numbers("uv")? {
@@ -177,13 +163,8 @@ impl Triangles {
     }
 }
 
-/// Two triangles of a patch.
-fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
-    [[a, b, d], [a, d, c]]
-}
-
 /// Corner indices of faces with `N` corners; if the file states none, those of one face in order.
-fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Result<Vec<[u32; N]>, String> {
+pub(super) fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Result<Vec<[u32; N]>, String> {
     match parameters.numbers("indices")? {
         Some(stated) => {
             let legal = stated.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?;
