@@ -4,13 +4,20 @@ use etendue_scene::record::{Colour, LightColour};
 use etendue_spectra::{Extrapolation, Spectrum, colour::BT709, illuminant};
 
 use super::parameters::Parameters;
-use super::spectrum::illuminant_name;
 use crate::scenery::{LightUnit, SceneBuilder, coefficient_from_rgb, illuminant_of};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     let count = numbers.len();
     numbers.try_into().map_err(|_| format!("\"{name}\": {count} numbers in an rgb; expected three"))
+}
+
+/// Our name of an illuminant of pbrt, whether we have its table or not.
+pub(super) fn illuminant_name(name: &str) -> Option<String> {
+    match name {
+        "illum-acesD60" => Some("D60".to_owned()),
+        _ => name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL")),
+    }
 }
 
 /// Distance beyond its ends at which a spectrum is 0, nm.

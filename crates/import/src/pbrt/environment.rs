@@ -8,30 +8,9 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI};
 
 use etendue_core::maths::f64 as maths;
 use etendue_spectra::colour::BT709;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use super::texture::read_light_image;
-use crate::scenery::{Graphics, SceneBuilder};
-
-/// Image of a light, in place.
-pub(crate) struct SquareLight {
-    texels: Texels<'static>,
-    /// Transform from our world to the light's space.
-    to_light: DMat3,
-    /// Luminance of 1.
-    pub(super) scale_cd_m2: f64,
-}
-
-impl SquareLight {
-    pub(super) fn size(&self) -> usize {
-        self.texels.size
-    }
-
-    /// Red, green and blue from a unit direction of our world.
-    pub(super) fn radiance(&self, direction: DVec3) -> [f64; 3] {
-        self.texels.bilinear(square_of((self.to_light * direction).normalize_or(DVec3::Z)))
-    }
-}
+use crate::scenery::{Graphics, ImageLight, SceneBuilder, read_light_image};
 
 impl SceneBuilder {
     /// Light of an image whose numbers are cd/m² times `scale`, or times the factor that gives `lux` on a surface facing the image's +z; `None`, with a note, if
@@ -42,7 +21,7 @@ impl SceneBuilder {
         graphics: &Graphics,
         scale: f64,
         lux: Option<f64>,
-    ) -> Result<Option<SquareLight>, String> {
+    ) -> Result<Option<ImageLight>, String> {
         let path = self.find_file(file);
         let image = read_light_image(&path)?;
         if image.columns != image.rows {
@@ -63,7 +42,10 @@ impl SceneBuilder {
         }
         self.report.note(format!("environment map `{file}`: 1 is {scale} cd/m²"));
         let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
-        Ok(Some(SquareLight { texels, to_light, scale_cd_m2: scale }))
+        let radiance =
+            move |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
+        // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
+        Ok(Some(ImageLight { radiance: Box::new(radiance), rows: size, scale_cd_m2: scale }))
     }
 }
 

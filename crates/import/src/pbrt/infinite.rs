@@ -5,35 +5,10 @@
 
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{Curve, Emission, Environment, Level, LightColour};
-use etendue_spectra::{Spectrum, colour::linear_srgb_from_xyz, illuminant, observer, upsample};
+use etendue_spectra::{Spectrum, illuminant, upsample};
 use glam::DVec3;
 
-use super::environment::SquareLight;
-use crate::scenery::SceneBuilder;
-
-/// Environment light of the file.
-pub(crate) enum InfiniteLight {
-    Uniform(UniformLight),
-    Image(SquareLight),
-}
-
-/// Equal light from all directions.
-pub(crate) struct UniformLight {
-    pub(super) colour: LightColour,
-    pub(super) luminance_cd_m2: f64,
-    /// Relative spectrum.
-    pub(super) spectrum: Spectrum,
-}
-
-impl UniformLight {
-    fn radiance(&self) -> Spectrum {
-        observer::with_luminance(&self.spectrum, self.luminance_cd_m2).unwrap_or_else(|| Spectrum::constant(0.0))
-    }
-
-    fn linear_srgb(&self) -> [f64; 3] {
-        linear_srgb_from_xyz(observer::xyz(&self.radiance()))
-    }
-}
+use crate::scenery::{ImageLight, InfiniteLight, SceneBuilder, UniformLight};
 
 /// Relative spectrum of a colour other than one in a file; dark for that.
 pub(super) fn spectrum_of(colour: &LightColour) -> Spectrum {
@@ -82,8 +57,8 @@ impl SceneBuilder {
         Environment::Uniform(Emission::new(Level::Radiance(Curve::File(file.as_str().into()))))
     }
 
-    fn image_sum(&mut self, uniform: &[UniformLight], images: &[SquareLight]) -> Result<Environment, String> {
-        let rows = images.iter().map(SquareLight::size).max().unwrap_or(1);
+    fn image_sum(&mut self, uniform: &[UniformLight], images: &[ImageLight]) -> Result<Environment, String> {
+        let rows = images.iter().map(|image| image.rows).max().unwrap_or(1);
         // A single image keeps its numbers.
         let unit = if let ([image], []) = (images, uniform) { image.scale_cd_m2 } else { 1.0 };
         let constant = uniform.iter().map(UniformLight::linear_srgb).fold([0.0; 3], added);
@@ -91,7 +66,7 @@ impl SceneBuilder {
             self.report.note("colours of environment lights outside sRGB are limited to it where images are added");
         }
         let radiance = |direction: DVec3| {
-            let value = images.iter().map(|image| image.radiance(direction).map(|v| v * image.scale_cd_m2 / unit));
+            let value = images.iter().map(|image| (image.radiance)(direction).map(|v| v * image.scale_cd_m2 / unit));
             added(constant, value.fold([0.0; 3], added)).map(|v| v.max(0.0))
         };
         let path = self.environment_file(rows, &radiance)?;

@@ -9,10 +9,10 @@ use etendue_spectra::{Extrapolation, Spectrum};
 use glam::DVec3;
 
 use super::colour::table;
-use super::infinite::{InfiniteLight, UniformLight, spectrum_of};
+use super::infinite::spectrum_of;
 use super::parameters::Parameters;
 use crate::lamps;
-use crate::scenery::{AreaLight, Graphics, Homogeneous, SceneBuilder};
+use crate::scenery::{AreaLight, Graphics, Homogeneous, InfiniteLight, SceneBuilder, UniformLight};
 use crate::syntax::pbrt::PbrtValues;
 
 impl SceneBuilder {

@@ -11,8 +11,7 @@ use etendue_spectra::{Extrapolation, Spectrum, metal};
 use super::colour::{points, three};
 use super::parameters::Parameters;
 use super::spectrum::metal_of_names;
-use super::texture::TextureUse;
-use crate::scenery::{INTERFACE, SceneBuilder, TextureBase, plain};
+use crate::scenery::{INTERFACE, SceneBuilder, TextureBase, TextureUse, plain};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 /// Thickness of a coat that states none.

@@ -14,6 +14,7 @@ mod interpreter;
 mod lens_table;
 mod light;
 mod material;
+mod mesh_parameters;
 mod parameters;
 mod patch;
 mod shape;
@@ -31,9 +32,6 @@ use etendue_io::failure::{Error, ErrorCode};
 use super::written::ImportFiles;
 use crate::syntax::pbrt::read_pbrt;
 use interpreter::Interpreter;
-
-pub(super) use infinite::InfiniteLight;
-pub(super) use texture::{PlacedTexture, TextureTree};
 
 pub(super) fn convert(file: &Path, folder: &Path) -> Result<ImportFiles, Error> {
     let mut interpreter = Interpreter::new(file, folder);

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::mesh_parameters::indices;
 use super::parameters::Parameters;
-use super::shape::indices;
 use crate::scenery::Triangles;
 
 /// Squares along each side of a curved patch.

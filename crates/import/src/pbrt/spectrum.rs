@@ -4,7 +4,7 @@ use etendue_io::source::{decode_text, read_bytes};
 use etendue_spectra::glass::{self, CatalogueGlass};
 use etendue_spectra::{Extrapolation, Spectrum, illuminant, metal};
 
-use super::colour::{points, table, three};
+use super::colour::{illuminant_name, points, table, three};
 use crate::scenery::{SceneBuilder, coefficient_from_rgb};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
@@ -47,14 +47,6 @@ fn known_spectrum(name: &str) -> Option<Spectrum> {
         return known_glass(name).map(|glass| Spectrum::from_fn(|nm| glass.dispersion.index(nm)));
     }
     illuminant::by_name(&illuminant_name(name)?).cloned()
-}
-
-/// Our name of an illuminant of pbrt, whether we have its table or not.
-pub(super) fn illuminant_name(name: &str) -> Option<String> {
-    match name {
-        "illum-acesD60" => Some("D60".to_owned()),
-        _ => name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL")),
-    }
 }
 
 /// Symbol of the metal whose complex index the names of both parts give.

@@ -9,26 +9,13 @@ use etendue_scene::record::material::{Factor, Sides};
 use etendue_scene::record::{Curve, Emission, Level, LightColour, Scene, SurfaceEmission};
 use glam::{DAffine3, DMat3};
 
+use super::infinite_light::InfiniteLight;
 use super::projection::TextureBase;
+use super::texture::{PlacedTexture, TextureTree};
 use crate::naming::{UniqueNames, path_between};
-use crate::pbrt::{InfiniteLight, PlacedTexture, TextureTree};
 
 /// Placeholder for the material of a surface that only separates two media.
 pub(crate) const INTERFACE: &str = "interface/";
-
-/// Converted texture.
-#[derive(Clone)]
-pub(crate) enum KnownTexture {
-    /// Constant.
-    Even([f64; 3]),
-    /// One of our textures, times a number.
-    Picture {
-        name: String,
-        scale: f64,
-        /// True if its number is its opacity, as for pbrt's images with one.
-        has_alpha: bool,
-    },
-}
 
 /// Homogeneous medium.
 #[derive(Clone)]

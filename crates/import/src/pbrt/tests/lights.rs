@@ -65,7 +65,7 @@ fn lights_in_files_have_their_spectrum() {
     assert!(converted.scene().contains("luminance_cd_m2 = 5"), "{}", converted.scene());
 }
 
-/// EFL 49.558 mm by the lensmaker's formula of the thick lens (`lens_table`); film of 35 mm diagonal, 4 : 3.
+/// EFL 49.55655 mm by the lensmaker's formula of the thick lens (`lens_table`); film of 35 mm diagonal, 4 : 3.
 #[test]
 fn lens_tables_become_surfaces() {
     let lens = SceneFile { name: "lens.dat", bytes: b"# thick singlet\n50 4 1.5168 12\n0 3 0 10\n-50 47 1 12\n" };
@@ -73,7 +73,7 @@ fn lens_tables_become_surfaces() {
         Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 48\nWorldBegin\nShape \"sphere\"\n";
     let converted = read_text(text, &[lens]).expect("a scene");
     converted.assert_reports(
-        "camera: lens of 3 surfaces, focal length 49.5567 mm, stop of 10 mm, focused 5 m before the film",
+        "camera: lens of 3 surfaces, focal length 49.5565 mm, stop of 10 mm, focused 5 m before the film",
     );
     converted.assert_reports("\"aperturediameter\" of 30 mm is limited to the table's 10 mm (a.pbrt:2)");
     let job = std::str::from_utf8(converted.file("job.toml")).expect("a text");

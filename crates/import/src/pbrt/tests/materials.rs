@@ -29,7 +29,7 @@ fn rgb_indices_of_metals_have_their_colours() {
 #[test]
 fn indices_of_dielectrics_may_be_numbers_rgb_names_and_files() {
     let index = |eta: &str| {
-        let glass = SceneFile { name: "glass.spd", bytes: b"# a glass\n400 1.7 # blue\n587.56 1.6\n800 1.5\n" };
+        let glass = SceneFile { name: "glass.spd", bytes: b"# a glass\n400 1.7 # blue\n500 1.6\n700 1.6\n" };
         read(&format!("Material \"dielectric\" {eta}\nShape \"sphere\""), &[glass]).expect("a scene")
     };
     for (eta, expected) in [

@@ -36,7 +36,9 @@ fn read_text(text: &str, files: &[SceneFile<'_>]) -> Result<ConvertedScene, Stri
         std::fs::write(place.path().join(name), bytes).expect("written");
     }
     let converted = convert(&file, &place.path().join("out")).map(ConvertedScene);
-    converted.map_err(|e| e.to_string().replace(&format!("{}/", place.path().display()), ""))
+    converted.map_err(|e| {
+        e.to_string().replace(&format!("{}/", place.path().display()), "").replace("error[malformed-file]: ", "")
+    })
 }
 
 impl ConvertedScene {

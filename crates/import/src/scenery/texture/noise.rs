@@ -19,10 +19,10 @@ const PERMUTATION: [u8; 256] = [
 const MEAN_ABSOLUTE_NOISE: f64 = 0.218;
 
 /// Mean of pbrt's marble over a period of its sine, linear sRGB; `variation` only shifts the phase.
-pub(super) const MARBLE_MEAN: [f64; 3] = [0.8046, 0.8030, 0.8398];
+pub(crate) const MARBLE_MEAN: [f64; 3] = [0.8046, 0.8030, 0.8398];
 
 /// Mean of the sum of `octaves` absolute values of noise, each `ratio` times the one before.
-pub(super) fn mean_of_turbulence(octaves: f64, ratio: f64) -> f64 {
+pub(crate) fn mean_of_turbulence(octaves: f64, ratio: f64) -> f64 {
     (0..octaves.clamp(0.0, 64.0) as usize)
         .fold((0.0, 1.0), |(sum, weight), _| (sum + weight * MEAN_ABSOLUTE_NOISE, weight * ratio))
         .0
@@ -54,8 +54,8 @@ fn gradient(lattice: [f64; 3], [dx, dy, dz]: [f64; 3]) -> f64 {
     (if hash & 1 == 0 { u } else { -u }) + (if hash & 2 == 0 { v } else { -v })
 }
 
-/// Returns true inside one of the dots of radius 0.35 that half of the cells have.
-pub(super) fn is_in_dot([s, t]: [f64; 2]) -> bool {
+/// Returns true inside one of the dots of radius 0.35, which the cells of positive noise have.
+pub(crate) fn is_in_dot([s, t]: [f64; 2]) -> bool {
     const RADIUS: f64 = 0.35;
     let (cell_s, cell_t) = ((s + 0.5).floor(), (t + 0.5).floor());
     if noise(cell_s + 0.5, cell_t + 0.5) <= 0.0 {

@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use super::super::projection::TextureBase;
 use super::image::{ImageFile, ImageUse, ImageWrap, LinearImage};
 use super::noise::is_in_dot;
-use crate::scenery::TextureBase;
 
 /// Texture.
 pub(crate) enum TextureTree {
@@ -19,13 +19,13 @@ pub(crate) enum TextureTree {
 
 /// Image with its use.
 pub(crate) struct ImageLeaf {
-    pub(super) file: ImageFile,
-    pub(super) usage: ImageUse,
-    pub(super) wrap: ImageWrap,
-    pub(super) scale: f64,
-    pub(super) is_inverted: bool,
-    pub(super) placement: Placement,
-    pub(super) pixels: RefCell<Option<Rc<LinearImage>>>,
+    pub(crate) file: ImageFile,
+    pub(crate) usage: ImageUse,
+    pub(crate) wrap: ImageWrap,
+    pub(crate) scale: f64,
+    pub(crate) is_inverted: bool,
+    pub(crate) placement: Placement,
+    pub(crate) pixels: RefCell<Option<Rc<LinearImage>>>,
 }
 
 /// Pattern of texture coordinates.
@@ -41,29 +41,29 @@ pub(crate) enum Pattern {
 /// Texture coordinates of an image or a pattern: `scale` times those of the base, plus `offset`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Placement {
-    pub(super) base: TextureBase,
-    pub(super) scale: [f64; 2],
-    pub(super) offset: [f64; 2],
+    pub(crate) base: TextureBase,
+    pub(crate) scale: [f64; 2],
+    pub(crate) offset: [f64; 2],
 }
 
 impl Placement {
-    pub(super) fn coordinates(&self, uv: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn coordinates(&self, uv: [f64; 2]) -> [f64; 2] {
         std::array::from_fn(|i| self.scale[i] * uv[i] + self.offset[i])
     }
 
-    pub(super) fn inverse(&self, st: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn inverse(&self, st: [f64; 2]) -> [f64; 2] {
         std::array::from_fn(|i| (st[i] - self.offset[i]) / self.scale[i])
     }
 }
 
 /// Leaf that depends on texture coordinates.
-pub(super) enum Leaf<'a> {
+pub(crate) enum Leaf<'a> {
     Image(&'a ImageLeaf),
     Pattern(&'a Pattern, &'a Placement),
 }
 
 impl Leaf<'_> {
-    pub(super) fn placement(&self) -> &Placement {
+    pub(crate) fn placement(&self) -> &Placement {
         match self {
             Self::Image(image) => &image.placement,
             Self::Pattern(_, placement) => placement,
@@ -73,7 +73,7 @@ impl Leaf<'_> {
 
 impl ImageLeaf {
     /// Reads the image, unless it is in memory.
-    pub(super) fn load(&self) -> Result<Rc<LinearImage>, String> {
+    pub(crate) fn load(&self) -> Result<Rc<LinearImage>, String> {
         if let Some(pixels) = &*self.pixels.borrow() {
             return Ok(pixels.clone());
         }
@@ -93,7 +93,7 @@ impl ImageLeaf {
 
 impl TextureTree {
     /// Value at the coordinates of the base; images must be in memory.
-    pub(super) fn value(&self, uv: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn value(&self, uv: [f64; 2]) -> [f64; 3] {
         match self {
             Self::Constant(value) => *value,
             Self::Image(image) => image.value(uv),
@@ -126,12 +126,12 @@ impl TextureTree {
     }
 
     /// Value of a texture that is the same everywhere.
-    pub(in crate::pbrt) fn constant(&self) -> Option<[f64; 3]> {
+    pub(crate) fn constant(&self) -> Option<[f64; 3]> {
         self.leaves().is_empty().then(|| self.value([0.0; 2]))
     }
 
     /// Leaves that depend on texture coordinates, in order.
-    pub(super) fn leaves(&self) -> Vec<Leaf<'_>> {
+    pub(crate) fn leaves(&self) -> Vec<Leaf<'_>> {
         let mut leaves = Vec::new();
         self.add_leaves(&mut leaves);
         leaves

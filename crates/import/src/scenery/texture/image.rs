@@ -6,11 +6,11 @@ use etendue_core::maths::f64 as maths;
 use etendue_io::picture::read_foreign_image;
 use etendue_spectra::colour::decode;
 
-use crate::scenery::stored_pixels;
+use super::super::stored::stored_pixels;
 
 /// Encoding of the numbers of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum ImageEncoding {
+pub(crate) enum ImageEncoding {
     Linear,
     Srgb,
     /// Power of the stored numbers.
@@ -29,7 +29,7 @@ impl ImageEncoding {
 
 /// Continuation of an image beyond its borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ImageWrap {
+pub(crate) enum ImageWrap {
     Repeat,
     Clamp,
     Black,
@@ -37,56 +37,56 @@ pub(super) enum ImageWrap {
 
 /// Format of an image by the end of its name, as pbrt decides.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct ImageFormat(String);
+pub(crate) struct ImageFormat(String);
 
 impl ImageFormat {
-    pub(super) fn of_name(name: &str) -> Self {
+    pub(crate) fn of_name(name: &str) -> Self {
         Self(name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase())
     }
 
     /// Returns true if its numbers are linear.
-    pub(super) fn is_linear(&self) -> bool {
+    pub(crate) fn is_linear(&self) -> bool {
         matches!(self.0.as_str(), "exr" | "hdr" | "pfm")
     }
 
-    pub(super) fn is_png(&self) -> bool {
+    pub(crate) fn is_png(&self) -> bool {
         self.0 == "png"
     }
 
     /// Returns true if a written scene can name such a file.
-    pub(super) fn is_ours(&self) -> bool {
+    pub(crate) fn is_ours(&self) -> bool {
         matches!(self.0.as_str(), "png" | "jpg" | "jpeg" | "hdr" | "exr")
     }
 
     /// Returns true if pbrt can read it.
-    pub(super) fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         self.is_ours() || matches!(self.0.as_str(), "pfm" | "qoi" | "tga" | "bmp" | "ppm" | "pgm" | "pnm")
     }
 
     /// Returns true if pbrt keeps its opacity.
-    pub(super) fn has_opacity(&self) -> bool {
+    pub(crate) fn has_opacity(&self) -> bool {
         matches!(self.0.as_str(), "png" | "exr" | "qoi")
     }
 }
 
 /// Reads an image of a light; the error names the file.
-pub(in crate::pbrt) fn read_light_image(file: &Path) -> Result<LinearImage, String> {
+pub(crate) fn read_light_image(file: &Path) -> Result<LinearImage, String> {
     let is_linear = ImageFormat::of_name(&file.to_string_lossy()).is_linear();
     let encoding = if is_linear { ImageEncoding::Linear } else { ImageEncoding::Srgb };
     LinearImage::read(file, encoding, ImageUse::Colours)
 }
 
 /// Linear image; its first row is the top one.
-pub(in crate::pbrt) struct LinearImage {
-    pub(in crate::pbrt) columns: usize,
-    pub(in crate::pbrt) rows: usize,
+pub(crate) struct LinearImage {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
     /// Red, green, blue; all are the number for an image of numbers.
     pixels: Vec<[f32; 3]>,
 }
 
 /// Use of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ImageUse {
+pub(crate) enum ImageUse {
     Colours,
     /// Its opacity if it has transparent parts, else the mean of its colours.
     Numbers,
@@ -94,7 +94,7 @@ pub(super) enum ImageUse {
 
 impl LinearImage {
     /// Reads an image; the error names the file.
-    pub(super) fn read(file: &Path, encoding: ImageEncoding, usage: ImageUse) -> Result<Self, String> {
+    pub(crate) fn read(file: &Path, encoding: ImageEncoding, usage: ImageUse) -> Result<Self, String> {
         let image = read_foreign_image(file).map_err(|e| e.to_string())?.in_rec_709();
         let stored = stored_pixels(&image);
         let format = ImageFormat::of_name(&file.to_string_lossy());
@@ -112,12 +112,12 @@ impl LinearImage {
     }
 
     /// Pixel by its index, row by row.
-    pub(in crate::pbrt) fn pixel_at(&self, index: usize) -> [f32; 3] {
+    pub(crate) fn pixel_at(&self, index: usize) -> [f32; 3] {
         self.pixels[index]
     }
 
     /// Bilinear value at texture coordinates; t = 0 is the lower border.
-    pub(super) fn at(&self, [s, t]: [f64; 2], wrap: ImageWrap) -> [f64; 3] {
+    pub(crate) fn at(&self, [s, t]: [f64; 2], wrap: ImageWrap) -> [f64; 3] {
         let (x, y) = (s * self.columns as f64 - 0.5, (1.0 - t) * self.rows as f64 - 0.5);
         let (x0, y0) = (x.floor(), y.floor());
         let (fx, fy) = (x - x0, y - y0);
@@ -149,7 +149,7 @@ impl LinearImage {
 
 /// Content of an image of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NumberImage {
+pub(crate) enum NumberImage {
     /// Transparent parts: pbrt uses the opacity.
     Opacity,
     Grey,
@@ -157,7 +157,7 @@ pub(super) enum NumberImage {
 }
 
 /// Reads what an image of numbers holds; the error names the file.
-pub(super) fn number_image(file: &Path) -> Result<NumberImage, String> {
+pub(crate) fn number_image(file: &Path) -> Result<NumberImage, String> {
     let stored = stored_pixels(&read_foreign_image(file).map_err(|e| e.to_string())?);
     let format = ImageFormat::of_name(&file.to_string_lossy());
     let is_opacity = format.has_opacity() && stored.iter().any(|p| p[3] != 1.0);
@@ -173,7 +173,7 @@ pub(super) fn number_image(file: &Path) -> Result<NumberImage, String> {
 
 /// Image file of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ImageFile {
-    pub(super) path: PathBuf,
-    pub(super) encoding: ImageEncoding,
+pub(crate) struct ImageFile {
+    pub(crate) path: PathBuf,
+    pub(crate) encoding: ImageEncoding,
 }

@@ -1,4 +1,4 @@
-//! Our textures for those of pbrt: an image of the file where one suffices, else an image of the texture's values.
+//! Our textures for trees: an image of the file where one suffices, else an image of the texture's values.
 
 use std::rc::Rc;
 
@@ -7,52 +7,12 @@ use etendue_io::exr::{ExrLayer, encode_layers};
 use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{Encoding, Wrap};
 
-use super::image::{ImageEncoding, ImageFormat, ImageWrap, NumberImage, number_image};
-use super::tree::{ImageLeaf, Leaf, Pattern, Placement, TextureTree};
-use crate::scenery::{KnownTexture, SceneBuilder, TextureBase, grey};
-
-/// Texture of a material, and the source of its texture coordinates.
-#[derive(Clone)]
-pub(crate) struct PlacedTexture {
-    pub(super) texture: KnownTexture,
-    pub(super) base: TextureBase,
-}
-
-impl PlacedTexture {
-    fn even(value: [f64; 3]) -> Self {
-        Self { texture: KnownTexture::Even(value), base: TextureBase::Surface }
-    }
-
-    fn picture(name: String, scale: f64, has_alpha: bool, base: TextureBase) -> Self {
-        Self { texture: KnownTexture::Picture { name, scale, has_alpha }, base }
-    }
-}
-
-/// Use of a texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::pbrt) enum TextureUse {
-    /// Reflectances, 0 to 1.
-    Colours,
-    /// Numbers, 0 to 1.
-    Numbers,
-    /// Square roots of numbers: pbrt's remapped roughness.
-    SquareRoots,
-}
-
-impl TextureUse {
-    fn key(self) -> &'static str {
-        match self {
-            Self::Colours => "colours",
-            Self::Numbers => "numbers",
-            Self::SquareRoots => "square roots",
-        }
-    }
-
-    /// Value for the use, before it is limited to 0 … 1.
-    pub(in crate::pbrt) fn mapped(self, value: f64) -> f64 {
-        if self == Self::SquareRoots { value.max(0.0).sqrt() } else { value }
-    }
-}
+use super::stage::SceneBuilder;
+use super::surfaces::grey;
+use super::texture::{
+    ImageEncoding, ImageFormat, ImageLeaf, ImageWrap, Leaf, NumberImage, Pattern, PlacedTexture, Placement,
+    TextureTree, TextureUse, number_image,
+};
 
 /// Sides of the square of a checkerboard's cell, and of an image of a pattern that does not repeat, pixels.
 const CELL: usize = 256;
@@ -74,7 +34,7 @@ struct Grid {
 
 impl SceneBuilder {
     /// Our texture for one of pbrt.
-    pub(super) fn placed_texture(
+    pub(crate) fn placed_texture(
         &mut self,
         name: &str,
         tree: &Rc<TextureTree>,
@@ -173,7 +133,7 @@ impl SceneBuilder {
     }
 
     /// Mean of a texture over the coordinates 0 to 1.
-    pub(in crate::pbrt) fn texture_mean(tree: &TextureTree) -> Result<[f64; 3], String> {
+    pub(crate) fn texture_mean(tree: &TextureTree) -> Result<[f64; 3], String> {
         load(tree)?;
         let mean = mean(tree);
         unload(tree);

@@ -1,12 +1,7 @@
 //! Textures.
 //!
-//! A texture of pbrt is a tree ([`tree`]). The material that uses it gets an image of the file, or an image of the tree's values that is written beside the
-//! scene ([`bake`]). Textures of positions become their mean.
-
-mod bake;
-mod image;
-mod noise;
-mod tree;
+//! A texture of pbrt is a tree. The material that uses it gets an image of the file, or an image of the tree's values that is written beside the scene.
+//! Textures of positions become their mean.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -17,18 +12,14 @@ use etendue_scene::record::{Colour, Reflectance};
 use etendue_spectra::{Extrapolation, Spectrum, colour::linear_srgb_from_xyz, illuminant, observer};
 use glam::DVec3;
 
-use self::image::{ImageEncoding, ImageFile, ImageFormat, ImageUse, ImageWrap};
-use self::noise::{MARBLE_MEAN, mean_of_turbulence};
-use self::tree::{ImageLeaf, Pattern, Placement};
 use super::colour::points;
 use super::parameters::Parameters;
-use crate::scenery::{Graphics, KnownTexture, ProjectionKind, SceneBuilder, TextureBase, TextureProjection};
+use crate::scenery::{
+    Graphics, ImageEncoding, ImageFile, ImageFormat, ImageLeaf, ImageUse, ImageWrap, KnownTexture, MARBLE_MEAN,
+    Pattern, Placement, ProjectionKind, SceneBuilder, TextureBase, TextureProjection, TextureTree, TextureUse,
+    mean_of_turbulence,
+};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
-
-pub(crate) use bake::PlacedTexture;
-pub(super) use bake::TextureUse;
-pub(super) use image::read_light_image;
-pub(crate) use tree::TextureTree;
 
 /// Texture directive in progress.
 struct TextureReader<'a> {
