@@ -84,7 +84,10 @@ impl Interpreter {
                 self.scenery.report.note(format!("`Option \"{}\"` is not used", option.name));
                 Ok(())
             }
-            PbrtDirective::Include(_) => Ok(()),
+            PbrtDirective::Include(name) => {
+                self.scenery.report.note(format!("an included file does not exist: `{name}` is used"));
+                Ok(())
+            }
         }
     }
 

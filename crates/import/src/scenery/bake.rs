@@ -85,6 +85,9 @@ impl SceneBuilder {
         {
             return Ok(None);
         }
+        if !image.file.path.is_file() {
+            return Err(format!("no such image file: `{}`; check the path", image.file.path.display()));
+        }
         let own = self.names.take(name, "texture");
         let path = self.relative_path(&image.file.path);
         self.scene.textures.push(Texture {
@@ -231,7 +234,7 @@ impl Grid {
             let side = |pixels: usize| if pixels == 0 { SIDE } else { pixels.clamp(16, MAX_SIDE).max(SIDE) };
             let placement = Placement { scale: [1.0; 2], offset: [0.0; 2], ..first.clone() };
             let (columns, rows) = (side(summary.columns), side(summary.rows));
-            return Ok(Some(Self { placement, wrap: Wrap::Repeat, columns, rows, points: 4, is_part: true }));
+            return Ok(Some(Self { placement, wrap: Wrap::Repeat, columns, rows, points: 2, is_part: true }));
         }
         let sizes = images(tree).into_iter().map(ImageLeaf::load).collect::<Result<Vec<_>, _>>()?;
         let columns = sizes.iter().map(|image| image.columns).max();

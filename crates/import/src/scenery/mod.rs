@@ -3,7 +3,6 @@
 mod bake;
 mod environment;
 mod infinite_light;
-mod lookup;
 mod objects;
 mod projection;
 mod round;

@@ -12,6 +12,7 @@ use glam::{DAffine3, DMat3};
 use super::infinite_light::InfiniteLight;
 use super::projection::TextureBase;
 use super::texture::{PlacedTexture, TextureTree};
+use crate::lookup::{FileMatch, search};
 use crate::naming::{UniqueNames, path_between};
 
 /// Placeholder for the material of a surface that only separates two media.
@@ -143,6 +144,19 @@ impl SceneBuilder {
             ));
         }
         limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
+    }
+
+    /// Path of a file that the scene names, with a note if it is not exactly there. A missing file has the path that the scene states.
+    pub(crate) fn find_file(&mut self, name: &str) -> PathBuf {
+        match search(&self.source_folder, name) {
+            Some(FileMatch { path, is_exact: true }) => path,
+            Some(FileMatch { path, .. }) => {
+                let shown = path.strip_prefix(&self.source_folder).unwrap_or(&path).display().to_string();
+                self.report.note(format!("`{name}` does not exist: `{shown}` is used"));
+                path
+            }
+            None => self.source_folder.join(name),
+        }
     }
 
     /// Path of a file as in the written scene.

@@ -20,6 +20,10 @@ fn attributes_are_default_parameters_within_their_block() {
 fn an_empty_included_file_is_no_error() {
     let empty = SceneFile { name: "empty.pbrt", bytes: b"" };
     read("Include \"empty.pbrt\"\nShape \"sphere\"", &[empty]).expect("a scene");
+    let ball = SceneFile { name: "Ball.pbrt", bytes: b"Shape \"sphere\" \"float radius\" 0.125" };
+    let converted = read("Include \"geometry\\ball.PBRT\"", &[ball]).expect("a scene");
+    converted.assert_reports("an included file does not exist: `Ball.pbrt` is used (a.pbrt:4)");
+    assert!(converted.scene().contains("radius_m = 0.125"), "{}", converted.scene());
 }
 
 /// A square of 2 m under a planar mapping, whose space is moved and twice as large: s = (x − 1)/2 + 0.25.

@@ -2,32 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::stage::SceneBuilder;
-
 /// File that matches a name of the scene.
-struct FileMatch {
-    path: PathBuf,
+pub(crate) struct FileMatch {
+    pub(crate) path: PathBuf,
     /// True if its name is spelt as in the scene.
-    is_exact: bool,
-}
-
-impl SceneBuilder {
-    /// Path of a file that the scene names, with a note if it is not exactly there. A missing file has the path that the scene states.
-    pub(crate) fn find_file(&mut self, name: &str) -> PathBuf {
-        match search(&self.source_folder, name) {
-            Some(FileMatch { path, is_exact: true }) => path,
-            Some(FileMatch { path, .. }) => {
-                let shown = path.strip_prefix(&self.source_folder).unwrap_or(&path).display().to_string();
-                self.report.note(format!("`{name}` does not exist: `{shown}` is used"));
-                path
-            }
-            None => self.source_folder.join(name),
-        }
-    }
+    pub(crate) is_exact: bool,
 }
 
 /// The stated path; else the longest end of it that lies in or below `folder`, with any capitals. A backslash separates folders too.
-fn search(folder: &Path, name: &str) -> Option<FileMatch> {
+pub(crate) fn search(folder: &Path, name: &str) -> Option<FileMatch> {
     let stated = folder.join(name);
     if stated.is_file() {
         return Some(FileMatch { path: stated, is_exact: true });
