@@ -61,9 +61,9 @@ mod tests {
         let wood = |is_exact| Some(("Textures/Wood.PNG".to_owned(), is_exact));
         assert_eq!(find("Textures/Wood.PNG"), wood(true));
         assert_eq!(find("textures\\wood.png"), wood(false));
-        assert_eq!(find("C:\\work\\house\\textures\\wood.png"), wood(false));
-        assert_eq!(find("/home/other/Textures/Wood.PNG"), wood(false));
-        assert_eq!(find("/home/other/sky.pfm"), Some(("sky.pfm".to_owned(), false)));
+        assert_eq!(find("C:\\scenes\\house\\textures\\wood.png"), wood(false));
+        assert_eq!(find("/mnt/other/Textures/Wood.PNG"), wood(false));
+        assert_eq!(find("/mnt/other/sky.pfm"), Some(("sky.pfm".to_owned(), false)));
         assert_eq!(find("../x/SKY.pfm"), Some(("sky.pfm".to_owned(), false)));
         assert_eq!(find("wood.png"), None);
     }
