@@ -4,6 +4,7 @@
 
 mod gltf;
 mod lamps;
+mod lookup;
 mod mitsuba;
 mod moving;
 mod naming;

@@ -3,7 +3,7 @@
 use std::{fmt::Write as _, path::Path};
 
 use etendue_core::maths::f64 as maths;
-use etendue_scene::record::{Pose, Scene};
+use etendue_scene::record::{Lens, Pose, Scene};
 use etendue_scene::written::{File, Table};
 use etendue_scene::{record::pose::Aim, record::transform::angles_deg};
 use glam::{DMat3, DVec3};
@@ -35,6 +35,8 @@ pub(super) enum View {
     Lens { yfov_rad: f64, radius_m: f64, focus_m: f64 },
     /// Visible width, m.
     Orthographic { width_m: f64 },
+    /// Ray-traced lens, and height of its sensor, mm.
+    Prescription { lens: Box<Lens>, sensor_mm: f64 },
 }
 
 /// Height of the sensors of imported cameras, mm: that of a film of 36 mm by 24 mm. It does not affect the view.
@@ -75,6 +77,7 @@ impl View {
     fn lens(&self) -> (Table, f64) {
         let table = |kind: &str| Table::new().with("type", kind);
         match *self {
+            Self::Prescription { ref lens, sensor_mm } => (lens.to_table(), sensor_mm),
             Self::Perspective { yfov_rad } => {
                 let focal_mm = 0.5 * SENSOR_MM / maths::tan(0.5 * yfov_rad);
                 (table("pinhole").with("focal_length_mm", focal_mm).with("f_number", 8.0), SENSOR_MM)

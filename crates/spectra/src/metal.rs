@@ -1,6 +1,8 @@
 //! Metals: complex refractive indices n + ik, for light of time dependence exp(−iωt) (k > 0 absorbs).
 //!
-//! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al); end values held. Surfaces are assumed clean: oxide layers are left out.
+//! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al), Querry 1985 (brass CuZn of 70 % copper); end values held. Surfaces are assumed
+//! clean: oxide layers are left out. Two clear oxides, named as metals in scene files, have k = 0: MgO (Stephens & Malitson 1952) and rutile TiO2,
+//! extraordinary ray (Devore 1951).
 
 use std::sync::LazyLock;
 
@@ -15,7 +17,7 @@ pub struct ComplexIndex {
     pub k: Spectrum,
 }
 
-const NAMES: &[&str] = &["Ag", "Al", "Au", "Cr", "Cu", "Fe"];
+const NAMES: &[&str] = &["Ag", "Al", "Au", "Cr", "Cu", "CuZn", "Fe", "MgO", "TiO2"];
 
 static TABLES: LazyLock<Vec<ComplexIndex>> = LazyLock::new(|| {
     [
@@ -24,7 +26,10 @@ static TABLES: LazyLock<Vec<ComplexIndex>> = LazyLock::new(|| {
         include_str!("../data/nk_au.csv"),
         include_str!("../data/nk_cr.csv"),
         include_str!("../data/nk_cu.csv"),
+        include_str!("../data/nk_cuzn.csv"),
         include_str!("../data/nk_fe.csv"),
+        include_str!("../data/nk_mgo.csv"),
+        include_str!("../data/nk_tio2.csv"),
     ]
     .into_iter()
     .map(complex_index)
@@ -64,7 +69,7 @@ pub fn by_name(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The symbols accepted by [`by_name`]: Ag, Al, Au, Cr, Cu, Fe.
+/// The symbols accepted by [`by_name`]: Ag, Al, Au, Cr, Cu, CuZn, Fe, MgO, TiO2.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES
@@ -119,6 +124,9 @@ mod tests {
         assert!(mirror("Au", 650.0) > 0.9 && mirror("Au", 450.0) < 0.45);
         assert!(mirror("Cu", 650.0) > 0.9 && mirror("Cu", 450.0) < 0.65);
         assert!((0.5..0.75).contains(&mirror("Cr", 550.0)) && (0.45..0.7).contains(&mirror("Fe", 550.0)));
+        // Brass is yellow (Cu70Zn30); the oxides reflect ((n − 1)/(n + 1))² for n_d 1.737 and 2.903 of their papers.
+        assert!(mirror("CuZn", 650.0) > 0.85 && mirror("CuZn", 450.0) < 0.55);
+        assert!((mirror("MgO", 589.3) - 0.0725).abs() < 2e-4 && (mirror("TiO2", 589.3) - 0.2377).abs() < 2e-4);
         assert!(names().iter().all(|name| by_name(name).is_some()) && by_name("Pb").is_none());
         assert_eq!(by_name("Ag").map(|m| m.n.at(1100.0)), Some(0.04), "the end value is held");
     }

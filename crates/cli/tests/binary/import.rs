@@ -247,12 +247,11 @@ fn alpha_of_pbrt_is_opacity() {
         assert!((actual - expected).abs() <= 0.016 * expected, "{alpha}: {actual} cd/m² for {expected}");
     }
     let place = tempfile::tempdir().expect("a temporary folder");
-    let scene =
-        pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"realistic\" \"string lensfile\" \"wide.dat\"");
+    let scene = pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"spherical\"");
     fs::write(place.path().join("a.pbrt"), scene).expect("written");
     let output = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
     assert!(
-        output.err.contains("the camera \"realistic\" is not supported: a perspective camera of 40°"),
+        output.err.contains("the camera \"spherical\" is not supported: a perspective camera of 40°"),
         "{}",
         output.err
     );

@@ -90,3 +90,39 @@ fn a_medium_inside_glass_is_named() {
     let (_, notes) = mean(scene);
     assert!(notes.contains("the medium \"m\" in a dielectric is left out"), "{notes}");
 }
+
+/// Formulas of pbrt: an inverted image, planar coordinates, a checkerboard of whole cells.
+#[test]
+fn textures_of_pbrt_have_their_values() {
+    let square = |uv: &str| {
+        format!(
+            "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point3 P\" [ -1 -1 0  1 -1 0  1 1 0  -1 1 0 ] {uv}"
+        )
+    };
+    let image = |parameters: &str| PICTURE.replacen('\n', &format!(" {parameters}\n"), 1);
+    let corners = "\"point2 uv\" [ 0 0  1 0  1 1  0 1 ]";
+    // The upper left quarter is red; inverted it is cyan.
+    let quarter = "\"float uscale\" 0.5 \"float vscale\" 0.5 \"float vdelta\" 0.5";
+    assert_mean(&format!("{}{}", image(&format!("{quarter} \"bool invert\" true")), square(corners)), [0.0, 1.0, 1.0]);
+    // The square of 2 m covers the same quarter of an image of 4 m.
+    let planar =
+        format!("Translate -1 -3 0\nScale 4 4 4\n{}Identity\n{}", image("\"string mapping\" \"planar\""), square(""));
+    assert_mean(&planar, [1.0, 0.0, 0.0]);
+    let board = "Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 8 \"float vscale\" 8 \"rgb tex1\" [ 0.8 0.2 0.2 ] \"rgb tex2\" [ 0.2 0.2 0.6 ]\n\
+                 Material \"diffuse\" \"texture reflectance\" \"t\"\n";
+    assert_mean(&format!("{board}{}", square(corners)), [0.5, 0.2, 0.4]);
+}
+
+#[test]
+fn rgb_indices_are_spectra() {
+    let metal = "Material \"conductor\" \"rgb eta\" [ 1.65746 0.880369 0.521229 ] \"rgb k\" [ 9.223869 6.269523 4.837001 ]\nShape \"sphere\"";
+    assert_mean(metal, [0.927, 0.918, 0.918]);
+    assert_mean("Material \"dielectric\" \"rgb eta\" [ 1.5 1.5 1.5 ]\nShape \"sphere\"", [1.0, 1.0, 1.0]);
+}
+
+/// Uniform light of 1 and two more on a grey of 0.5.
+#[test]
+fn environment_lights_of_pbrt_add() {
+    let lights = "LightSource \"infinite\" \"rgb L\" [ 1 0 0 ]\nLightSource \"infinite\" \"rgb L\" [ 0 0 0.25 ] \"float scale\" 2\n";
+    assert_mean(&format!("{lights}Material \"diffuse\"\nShape \"sphere\""), [1.0, 0.5, 0.75]);
+}

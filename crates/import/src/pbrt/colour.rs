@@ -12,11 +12,19 @@ pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     numbers.try_into().map_err(|_| format!("\"{name}\": the number of values in an rgb is {count}; expected three"))
 }
 
+/// Our name of an illuminant of pbrt, whether we have its table or not.
+pub(super) fn illuminant_name(name: &str) -> Option<String> {
+    match name {
+        "illum-acesD60" => Some("D60".to_owned()),
+        _ => name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL")),
+    }
+}
+
 /// Distance beyond its ends at which a spectrum is 0, nm.
 const END_NM: f64 = 1e-3;
 
 /// Alternating wavelengths in nm and values.
-fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
+pub(super) fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let pairs: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
     let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
     match numbers.len().is_multiple_of(2) && !pairs.is_empty() && rising {
@@ -26,10 +34,9 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
 }
 
 /// The same for a light or a reflectance, which pbrt takes as 0 outside the given wavelengths.
-fn ended_points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
-    let pairs = points(name, numbers)?;
+fn ended(pairs: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let ends = [pairs[0].0 - END_NM, pairs[pairs.len() - 1].0 + END_NM].map(|nm| (nm, 0.0));
-    Ok(ends[..1].iter().chain(&pairs).chain(&ends[1..]).copied().collect())
+    ends[..1].iter().chain(pairs).chain(&ends[1..]).copied().collect()
 }
 
 /// A spectrum of pairs of wavelength and value.
@@ -61,23 +68,30 @@ impl SceneBuilder {
                 Ok(LightUnit { colour: LightColour::Temperature(legal.into()), luminance: 1.0 })
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
-                let points = ended_points(name, numbers)?;
-                let file = self.spectrum_file(&points);
-                Ok(LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 })
+                let pairs = points(name, numbers)?;
+                Ok(self.tabulated_light(&pairs))
             }
-            ("spectrum", PbrtValues::Texts(texts)) => Ok(self.named_light(texts)),
+            ("spectrum", PbrtValues::Texts(texts)) => self.named_light(name, texts),
             (kind, _) => Err(format!("\"{kind} {name}\" is not an emission; expected rgb, blackbody or spectrum")),
         }
     }
 
-    fn named_light(&mut self, texts: &[String]) -> LightUnit {
+    fn tabulated_light(&mut self, pairs: &[(f64, f64)]) -> LightUnit {
+        let file = self.spectrum_file(&ended(pairs));
+        LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 }
+    }
+
+    fn named_light(&mut self, parameter: &str, texts: &[String]) -> Result<LightUnit, String> {
         let name = texts.first().map_or("", String::as_str);
-        let own = name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL"));
-        let known = own.filter(|name| illuminant::names().contains(&name.as_str()));
-        if known.is_none() {
-            self.report.note(format!("the emission spectrum \"{name}\" is unknown: D65 is used instead"));
+        let Some(own) = illuminant_name(name) else {
+            let pairs = self.named_points(parameter, texts)?;
+            return Ok(self.tabulated_light(&pairs));
+        };
+        let is_known = illuminant::names().contains(&own.as_str());
+        if !is_known {
+            self.report.note(format!("the emission spectrum \"{name}\" has no table here: D65 is used instead"));
         }
-        LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
+        Ok(LightUnit { colour: illuminant_of(if is_known { &own } else { "D65" }), luminance: 1.0 })
     }
 
     /// Reflectance, 0 … 1.
@@ -91,21 +105,24 @@ impl SceneBuilder {
                 Ok(Colour::Grey(self.limit_to_unit(name, numbers[0]).into()))
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
-                let points: Vec<(f64, f64)> =
-                    ended_points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.limit_to_unit(name, v))).collect();
-                let file = self.spectrum_file(&points);
-                Ok(Colour::Spectrum(file.as_str().into()))
+                let pairs = points(name, numbers)?;
+                Ok(self.tabulated_reflectance(name, &pairs))
             }
             ("spectrum", PbrtValues::Texts(texts)) => {
-                let shown = texts.first().map_or("", String::as_str);
-                self.report
-                    .note(format!("the spectrum \"{shown}\" of a surface is unknown: grey of 0.5 is used instead"));
-                Ok(Colour::Grey(0.5.into()))
+                let pairs = self.named_points(name, texts)?;
+                Ok(self.tabulated_reflectance(name, &pairs))
             }
             (kind, _) => {
                 Err(format!("\"{kind} {name}\" is not a reflectance or transmittance; expected rgb or spectrum"))
             }
         }
+    }
+
+    fn tabulated_reflectance(&mut self, name: &str, pairs: &[(f64, f64)]) -> Colour {
+        let legal: Vec<(f64, f64)> =
+            ended(pairs).into_iter().map(|(nm, v)| (nm, self.limit_to_unit(name, v))).collect();
+        let file = self.spectrum_file(&legal);
+        Colour::Spectrum(file.as_str().into())
     }
 
     /// Coefficient over wavelength, 0 or more, at the wavelengths of [`smooth_file`](Self::smooth_file); the second value is the number if it is constant.
@@ -120,6 +137,11 @@ impl SceneBuilder {
             Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
             Some(("spectrum", PbrtValues::Numbers(numbers))) => {
                 return Ok((table(name, numbers, Extrapolation::Zero)?, None));
+            }
+            Some(("spectrum", PbrtValues::Texts(texts))) => {
+                let pairs = self.named_points(name, texts)?;
+                let spectrum = Spectrum::from_points(&pairs, Extrapolation::Zero);
+                return Ok((spectrum.map_err(|e| format!("\"{name}\": {e}"))?, None));
             }
             Some((kind, _)) => {
                 return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths and values"));

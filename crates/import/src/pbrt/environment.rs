@@ -7,35 +7,31 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI};
 
 use etendue_core::maths::f64 as maths;
-use etendue_io::picture::read_image;
-use etendue_scene::{asset::ImageAsset, record::Environment, record::environment::EnvironmentImage};
 use etendue_spectra::colour::BT709;
 use glam::DVec3;
 
-use crate::scenery::{Graphics, SceneBuilder, linear_pixels};
+use crate::scenery::{Graphics, ImageLight, SceneBuilder, read_light_image};
 
 impl SceneBuilder {
-    /// Environment of an image whose numbers are cd/m² times `scale`, or times the factor that gives `lux` on a surface facing the image's +z; `None`, with a
-    /// note, for an unsupported image.
-    pub(super) fn environment(
+    /// Light of an image whose numbers are cd/m² times `scale`, or times the factor that gives `lux` on a surface facing the image's +z; `None`, with a note, if
+    /// it is dark.
+    pub(super) fn square_light(
         &mut self,
         file: &str,
         graphics: &Graphics,
         scale: f64,
         lux: Option<f64>,
-    ) -> Result<Option<Environment>, String> {
-        let path = self.source_folder.join(file);
-        let image = read_image(&path).map_err(|e| e.to_string())?.in_rec_709();
-        let Some(texels) = Texels::new(&image) else {
-            self.report.note(format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)"));
-            return Ok(None);
-        };
-        if image.width != image.height {
+    ) -> Result<Option<ImageLight>, String> {
+        let path = self.find_file(file);
+        let image = read_light_image(&path)?;
+        if image.columns != image.rows {
             return Err(format!(
                 "`{file}` has {} by {} pixels; pbrt-v4 expects a square image (imgtool makeequiarea)",
-                image.width, image.height
+                image.columns, image.rows
             ));
         }
+        let size = image.columns;
+        let texels = Texels { size, pixel: Box::new(move |i| image.pixel_at(i)) };
         let scale = match lux {
             Some(lux) => scale * lux / texels.illuminance().max(f64::MIN_POSITIVE),
             None => scale,
@@ -44,14 +40,12 @@ impl SceneBuilder {
             self.report.note("a light \"infinite\" emits no light and is left out");
             return Ok(None);
         }
-        // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
-        let rows = image.height as usize;
+        self.report.note(format!("environment map `{file}`: 1 is {scale} cd/m²"));
         let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
-        let radiance = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
-        let path = self.environment_file(rows, &radiance)?;
-        self.report
-            .note(format!("environment map `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
-        Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
+        let radiance =
+            move |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
+        // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
+        Ok(Some(ImageLight { radiance: Box::new(radiance), rows: size, scale_cd_m2: scale }))
     }
 }
 
@@ -61,11 +55,7 @@ struct Texels<'a> {
     pixel: Box<dyn Fn(usize) -> [f32; 3] + 'a>,
 }
 
-impl<'a> Texels<'a> {
-    fn new(image: &'a ImageAsset) -> Option<Self> {
-        Some(Self { size: image.width as usize, pixel: linear_pixels(image)? })
-    }
-
+impl Texels<'_> {
     /// Illuminance of a surface that faces the image's +z, lx for numbers in cd/m².
     fn illuminance(&self) -> f64 {
         let n = self.size;

@@ -5,6 +5,7 @@ use std::{collections::HashMap, path::Path, rc::Rc};
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 
+use super::attributes::Attributes;
 use super::camera::{PbrtCamera, PbrtFilm};
 use super::parameters::Parameters;
 use crate::scenery::{Graphics, SceneBuilder};
@@ -22,10 +23,20 @@ struct StoredShape {
     graphics: Graphics,
 }
 
+/// State before a block.
+struct Block {
+    /// True for an attribute block, false for a transform block.
+    is_attribute: bool,
+    graphics: Graphics,
+    attributes: Attributes,
+}
+
 pub(super) struct Interpreter {
     scenery: SceneBuilder,
     graphics: Graphics,
-    blocks: Vec<(bool, Graphics)>,
+    /// Default parameters of the directives that follow.
+    attributes: Attributes,
+    blocks: Vec<Block>,
     systems: HashMap<String, DAffine3>,
     camera: Option<PbrtCamera>,
     film: PbrtFilm,
@@ -41,6 +52,7 @@ impl Interpreter {
         Self {
             scenery: SceneBuilder::new(file, folder),
             graphics: Graphics::plain(),
+            attributes: Attributes::default(),
             blocks: Vec::new(),
             systems: HashMap::new(),
             camera: None,
@@ -65,13 +77,17 @@ impl Interpreter {
             }
             PbrtDirective::Typed(name, kind, parameters) => self.typed(name, kind, parameters),
             PbrtDirective::Texture([name, values, kind], parameters) => {
-                self.scenery.texture(&name, &values, &kind, Parameters(&parameters))
+                let parameters = self.attributes.extend("texture", parameters);
+                self.scenery.texture(&name, &values, &kind, Parameters(&parameters), &self.graphics)
             }
             PbrtDirective::Setting(option) => {
                 self.scenery.report.note(format!("`Option \"{}\"` is not used", option.name));
                 Ok(())
             }
-            PbrtDirective::Include(_) => Ok(()),
+            PbrtDirective::Include(name) => {
+                self.scenery.report.note(format!("an included file does not exist: `{name}` is used"));
+                Ok(())
+            }
         }
     }
 
@@ -84,11 +100,19 @@ impl Interpreter {
                 if self.blocks.len() >= MAX_DEPTH {
                     return Err(format!("blocks are nested more than {MAX_DEPTH} levels deep"));
                 }
-                self.blocks.push((name == "AttributeBegin", self.graphics.clone()));
+                self.blocks.push(Block {
+                    is_attribute: name == "AttributeBegin",
+                    graphics: self.graphics.clone(),
+                    attributes: self.attributes.clone(),
+                });
             }
             "AttributeEnd" | "TransformEnd" => match self.blocks.pop() {
-                Some((true, before)) if name == "AttributeEnd" => self.graphics = before,
-                Some((false, before)) if name == "TransformEnd" => self.graphics.to_world = before.to_world,
+                Some(before) if before.is_attribute && name == "AttributeEnd" => {
+                    (self.graphics, self.attributes) = (before.graphics, before.attributes);
+                }
+                Some(before) if !before.is_attribute && name == "TransformEnd" => {
+                    self.graphics.to_world = before.graphics.to_world;
+                }
                 _ => return Err(format!("`{name}` has no matching begin; the file is damaged")),
             },
             "ObjectEnd" => {
@@ -174,23 +198,25 @@ impl Interpreter {
     }
 
     fn typed(&mut self, name: &'static str, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
+        let parameters = self.attributes.extend(name, parameters);
         let arguments = Parameters(&parameters);
         let message = |what: String| format!("{name} \"{kind}\": {what}");
         match name {
             "Camera" => {
-                let camera =
-                    PbrtCamera::read(&kind, arguments, &self.graphics, &mut self.scenery.report).map_err(message)?;
+                let camera = self.scenery.pbrt_camera(&kind, arguments, &self.graphics).map_err(message)?;
                 self.systems.insert("camera".to_owned(), self.graphics.to_world.inverse());
                 self.camera = Some(camera);
             }
             "Film" => {
                 self.film = PbrtFilm::read(arguments).map_err(message)?;
-                self.scenery.report.note(format!("of the film \"{kind}\" only the image size is used"));
+                self.scenery
+                    .report
+                    .note(format!("of the film \"{kind}\" only the image size and the diagonal are used"));
             }
             "Sampler" | "Integrator" | "PixelFilter" | "Accelerator" => {
                 self.scenery.report.note(format!("{name} \"{kind}\" is not used: the job has its own settings"));
             }
-            "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not supported and left out")),
+            "Attribute" => return self.attributes.add(&kind, parameters),
             "Material" => self.graphics.material = self.scenery.material(&kind, arguments, None).map_err(message)?,
             "MakeNamedMaterial" => {
                 let surface_kind = arguments.text("type").map_err(message)?.unwrap_or("").to_owned();
@@ -251,6 +277,7 @@ impl Interpreter {
         let camera = self.camera.take().unwrap_or_else(PbrtCamera::at_origin);
         let camera = camera.into_imported(&self.film, self.scenery.to_ours, &mut self.scenery.report);
         self.scenery.fill_air(&camera.outside);
+        self.scenery.join_infinite_lights()?;
         let SceneBuilder { scene, mut report, files, .. } = self.scenery;
         let counts =
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];

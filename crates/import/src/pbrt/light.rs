@@ -4,13 +4,16 @@ use std::f64::consts::{PI, TAU};
 
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::medium::{MediumShape, UnboundedRegion};
-use etendue_scene::record::{Emission, Environment, Level, Transform};
-use etendue_spectra::Spectrum;
+use etendue_scene::record::{LightColour, Transform};
+use etendue_spectra::{Extrapolation, Spectrum};
 use glam::DVec3;
 
+use super::colour::table;
+use super::infinite::spectrum_of;
 use super::parameters::Parameters;
 use crate::lamps;
-use crate::scenery::{AreaLight, Graphics, Homogeneous, SceneBuilder};
+use crate::scenery::{AreaLight, Graphics, Homogeneous, InfiniteLight, SceneBuilder, UniformLight};
+use crate::syntax::pbrt::PbrtValues;
 
 impl SceneBuilder {
     pub(super) fn light_source(
@@ -91,30 +94,39 @@ impl SceneBuilder {
     fn infinite(&mut self, parameters: Parameters<'_>, graphics: &Graphics, scale: f64) -> Result<(), String> {
         let lux = parameters.numbers("illuminance")?.and_then(|n| n.first().copied()).filter(|e| *e > 0.0);
         if parameters.find("portal").is_some() {
-            self.report.note("a portal is not used: it affects only noise");
+            self.report.note("a portal is not used: the light also comes from outside it");
         }
-        let environment = match parameters.text("filename")? {
-            Some(file) => {
+        let light = match (parameters.text("filename")?, parameters.find("L")) {
+            (Some(_), Some(_)) => return Err("\"L\" contradicts \"filename\"; remove one of them".to_owned()),
+            (Some(file), None) => {
                 if lux.is_some() {
                     // Its sum over the upper half uses 2π instead of 4π.
                     self.report
                         .note("\"illuminance\" of an environment map is in lx; pbrt-v4 itself renders twice as much");
                 }
-                self.environment(file, graphics, scale, lux)?
+                self.square_light(file, graphics, scale, lux)?.map(InfiniteLight::Image)
             }
-            None => {
-                let unit = self.light(parameters, "L")?;
-                let level = lux.map_or(1.0, |lux| lux / PI) * scale * unit.luminance;
-                let Some(level) = self.note_light("infinite", "cd/m²", level) else { return Ok(()) };
-                let emission = Emission::new(Level::Luminance(level.into()));
-                Some(Environment::Uniform(Emission { colour: Some(unit.colour), ..emission }))
-            }
+            (None, _) => self.uniform_light(parameters, lux.map_or(1.0, |lux| lux / PI) * scale)?,
         };
-        let Some(environment) = environment else { return Ok(()) };
-        if self.scene.environment.replace(environment).is_some() {
-            self.report.note("of several environment lights only the last is used");
-        }
+        self.known.infinite_lights.extend(light);
         Ok(())
+    }
+
+    /// Uniform light of the colour `L`; `None`, with a note, if it is dark.
+    fn uniform_light(&mut self, parameters: Parameters<'_>, scale: f64) -> Result<Option<InfiniteLight>, String> {
+        let unit = self.light(parameters, "L")?;
+        let Some(luminance_cd_m2) = self.note_light("infinite", "cd/m²", scale * unit.luminance) else {
+            return Ok(None);
+        };
+        let spectrum = match (&unit.colour, parameters.find("L").map(|p| &p.values)) {
+            (LightColour::Spectrum(_), Some(PbrtValues::Numbers(numbers))) => table("L", numbers, Extrapolation::Zero)?,
+            (LightColour::Spectrum(_), Some(PbrtValues::Texts(texts))) => {
+                let pairs = self.named_points("L", texts)?;
+                Spectrum::from_points(&pairs, Extrapolation::Zero).map_err(|e| format!("\"L\": {e}"))?
+            }
+            _ => spectrum_of(&unit.colour),
+        };
+        Ok(Some(InfiniteLight::Uniform(UniformLight { colour: unit.colour, luminance_cd_m2, spectrum })))
     }
 
     /// Notes a light; `None` for a dark one.

@@ -2,24 +2,20 @@
 
 use std::rc::Rc;
 
+use etendue_scene::asset::COAT_INDICES;
 use etendue_scene::record::material::{
     CoatedDiffuse, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
-use etendue_scene::{asset::COAT_INDICES, record::Colour};
 use etendue_spectra::{Extrapolation, Spectrum, metal};
 
-use super::{colour::table, parameters::Parameters};
-use crate::scenery::{INTERFACE, KnownTexture, SceneBuilder, plain};
-use crate::syntax::pbrt::PbrtValues;
+use super::colour::{points, three};
+use super::parameters::Parameters;
+use super::spectrum::metal_of_names;
+use crate::scenery::{INTERFACE, SceneBuilder, TextureBase, TextureUse, plain};
+use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
-/// pbrt's α for a roughness.
-fn remapped(roughness: f64) -> f64 {
-    roughness.max(0.0).sqrt()
-}
-
-fn unmapped(roughness: f64) -> f64 {
-    roughness
-}
+/// Thickness of a coat that states none.
+const DEFAULT_COAT_THICKNESS: f64 = 0.01;
 
 impl SceneBuilder {
     /// Creates one of our materials; returns its name. `named` is its name in the file.
@@ -29,7 +25,7 @@ impl SceneBuilder {
         parameters: Parameters<'_>,
         named: Option<&str>,
     ) -> Result<Rc<str>, String> {
-        let image_count = self.known.placed_images;
+        let image_count = self.known.placed_images.len();
         let result: Rc<str> = match self.surface_of(kind, parameters)? {
             None => INTERFACE.into(),
             Some(surface) => {
@@ -43,8 +39,8 @@ impl SceneBuilder {
                 own
             }
         };
-        if self.known.placed_images > image_count {
-            self.known.with_images.insert(result.clone());
+        if let Some(base) = self.common_base(image_count) {
+            self.known.texture_bases.insert(result.clone(), base);
         }
         if let Some(name) = named {
             self.known.materials.insert(name.to_owned(), result.clone());
@@ -57,7 +53,8 @@ impl SceneBuilder {
         match self.known.materials.get(name) {
             Some(own) => {
                 let own = own.clone();
-                self.known.placed_images += usize::from(self.known.with_images.contains(&own));
+                let base = self.known.texture_bases.get(&own).cloned();
+                self.known.placed_images.extend(base);
                 own
             }
             None => {
@@ -67,6 +64,16 @@ impl SceneBuilder {
                 "".into()
             }
         }
+    }
+
+    /// Source of the texture coordinates of the images placed after the first `count`; `None` without an image. A mesh has only one set of coordinates.
+    pub(super) fn common_base(&mut self, count: usize) -> Option<TextureBase> {
+        let bases = &self.known.placed_images[count..];
+        let first = bases.first()?.clone();
+        if bases.iter().any(|base| *base != first) {
+            self.report.note("the images of a material have different mappings: that of the first is used for all");
+        }
+        Some(first)
     }
 
     fn surface_of(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<Surface>, String> {
@@ -89,11 +96,12 @@ impl SceneBuilder {
                 Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() })
             }
             "diffusetransmission" => {
-                if parameters.number("scale", 1.0)? != 1.0 {
-                    self.report.note("\"scale\" of a \"diffusetransmission\" is set to 1");
-                }
-                let reflectance = self.reflectance(parameters, "reflectance", 0.25)?;
-                Surface::Leaf(Leaf::new(reflectance, self.reflectance(parameters, "transmittance", 0.25)?))
+                let scale = parameters.number("scale", 1.0)?;
+                let reflectance = self.scaled_reflectance(parameters, "reflectance", 0.25, scale)?;
+                Surface::Leaf(Leaf::new(
+                    reflectance,
+                    self.scaled_reflectance(parameters, "transmittance", 0.25, scale)?,
+                ))
             }
             "mix" => self.mix(parameters)?,
             "interface" | "none" | "" => return Ok(None),
@@ -108,13 +116,15 @@ impl SceneBuilder {
 
     /// α of an isotropic surface.
     fn alpha(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Factor, String> {
-        let map = if parameters.flag("remaproughness", true)? { remapped } else { unmapped };
+        // pbrt's roughness is α², unless it is not remapped.
+        let is_remapped = parameters.flag("remaproughness", true)?;
+        let usage = if is_remapped { TextureUse::SquareRoots } else { TextureUse::Numbers };
         let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let both = format!("{prefix}roughness");
         match (parameters.find(&u).is_some(), parameters.find(&v).is_some()) {
-            (false, false) => self.factor(parameters, &both, 0.0, map),
+            (false, false) => self.factor(parameters, &both, 0.0, usage),
             _ => {
-                let [a, b] = [self.factor(parameters, &u, 0.0, map)?, self.factor(parameters, &v, 0.0, map)?];
+                let [a, b] = [self.factor(parameters, &u, 0.0, usage)?, self.factor(parameters, &v, 0.0, usage)?];
                 if let (Factor::Number(a), Factor::Number(b)) = (&a, &b)
                     && a.value != b.value
                 {
@@ -128,41 +138,13 @@ impl SceneBuilder {
 
     fn index(&mut self, parameters: Parameters<'_>) -> Result<f64, String> {
         let Some(eta) = parameters.find("eta") else { return Ok(1.5) };
-        let index = match &eta.values {
-            PbrtValues::Numbers(numbers) if numbers.len() == 1 => numbers[0],
-            PbrtValues::Numbers(numbers) => {
-                self.report.note(
-                    "a spectral refractive index is replaced by its value at 587.6 nm: dielectrics are not dispersive",
-                );
-                f64::from(table("eta", numbers, Extrapolation::Hold)?.at(587.56))
-            }
-            PbrtValues::Texts(texts) => {
-                let name = texts.first().map_or("", String::as_str);
-                let known = [
-                    ("glass-BK7", 1.5168),
-                    ("glass-BAF10", 1.67003),
-                    ("glass-FK51A", 1.48656),
-                    ("glass-LASF9", 1.85025),
-                    ("glass-F5", 1.60342),
-                    ("glass-SF5", 1.67271),
-                    ("glass-SF10", 1.72828),
-                    ("glass-SF11", 1.78472),
-                ];
-                let matching = known.iter().find(|(glass, _)| *glass == name);
-                match matching {
-                    Some(_) => self.report.note(
-                        "a glass is replaced by its refractive index at 587.6 nm: dielectrics are not dispersive",
-                    ),
-                    None => {
-                        self.report.note(format!(
-                            "the glass \"{name}\" is unknown: a refractive index of 1.5 is used instead"
-                        ));
-                    }
-                }
-                matching.map_or(1.5, |(_, index)| *index)
-            }
-            PbrtValues::Flags(_) => return Err("\"eta\": expected a number".to_owned()),
-        };
+        let spectrum = self.index_spectrum(eta)?;
+        if spectrum.constant.is_none() {
+            self.report.note(
+                "a spectral refractive index is replaced by its value at 587.6 nm: dielectrics are not dispersive",
+            );
+        }
+        let index = spectrum.at_d_line();
         let legal = index.clamp(1.0, 4.0);
         if legal != index {
             self.report.note(format!("the refractive index {index} is limited to {legal}"));
@@ -178,8 +160,11 @@ impl SceneBuilder {
         ["g", "maxdepth", "nsamples"].iter().for_each(|name| {
             parameters.find(name);
         });
-        if parameters.find("thickness").is_some() {
-            self.report.note("the \"thickness\" of a coat is not used: light leaves it at the point of entry");
+        let thickness = parameters.number("thickness", DEFAULT_COAT_THICKNESS)?;
+        if thickness > 0.0 {
+            self.report.note(format!(
+                "a coat of \"thickness\" {thickness} absorbs light in pbrt, all but exp(−{thickness}/cos θ) in each crossing, and none here: the surface is brighter"
+            ));
         }
         let reflectance = self.reflectance(parameters, "reflectance", 0.5)?;
         let stated = self.index(parameters)?;
@@ -194,57 +179,59 @@ impl SceneBuilder {
     fn conductor(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Conductor, String> {
         let alpha = self.alpha(parameters, prefix)?;
         let metal = match parameters.find("reflectance") {
-            Some(_) => self.metal_from_reflectance(parameters)?,
+            Some(_) if ["eta", "k"].iter().any(|name| parameters.find(&format!("{prefix}{name}")).is_some()) => {
+                return Err("\"reflectance\" contradicts \"eta\" and \"k\"; remove one of them".to_owned());
+            }
+            Some(reflectance) => self.metal_from_reflectance(reflectance)?,
             None => self.metal_from_index(parameters, prefix)?,
         };
         Ok(Conductor::new(metal, alpha))
     }
 
-    fn metal_from_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
-        let parameter = parameters.find("reflectance").ok_or("\"reflectance\" is missing")?;
+    fn metal_from_reflectance(&mut self, parameter: &PbrtParameter) -> Result<Metal, String> {
         let rgb = match self.texture_of(parameter, true)? {
-            Some(KnownTexture::Even(rgb)) => rgb,
-            Some(KnownTexture::Picture { .. }) => {
-                self.report.note("the reflectance of a metal from an image is set to 0.5");
-                [0.5; 3]
-            }
-            None => match self.reflectance_colour(parameter)? {
-                Colour::Grey(v) => [v.value; 3],
-                Colour::LinearSrgb(rgb) => rgb.value,
-                _ => {
-                    self.report.note("the reflectance of a metal from a table is set to 0.5");
-                    [0.5; 3]
+            Some(tree) => {
+                if tree.constant().is_none() {
+                    self.report.note("the reflectance of a metal from an image is replaced by its mean");
                 }
+                Self::texture_mean(&tree)?
+            }
+            None => match (&*parameter.kind, &parameter.values) {
+                ("spectrum", values) => {
+                    let pairs = match values {
+                        PbrtValues::Numbers(numbers) => points(&parameter.name, numbers)?,
+                        PbrtValues::Texts(texts) => self.named_points(&parameter.name, texts)?,
+                        PbrtValues::Flags(_) => return Err("\"reflectance\": expected a spectrum".to_owned()),
+                    };
+                    let spectrum = Spectrum::from_points(&pairs, Extrapolation::Zero);
+                    return Ok(self.metal_from_spectrum(&spectrum.map_err(|e| format!("\"reflectance\": {e}"))?));
+                }
+                ("rgb" | "color", PbrtValues::Numbers(numbers)) => three(&parameter.name, numbers)?,
+                (_, PbrtValues::Numbers(numbers)) if numbers.len() == 1 => [numbers[0]; 3],
+                (kind, _) => return Err(format!("\"{kind} reflectance\": expected an rgb, a spectrum or a texture")),
             },
         };
-        Ok(self.metal_from_rgb(rgb))
+        let legal = rgb.map(|v| self.limit_to_unit(&parameter.name, v));
+        Ok(self.metal_from_rgb(legal))
     }
 
+    /// Metal of pbrt's `eta` and `k`, each of which is copper's by default.
     fn metal_from_index(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Metal, String> {
         let [eta, k] = ["eta", "k"].map(|name| parameters.find(&format!("{prefix}{name}")));
-        match (eta.map(|p| &p.values), k.map(|p| &p.values)) {
-            (None, None) => Ok(Metal::Named("Cu".into())),
-            (Some(PbrtValues::Texts(texts)), _) => {
-                let name = texts.first().map_or("", String::as_str);
-                let symbol = name.strip_prefix("metal-").and_then(|rest| rest.strip_suffix("-eta")).unwrap_or(name);
-                if metal::names().contains(&symbol) {
-                    return Ok(Metal::Named(symbol.into()));
-                }
-                self.report.note(format!("the metal \"{name}\" is unknown: aluminium is used instead"));
-                Ok(Metal::Named("Al".into()))
-            }
-            (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
-                // A single number is constant over wavelength.
-                let index_value = |name: &str, numbers: &[f64]| match numbers {
-                    [even] => Ok(Spectrum::from_fn(|_| *even)),
-                    // An exterior index of 0, as in pbrt, is not physical.
-                    pairs => table(name, pairs, Extrapolation::Hold),
-                };
-                let [n, k] = [index_value("eta", n)?, index_value("k", k)?];
-                Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))
-            }
-            _ => Err("\"eta\" and \"k\": expected the name of a metal, or a table of both".to_owned()),
+        if eta.is_none() && k.is_none() {
+            return Ok(Metal::Named("Cu".into()));
         }
+        if let (Some(PbrtValues::Texts(eta)), Some(PbrtValues::Texts(k))) =
+            (eta.map(|p| &p.values), k.map(|p| &p.values))
+            && let (Some(eta), Some(k)) = (eta.first(), k.first())
+            && let Some(symbol) = metal_of_names(eta, k)
+        {
+            return Ok(Metal::Named(symbol.into()));
+        }
+        let copper = metal::by_name("Cu").ok_or("copper has no table")?;
+        let n = eta.map(|eta| self.index_spectrum(eta)).transpose()?.map_or(copper.n.clone(), |n| n.spectrum);
+        let k = k.map(|k| self.index_spectrum(k)).transpose()?.map_or(copper.k.clone(), |k| k.spectrum);
+        Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))
     }
 
     fn mix(&mut self, parameters: Parameters<'_>) -> Result<Surface, String> {
@@ -256,7 +243,7 @@ impl SceneBuilder {
             let own = self.named_material(name);
             self.known_material(if &*own == INTERFACE { "" } else { &own })
         });
-        let weight = self.factor(parameters, "amount", 0.5, unmapped)?;
+        let weight = self.factor(parameters, "amount", 0.5, TextureUse::Numbers)?;
         Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), weight)))
     }
 }

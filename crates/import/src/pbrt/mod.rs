@@ -5,15 +5,24 @@
 //! pbrt's space is left-handed without an up axis: ours is its mirror image, with the axis nearest to the camera's up upwards, so that images are the same. A
 //! length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
 
+mod attributes;
 mod camera;
 mod colour;
 mod environment;
+mod infinite;
 mod interpreter;
+mod lens_table;
 mod light;
 mod material;
+mod mesh_parameters;
 mod parameters;
+mod patch;
 mod shape;
+mod spectrum;
 mod texture;
+
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 

@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrLayer, encode_layers};
-use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::asset::ImageAsset;
 use etendue_scene::record::{Curve, LightColour};
 use etendue_spectra::{Spectrum, colour::decode, upsample::reflectance_spectrum};
 
+use super::stored::stored_pixels;
 use super::{stage::SceneBuilder, surfaces::grey};
 
 /// Light: colour, and luminance of one unit, cd/m². Zero luminance means no light.
@@ -60,20 +61,6 @@ pub(crate) fn coefficient_from_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectru
     }
     let reflectance = reflectance_spectrum(rgb.map(|v| (0.5 * v / largest) as f32));
     Ok((Spectrum::from_fn(|nm| 2.0 * largest * f64::from(reflectance.at(nm as f32))), None))
-}
-
-/// Red, green, blue and opacity of each pixel as stored; integers are scaled so that their largest is 1.
-pub(crate) fn stored_pixels(image: &ImageAsset) -> Vec<[f32; 4]> {
-    let byte = |b: u8| f32::from(b) / 255.0;
-    let grey = |g: f32| [g, g, g, 1.0];
-    match &image.pixels {
-        ImagePixels::Gray8(p) => p.iter().map(|g| grey(byte(*g))).collect(),
-        ImagePixels::Gray16(p) => p.iter().map(|g| grey(f32::from(*g) / 65_535.0)).collect(),
-        ImagePixels::Rgb8(p) => p.iter().map(|p| p.map(byte)).map(|[r, g, b]| [r, g, b, 1.0]).collect(),
-        ImagePixels::Rgba8(p) => p.iter().map(|p| p.map(byte)).collect(),
-        ImagePixels::Rgb32F(p) => p.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect(),
-        ImagePixels::Rgba32F(p) => p.clone(),
-    }
 }
 
 impl SceneBuilder {

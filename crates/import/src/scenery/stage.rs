@@ -1,6 +1,6 @@
 //! State of an import: graphics state of a shape, named definitions, and the conversion report.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -9,24 +9,14 @@ use etendue_scene::record::material::{Factor, Sides};
 use etendue_scene::record::{Curve, Emission, Level, LightColour, Scene, SurfaceEmission};
 use glam::{DAffine3, DMat3};
 
+use super::infinite_light::InfiniteLight;
+use super::projection::TextureBase;
+use super::texture::{PlacedTexture, TextureTree};
+use crate::lookup::{FileMatch, search};
 use crate::naming::{UniqueNames, path_between};
 
 /// Placeholder for the material of a surface that only separates two media.
 pub(crate) const INTERFACE: &str = "interface/";
-
-/// Converted texture.
-#[derive(Clone)]
-pub(crate) enum KnownTexture {
-    /// Constant.
-    Even([f64; 3]),
-    /// One of our textures, times a number.
-    Picture {
-        name: String,
-        scale: f64,
-        /// True if its number is its opacity, as for pbrt's images with one.
-        has_alpha: bool,
-    },
-}
 
 /// Homogeneous medium.
 #[derive(Clone)]
@@ -39,16 +29,20 @@ pub(crate) struct Homogeneous {
 /// Named definitions.
 #[derive(Default)]
 pub(crate) struct SceneDefinitions {
-    /// Textures; those of colours (true) and those of numbers are separate.
-    pub(crate) textures: HashMap<(bool, String), KnownTexture>,
+    /// Textures of pbrt; those of colours (true) and those of numbers are separate.
+    pub(crate) textures: HashMap<(bool, String), Rc<TextureTree>>,
+    /// Our textures for those of pbrt, by the tree's address and its use; the tree keeps the address.
+    pub(crate) pictures: HashMap<(usize, &'static str), (Rc<TextureTree>, PlacedTexture)>,
     /// Our names of the file's materials; the empty name is the grey one.
     pub(crate) materials: HashMap<String, Rc<str>>,
-    /// Our names of the materials that place an image by texture coordinates.
-    pub(crate) with_images: HashSet<Rc<str>>,
-    /// Number of images placed by materials so far.
-    pub(crate) placed_images: usize,
+    /// Sources of the texture coordinates that place the images of our materials, by their names.
+    pub(crate) texture_bases: HashMap<Rc<str>, TextureBase>,
+    /// Sources of the texture coordinates of the images placed so far, by materials and opacities.
+    pub(crate) placed_images: Vec<TextureBase>,
     /// Names of partly transparent copies, by the original and the opacity.
     pub(crate) translucent_copies: HashMap<String, Rc<str>>,
+    /// Environment lights of pbrt, which are joined at the end.
+    pub(crate) infinite_lights: Vec<InfiniteLight>,
     /// Supported media.
     pub(crate) media: HashMap<String, Homogeneous>,
 }
@@ -114,6 +108,7 @@ impl Graphics {
             inside: none.clone(),
             outside: none,
             opacity: None,
+            texture_base: None,
         }
     }
 }
@@ -151,9 +146,17 @@ impl SceneBuilder {
         limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }
 
-    /// Path, as in the written scene, of a file that the scene file names.
-    pub(crate) fn path_of(&self, name: &str) -> String {
-        self.relative_path(&self.source_folder.join(name))
+    /// Path of a file that the scene names, with a note if it is not exactly there. A missing file has the path that the scene states.
+    pub(crate) fn find_file(&mut self, name: &str) -> PathBuf {
+        match search(&self.source_folder, name) {
+            Some(FileMatch { path, is_exact: true }) => path,
+            Some(FileMatch { path, .. }) => {
+                let shown = path.strip_prefix(&self.source_folder).unwrap_or(&path).display().to_string();
+                self.report.note(format!("`{name}` does not exist: `{shown}` is used"));
+                path
+            }
+            None => self.source_folder.join(name),
+        }
     }
 
     /// Path of a file as in the written scene.
@@ -183,6 +186,8 @@ pub(crate) struct Graphics {
     pub(crate) outside: Rc<str>,
     /// Opacity of the surface; `None` if opaque.
     pub(crate) opacity: Option<Factor>,
+    /// Source of the texture coordinates that place its images; `None` without images, and for readers whose shapes have their own.
+    pub(crate) texture_base: Option<TextureBase>,
 }
 
 /// Notes, in the order of occurrence.

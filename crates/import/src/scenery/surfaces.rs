@@ -5,7 +5,7 @@ use std::{fmt::Write as _, rc::Rc};
 use etendue_scene::record::material::{Diffuse, Factor, Material, Metal, Surface};
 use etendue_scene::record::medium::{Extinction, HenyeyGreenstein, Isotropic, MediumShape, Phase};
 use etendue_scene::record::{Colour, Medium, Reflectance, SurfaceEmission, Transform};
-use etendue_spectra::upsample;
+use etendue_spectra::{Spectrum, upsample};
 
 use super::stage::{Homogeneous, SceneBuilder};
 
@@ -112,7 +112,11 @@ impl SceneBuilder {
 
     /// Metal with the reflectance of linear sRGB at normal incidence, as in pbrt: n = 1 and the matching k.
     pub(crate) fn metal_from_rgb(&mut self, rgb: [f64; 3]) -> Metal {
-        let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
+        self.metal_from_spectrum(&upsample::reflectance_spectrum(rgb.map(|v| v as f32)))
+    }
+
+    /// The same for a reflectance over wavelength.
+    pub(crate) fn metal_from_spectrum(&mut self, reflectance: &Spectrum) -> Metal {
         let k = |nm: f32| {
             let r = f64::from(reflectance.at(nm)).clamp(0.0, 0.9999);
             2.0 * r.sqrt() / (1.0 - r).sqrt()

@@ -11,7 +11,10 @@
 //! The kind is identified by the first bytes, not by the name. The description that names the file states the encoding (sRGB or linear). Non-finite numbers are
 //! refused with their pixel.
 
+mod foreign;
 mod large;
+mod pfm;
+mod qoi;
 mod raster;
 
 use std::path::Path;
@@ -20,6 +23,7 @@ use etendue_scene::asset::ImageAsset;
 
 use crate::{Error, exr::decode_exr_as_stored, hash, source::read_bytes};
 
+pub use foreign::read_foreign_image;
 pub use raster::has_colours_of_8_bits;
 
 pub(crate) use large::{ImageHead, head, large_image};

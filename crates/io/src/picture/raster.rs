@@ -15,6 +15,12 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<DecodedImage, Error> {
     Ok((image.width(), image.height(), as_pixels(image), None))
 }
 
+/// Decodes `bytes` of a known format.
+pub(super) fn decode_as(file: &Path, bytes: &[u8], format: ImageFormat) -> Result<DecodedImage, Error> {
+    let (_, image) = guarded(file, || decode_unguarded(file, bytes, format, PixelStorage::Stored))?;
+    Ok((image.width(), image.height(), as_pixels(image), None))
+}
+
 /// Image as stored, with its format; the error for other files names the supported `kinds`.
 pub(crate) fn decode_raster(
     file: &Path,

@@ -15,6 +15,7 @@ use etendue_io::{Error, Sandbox};
 use etendue_scene::limits;
 
 use self::parse::Parser;
+use crate::lookup::{FileMatch, search};
 
 pub use token::{PbrtDirective, PbrtParameter, PbrtPlace, PbrtValues};
 
@@ -62,7 +63,16 @@ impl PbrtReader<'_, '_> {
 
     fn include(&mut self, file: &Path, line: usize, name: &str, depth: usize) -> Result<(), Error> {
         let message = |what: String| Error::at(file, line, what);
-        let path = self.folder.join(name);
+        let path = match search(&self.folder, name) {
+            Some(FileMatch { path, is_exact }) => {
+                if !is_exact {
+                    let shown = path.strip_prefix(&self.folder).unwrap_or(&path).display().to_string();
+                    (self.take)(PbrtDirective::Include(shown), PbrtPlace { file, line }).map_err(message)?;
+                }
+                path
+            }
+            None => self.folder.join(name),
+        };
         self.sandbox.check(&path).map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
         if depth + 1 >= MAX_DEPTH {
             return Err(message(format!(
@@ -73,6 +83,10 @@ impl PbrtReader<'_, '_> {
             return Err(message(format!(
                 "`Include \"{name}\"`: compressed files are not supported; decompress it and change the name"
             )));
+        }
+        // An empty included file has no directives.
+        if std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() == 0) {
+            return Ok(());
         }
         self.file(&path, depth + 1)
     }

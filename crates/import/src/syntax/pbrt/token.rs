@@ -121,7 +121,7 @@ pub enum PbrtDirective {
     Texture([String; 3], Vec<PbrtParameter>),
     /// `Option`.
     Setting(PbrtParameter),
-    /// `Include` or `Import`.
+    /// `Include` or `Import`; the caller receives the file that is read only if its name is spelt differently.
     Include(String),
 }
 
