@@ -1,16 +1,17 @@
 //! The tasks of docs/cookbook and docs/tutorials, as written: the blocks of a page one after the other in a folder with only the shipped scenes, and
-//! the output stated on the page.
+//! the output stated on the page. Tutorials share one folder.
 
 use crate::support::root;
 use std::collections::HashSet;
 use std::path::Path;
 use std::process::Command;
+use tempfile::TempDir;
 
 /// Pages of the cookbook and the number of their tasks.
 const PAGES: [(&str, usize); 6] =
     [("rendering", 7), ("cameras", 8), ("lenses", 5), ("driving", 6), ("robots", 4), ("light", 5)];
 
-/// One tutorial for each kind of user.
+/// One tutorial for each kind of user, in the order of their overview.
 const TUTORIALS: [&str; 5] = ["driver-assistance", "cameras", "lighting", "robotics", "rendering"];
 
 /// A task of a page: its commands, and lines that they print, in this order.
@@ -63,9 +64,17 @@ fn run(task: &Task, folder: &Path) {
     }
 }
 
-fn run_page(folder: &str, name: &str) {
+fn folder_with_scenes() -> TempDir {
     let place = tempfile::tempdir().expect("a temporary folder");
     std::os::unix::fs::symlink(root().join("scenes"), place.path().join("scenes")).expect("a link");
+    place
+}
+
+fn run_page(folder: &str, name: &str) {
+    run_page_in(&folder_with_scenes(), folder, name);
+}
+
+fn run_page_in(place: &TempDir, folder: &str, name: &str) {
     for task in tasks(&page(folder, name)) {
         run(&task, place.path());
     }
@@ -138,9 +147,21 @@ fn numbers_of_the_prose_are_printed_or_checked() {
     assert!(unsupported_numbers(&format!("{sample}<!-- check: 0.35 = 0.8 / 2 -->")).is_err());
 }
 
+/// Tutorials can be followed in one folder, as no two pages write a file of the same name, and each alone: results of earlier pages are moved away.
 #[test]
 fn tutorials() {
-    TUTORIALS.iter().for_each(|name| run_page("tutorials", name));
+    let (place, earlier) = (folder_with_scenes(), tempfile::tempdir().expect("a temporary folder"));
+    for name in TUTORIALS {
+        run_page_in(&place, "tutorials", name);
+        for entry in std::fs::read_dir(place.path()).expect("a folder") {
+            let file = entry.expect("an entry").file_name();
+            let stored = earlier.path().join(&file);
+            assert!(!stored.exists(), "{name}: {} is also a result of an earlier page", file.display());
+            if file != "scenes" {
+                std::fs::rename(place.path().join(&file), stored).expect("moved");
+            }
+        }
+    }
 }
 
 #[test]
@@ -198,7 +219,14 @@ fn the_book_has_all_its_tasks() {
         assert!(overview.contains(&format!("]({name}.md)")), "{name}");
         assert_eq!(tasks(&page("cookbook", name)).len(), count, "{name}");
     }
-    assert!(TUTORIALS.iter().all(|name| tutorials.contains(&format!("]({name}.md)"))), "{tutorials}");
+    let places = TUTORIALS.map(|name| tutorials.find(&format!("]({name}.md)")).expect(name));
+    assert!(places.is_sorted(), "{tutorials}");
+    let contents = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the table of contents");
+    for name in TUTORIALS {
+        let text = page("tutorials", name);
+        let title = text.lines().next().and_then(|line| line.strip_prefix("# ")).expect("a title");
+        assert!(contents.contains(&format!("[{title}](tutorials/{name}.md)")), "{title}");
+    }
     assert_eq!(PAGES.iter().map(|(_, count)| count).sum::<usize>(), 35);
     assert!(overview.contains("Thirty-five tasks"), "{overview}");
 }
