@@ -58,7 +58,7 @@ impl SceneBuilder {
     /// Texture that refers to an image of the file, if that has the values of the tree.
     fn direct(&mut self, name: &str, tree: &TextureTree, usage: TextureUse) -> Result<Option<PlacedTexture>, String> {
         let Some((image, scale)) = scaled_image(tree) else { return Ok(None) };
-        let format = ImageFormat::of_name(&image.file.path.to_string_lossy());
+        let format = ImageFormat::from_name(&image.file.path.to_string_lossy());
         let encoding = match image.file.encoding {
             ImageEncoding::Linear => Encoding::Linear,
             ImageEncoding::Srgb => Encoding::Srgb,
@@ -285,9 +285,9 @@ fn covering(placement: &Placement, period: f64, size: [usize; 2], border: usize)
         let (scale, offset) = (placement.scale[i] / period, placement.offset[i] / period);
         let (scale, offset) = if scale < 0.0 { (-scale, 1.0 - offset) } else { (scale, offset) };
         let pixels = size[i] as f64;
-        let whole = pixels + 2.0 * border as f64;
-        covering.scale[i] = scale * pixels / whole;
-        covering.offset[i] = (offset * pixels + border as f64) / whole;
+        let padded = pixels + 2.0 * border as f64;
+        covering.scale[i] = scale * pixels / padded;
+        covering.offset[i] = (offset * pixels + border as f64) / padded;
     }
     covering
 }

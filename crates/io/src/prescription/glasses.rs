@@ -31,9 +31,9 @@ impl NotedGlass {
     }
 
     /// A built-in glass, with a note if other makers have a different one of that name.
-    fn built_in(name: &str, found: &GlassMatch) -> Self {
-        let note = (!found.others.is_empty()).then(|| same_name(name, found));
-        Self { glass: named(NamedGlass::built_in(found.glass)), note, is_successor: false }
+    fn built_in(name: &str, matched: &GlassMatch) -> Self {
+        let note = (!matched.others.is_empty()).then(|| same_name(name, matched));
+        Self { glass: named(NamedGlass::built_in(matched.glass)), note, is_successor: false }
     }
 
     fn successor(name: &str, today: &CatalogueGlass) -> Self {
@@ -61,10 +61,10 @@ impl<'a> GlassSearch<'a> {
             return Ok(Some(NotedGlass::plain(named(own))));
         }
         let stated: Vec<&str> = self.stated.iter().map(String::as_str).collect();
-        let first = || glass::find_first(name, &stated).map(|found| NotedGlass::built_in(name, &found));
+        let first = || glass::find_first(name, &stated).map(|matched| NotedGlass::built_in(name, &matched));
         let number = || by_number(name).map(NotedGlass::plain);
         let successor = || glass::successor(name, &stated).map(|today| NotedGlass::successor(name, today));
-        let other = || glass::find(name, &stated).map(|found| NotedGlass::built_in(name, &found));
+        let other = || glass::find(name, &stated).map(|matched| NotedGlass::built_in(name, &matched));
         Ok(first().or_else(number).or_else(successor).or_else(other))
     }
 
@@ -89,10 +89,10 @@ fn named(glass: NamedGlass) -> GlassAsset {
 }
 
 /// Note on a name that several makers use for different glasses.
-fn same_name(name: &str, found: &GlassMatch) -> String {
+fn same_name(name: &str, matched: &GlassMatch) -> String {
     let words = |glass: &CatalogueGlass| format!("{} n_d {:.5}", glass.maker, glass.dispersion.index(LINE_D_NM));
-    let others: Vec<String> = found.others.iter().map(|glass| words(glass)).collect();
-    format!("{name} is a glass of several makers: that of {} is used, not {}", words(found.glass), others.join(", "))
+    let others: Vec<String> = matched.others.iter().map(|glass| words(glass)).collect();
+    format!("{name} is a glass of several makers: that of {} is used, not {}", words(matched.glass), others.join(", "))
 }
 
 /// Glass by its number.

@@ -246,12 +246,12 @@ impl<'a> SeqReader<'a> {
         if let Some(glass) = self.private.find(plain) {
             return Ok(glass);
         }
-        let Some(found) = self.glasses.find(plain, w)? else {
+        let Some(matched) = self.glasses.find(plain, w)? else {
             let remedy = "a number such as 517642, or its indices in a private catalogue (PRV) before the surfaces";
             return Err(glasses::unknown(w, plain, remedy));
         };
-        self.raw.notes.extend(found.note.map(|note| format!("line {}: {note}", w.line)));
-        Ok(found.glass)
+        self.raw.notes.extend(matched.note.map(|note| format!("line {}: {note}", w.line)));
+        Ok(matched.glass)
     }
 }
 

@@ -100,13 +100,13 @@ pub fn find_first(name: &str, catalogues: &[&str]) -> Option<GlassMatch> {
 }
 
 fn find_among(name: &str, catalogues: &[&str], is_admitted: impl Fn(&str) -> bool) -> Option<GlassMatch> {
-    let whole = plain(name);
+    let complete = plain(name);
     let (stem, suffix) = match name.split_once('_') {
         // A name such as F_SILICA has an underscore of its own.
-        Some((stem, suffix)) if !CATALOGUE.iter().any(|glass| plain(glass.name) == whole) => {
+        Some((stem, suffix)) if !CATALOGUE.iter().any(|glass| plain(glass.name) == complete) => {
             (plain(stem), Some(suffix))
         }
-        _ => (whole, None),
+        _ => (complete, None),
     };
     let same_name = CATALOGUE.iter().filter(|glass| plain(glass.name) == stem);
     let mut glasses: Vec<&CatalogueGlass> = same_name.filter(|glass| is_admitted(glass.maker)).collect();

@@ -5,7 +5,7 @@
 //! at the interval's ends and between them, at all of [`WAVELENGTHS_NM`], so that no light is lost; a margin covers what lies between the tabulated
 //! points.
 //!
-//! Where a sensor point sees several openings, the region is the ellipse about a box that contains them all. The region includes obscured parts.
+//! If a sensor point sees several openings, the region is the ellipse about a box that contains them all. The region includes obscured parts.
 //!
 //! A point (ρ, φ) of the unit disc maps to centre + ρ R(φ) (a cos φ, b sin φ). With samples uniform in the disc, the slope area per sample is π a b
 //! R², the inverse of the sampling density; it is part of the weight.

@@ -195,7 +195,7 @@ fn named_glass(name: &Placed<String>, lens: &record::Prescription, context: &mut
         }
     }
     match glass::find(&name.value, &[]) {
-        Some(found) => Some(found.glass.dispersion),
+        Some(matched) => Some(matched.glass.dispersion),
         None => context.accept(&name.place, glass::by_name(&name.value).map(|glass| glass.dispersion)),
     }
 }
