@@ -85,7 +85,7 @@ impl Job {
     /// With a lens file.
     #[must_use]
     pub fn with_lens_file(mut self, path: &str, lens: PrescriptionAsset) -> Self {
-        self.assets.prescriptions.insert(path.into(), lens);
+        self.assets.prescriptions.insert((path.into(), Vec::new()), lens);
         self
     }
 
