@@ -115,11 +115,11 @@ impl LensTable {
     }
 
     pub(super) fn first_order(&self) -> Result<FirstOrder, String> {
-        let matrix = RayMatrix::of_rows(&self.rows);
+        let matrix = RayMatrix::from_rows(&self.rows);
         if matrix.c >= 0.0 {
             return Err("the lens of the table does not form an image: its focal length is not above 0".to_owned());
         }
-        let before_stop = RayMatrix::of_rows(&self.rows[..self.stop]);
+        let before_stop = RayMatrix::from_rows(&self.rows[..self.stop]);
         let gap = match self.stop {
             0 => 0.0,
             stop => self.rows[stop - 1].thickness_mm / self.rows[stop - 1].medium.index(),
@@ -214,7 +214,7 @@ struct RayMatrix {
 
 impl RayMatrix {
     /// Matrix from the first to the last vertex.
-    fn of_rows(rows: &[LensRow]) -> Self {
+    fn from_rows(rows: &[LensRow]) -> Self {
         let mut matrix = Self { a: 1.0, b: 0.0, c: 0.0, d: 1.0 };
         let mut index = 1.0;
         for (i, row) in rows.iter().enumerate() {

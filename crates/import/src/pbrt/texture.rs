@@ -177,7 +177,7 @@ impl SceneBuilder {
     fn image_leaf(&mut self, reader: &TextureReader<'_>) -> Result<ImageLeaf, String> {
         let parameters = reader.parameters;
         let file = parameters.text("filename")?.ok_or("the imagemap has no \"filename\"")?;
-        let format = ImageFormat::of_name(file);
+        let format = ImageFormat::from_name(file);
         if !format.is_known() {
             return Err(format!(
                 "the format of the image `{file}` is not supported; expected PNG, JPEG, TGA, BMP, QOI, PNM, PFM, HDR or EXR: convert it and change the name"

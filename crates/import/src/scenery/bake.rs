@@ -58,7 +58,7 @@ impl SceneBuilder {
     /// Texture that refers to an image of the file, if that has the values of the tree.
     fn direct(&mut self, name: &str, tree: &TextureTree, usage: TextureUse) -> Result<Option<PlacedTexture>, String> {
         let Some((image, scale)) = scaled_image(tree) else { return Ok(None) };
-        let format = ImageFormat::of_name(&image.file.path.to_string_lossy());
+        let format = ImageFormat::from_name(&image.file.path.to_string_lossy());
         let encoding = match image.file.encoding {
             ImageEncoding::Linear => Encoding::Linear,
             ImageEncoding::Srgb => Encoding::Srgb,

@@ -40,7 +40,7 @@ pub(crate) enum ImageWrap {
 pub(crate) struct ImageFormat(String);
 
 impl ImageFormat {
-    pub(crate) fn of_name(name: &str) -> Self {
+    pub(crate) fn from_name(name: &str) -> Self {
         Self(name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase())
     }
 
@@ -71,7 +71,7 @@ impl ImageFormat {
 
 /// Reads an image of a light; the error names the file.
 pub(crate) fn read_light_image(file: &Path) -> Result<LinearImage, String> {
-    let is_linear = ImageFormat::of_name(&file.to_string_lossy()).is_linear();
+    let is_linear = ImageFormat::from_name(&file.to_string_lossy()).is_linear();
     let encoding = if is_linear { ImageEncoding::Linear } else { ImageEncoding::Srgb };
     LinearImage::read(file, encoding, ImageUse::Colours)
 }
@@ -97,7 +97,7 @@ impl LinearImage {
     pub(crate) fn read(file: &Path, encoding: ImageEncoding, usage: ImageUse) -> Result<Self, String> {
         let image = read_foreign_image(file).map_err(|e| e.to_string())?.in_rec_709();
         let stored = stored_pixels(&image);
-        let format = ImageFormat::of_name(&file.to_string_lossy());
+        let format = ImageFormat::from_name(&file.to_string_lossy());
         let is_opacity = usage == ImageUse::Numbers && format.has_opacity() && stored.iter().any(|p| p[3] != 1.0);
         let pixel = |[r, g, b, a]: [f32; 4]| {
             let rgb = [r, g, b].map(|v| encoding.decoded(v));
@@ -159,7 +159,7 @@ pub(crate) enum NumberImage {
 /// Reads what an image of numbers holds; the error names the file.
 pub(crate) fn number_image(file: &Path) -> Result<NumberImage, String> {
     let stored = stored_pixels(&read_foreign_image(file).map_err(|e| e.to_string())?);
-    let format = ImageFormat::of_name(&file.to_string_lossy());
+    let format = ImageFormat::from_name(&file.to_string_lossy());
     let is_opacity = format.has_opacity() && stored.iter().any(|p| p[3] != 1.0);
     let is_grey = stored.iter().all(|[r, g, b, _]| r == g && g == b);
     Ok(if is_opacity {
