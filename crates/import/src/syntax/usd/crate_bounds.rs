@@ -103,7 +103,7 @@ impl<'a> Crate<'a> {
     /// Charges the budget for `count` items of `size` bytes.
     pub(super) fn spend(&mut self, count: u64, size: u64) -> Result<(), String> {
         self.spent = self.spent.saturating_add(count.saturating_mul(size));
-        limits::MESH.check_unpacked(self.spent)
+        limits::MESH.check_unpacked(self.spent).map_err(|problem| problem.words)
     }
 
     /// Decompresses bytes: one byte for the number of chunks, which must be one, and a block.

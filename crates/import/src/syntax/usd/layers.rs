@@ -64,7 +64,7 @@ impl Layers {
     }
 
     fn read(&self, file: &Path) -> Result<Vec<u8>, Error> {
-        self.0.sandbox.check(file).map_err(|problem| Error::missing(file, problem))?;
+        self.0.sandbox.check(file).map_err(|problem| Error::new(file, problem))?;
         read_bytes(file, "USD")
     }
 

@@ -30,7 +30,7 @@ const OVERHEAD: u64 = 256;
 /// If the file, or a layer of it, cannot be read or is damaged; missing layers are listed in the stage's notes.
 pub fn read_usd(file: &Path, sandbox: &Sandbox) -> Result<UsdStage, Error> {
     // Existence and kind of the file are reported in our own words.
-    sandbox.check(file).map_err(|problem| Error::missing(file, problem))?;
+    sandbox.check(file).map_err(|problem| Error::new(file, problem))?;
     if !file.is_file() {
         etendue_io::source::read_bytes(file, "USD")?;
     }
@@ -150,7 +150,7 @@ impl UsdReader<'_> {
     /// Charges the budget for a part of the tree, including the memory of `openusd`.
     fn spend(&mut self, bytes: u64) -> Result<(), String> {
         self.bytes += bytes;
-        limits::MESH.check_unpacked(self.bytes)
+        limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }
 
     fn attribute(&self, attribute: &Attribute, name: &str) -> Result<UsdAttribute, String> {
