@@ -102,6 +102,6 @@ fn by_number(text: &str) -> Option<GlassAsset> {
 
 /// Error of a glass that is in no catalogue; `remedy` is the program's own way to define it.
 pub(super) fn unknown(w: &Words<'_>, name: &str, remedy: &str) -> Error {
-    let what = format!("unknown glass `{name}`; give its catalogue as a file (`glasses`), {remedy}");
+    let what = format!("unknown glass `{name}`; give its catalogue as a file (\"glasses\"), {remedy}");
     w.error(what).with_code(ErrorCode::UnknownName)
 }

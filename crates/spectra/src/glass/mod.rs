@@ -82,7 +82,7 @@ pub enum Dispersion {
 pub enum GlassError {
     /// A name in no catalogue of the crate.
     #[error(
-        "no glass is called `{name}`{}; give a name of a catalogue, n_d and V_d, or a file of its catalogue (`glasses`)",
+        "no glass is called `{name}`{}; give a name of a catalogue, n_d and V_d, or a file of its catalogue (\"glasses\")",
         hint(near)
     )]
     Unknown {
