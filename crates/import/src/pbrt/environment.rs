@@ -24,7 +24,7 @@ impl SceneBuilder {
         scale: f64,
         lux: Option<f64>,
     ) -> Result<Option<Environment>, String> {
-        let path = self.source_folder.join(file);
+        let path = self.source_file(file);
         let image = read_image(&path).map_err(|e| e.to_string())?.in_rec_709();
         let Some(texels) = Texels::new(&image) else {
             self.report.note(format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)"));

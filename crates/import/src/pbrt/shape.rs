@@ -71,7 +71,7 @@ impl SceneBuilder {
         if parameters.find("displacement").is_some() {
             self.report.note("\"displacement\" of a mesh is not used");
         }
-        Triangles::read(&self.source_folder.join(name))
+        Triangles::read(&self.source_file(name))
     }
 
     fn sphere(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {

@@ -129,7 +129,7 @@ impl SceneBuilder {
     /// Image of numbers: its opacity if it has one (leaves are cut out so), else the mean of its colours, rewritten if they are encoded. The plan reports an
     /// unreadable image.
     fn numbers_image(&mut self, name: &str, file: &str, encoding: Encoding) -> Result<TextureFile, String> {
-        let image = read_image(&self.source_folder.join(file)).ok();
+        let image = read_image(&self.source_file(file)).ok();
         let has_alpha = image.as_ref().is_some_and(has_opacity);
         match image.filter(|_| encoding == Encoding::Srgb && !has_alpha) {
             Some(image) => {

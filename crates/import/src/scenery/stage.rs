@@ -4,6 +4,8 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use etendue_io::Sandbox;
+use etendue_io::named_file::{NamedFile, find_named_file};
 use etendue_scene::limits;
 use etendue_scene::record::material::{Factor, Sides};
 use etendue_scene::record::{Curve, Emission, Level, LightColour, Scene, SurfaceEmission};
@@ -152,8 +154,20 @@ impl SceneBuilder {
     }
 
     /// Path, as in the written scene, of a file that the scene file names.
-    pub(crate) fn path_of(&self, name: &str) -> String {
-        self.relative_path(&self.source_folder.join(name))
+    pub(crate) fn path_of(&mut self, name: &str) -> String {
+        let file = self.source_file(name);
+        self.relative_path(&file)
+    }
+
+    /// File that the scene file names. A path of another machine is searched for beside the scene file, with a note.
+    pub(crate) fn source_file(&mut self, name: &str) -> PathBuf {
+        match find_named_file(&[&self.source_folder], name, &Sandbox::NONE) {
+            Ok(NamedFile { path, note, .. }) => {
+                note.into_iter().for_each(|note| self.report.note(note));
+                path
+            }
+            Err(_) => self.source_folder.join(name),
+        }
     }
 
     /// Path of a file as in the written scene.

@@ -5,6 +5,7 @@ use gltf::json::material::{Material, NormalTexture};
 use gltf::json::{Root, Value};
 use gltf::{json::mesh::Semantic, json::validation::Checked};
 
+use super::compression;
 use super::picture::{TextureUse, UvLayout};
 use crate::Problem;
 
@@ -28,8 +29,12 @@ const KNOWN: &[&str] = &[
     "KHR_materials_unlit",
     "KHR_materials_variants",
     "KHR_materials_volume",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
     "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 /// The JSON, checked by the rules of the specification, and the binary chunk.
@@ -42,6 +47,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
     if root.asset.version.split('.').next() != Some("2") {
         return Err(format!("the glTF version is {}; expected 2.0: export the file again", root.asset.version).into());
     }
+    compression::check(&root)?;
     let unknown: Vec<&str> =
         root.extensions_required.iter().map(String::as_str).filter(|e| !KNOWN.contains(e)).collect();
     if !unknown.is_empty() {
@@ -178,6 +184,7 @@ fn numbers<const N: usize>(value: Option<&Value>, default: [f64; N]) -> [f64; N]
 
 /// Extensions that are used in part, or that do not affect what is read.
 const USED: &[&str] = &[
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -189,6 +196,7 @@ const USED: &[&str] = &[
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 pub(super) fn unused(root: &Root) -> Vec<String> {
@@ -217,7 +225,12 @@ pub(super) fn unused(root: &Root) -> Vec<String> {
         .filter(|(count, ..)| *count > 0)
         .map(|(count, what, note)| format!("{count} {what}: {note}"))
         .collect();
-    let unknown: Vec<&str> = root.extensions_used.iter().map(String::as_str).filter(|e| !USED.contains(e)).collect();
+    let unknown: Vec<&str> = root
+        .extensions_used
+        .iter()
+        .map(String::as_str)
+        .filter(|e| !USED.contains(e) && compression::find(e).is_none())
+        .collect();
     if !unknown.is_empty() {
         report.push(format!("extensions that are not used: {}", unknown.join(", ")));
     }
