@@ -135,7 +135,7 @@ mod tests {
             ("wall.png", "wall.png"),
             ("\"wall.png\"", "wall.png"),
             ("'wall.png'", "wall.png"),
-            (".\\wall.png", "./wall.png"),
+            (".\\wall.png", "wall.png"),
             ("C:\\Users\\someone\\Desktop\\wall.png", "wall.png"),
             ("C:\\Users\\someone\\maps\\wall.png", "maps/wall.png"),
             ("\\\\server\\share\\WALL.png", "wall.png"),

@@ -223,7 +223,7 @@ mod tests {
         assert_eq!(names(b"usemtl Geh\xe4use\nusemtl Geh\xc3\xa4use\n"), ["Geh\u{e4}use"; 2], "Latin-1, UTF-8");
         assert_eq!(names(b"usemtl Geh\xc3\xa4use # Ma\xdfe\n"), ["Geh\u{e4}use"], "a comment in another encoding");
         // 0x85 and 0xa0 are blanks in Unicode; 0x5c, the last byte of a character in Shift-JIS, is no continuation.
-        assert_eq!(names(b"usemtl \xd5\x85\nusemtl \xd5\xa0\n"), ["\u{d5}\u{85}", "\u{d5}\u{a0}"]);
+        assert_eq!(names(b"usemtl \xb0\x85\nusemtl \xb0\xa0\n"), ["\u{b0}\u{85}", "\u{b0}\u{a0}"]);
         assert_eq!(names(b"usemtl \x95\x5c\nusemtl b\n"), ["\u{95}\\", "b"]);
         assert_eq!(names(b"f 1 2 \\\n3\n"), ["1 2  3"]);
         assert_eq!(names(b"v 1\rv 2\r"), ["1", "2"], "line ends of old Macintosh files");

@@ -24,12 +24,18 @@ fn stl_files_have_the_figures_of_trimesh() {
     for (name, figures) in figures("meshes") {
         let mesh = read_mesh(&oracle(&name)).unwrap_or_else(|error| panic!("{error}"));
         let number = |key: &str| figures[key].as_f64().expect("a figure");
-        assert_eq!((mesh.positions.len() as f64, mesh.triangles.len() as f64), (number("vertices"), number("triangles")));
+        assert_eq!(
+            (mesh.positions.len() as f64, mesh.triangles.len() as f64),
+            (number("vertices"), number("triangles"))
+        );
         let place = |i: u32| DVec3::from_array(mesh.positions[i as usize].map(f64::from));
         let corners: Vec<[DVec3; 3]> = mesh.triangles.iter().map(|t| t.map(place)).collect();
         let area: f64 = corners.iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
         let volume: f64 = corners.iter().map(|[a, b, c]| a.cross(*b).dot(*c) / 6.0).sum();
-        assert!((area - number("area")).abs() < 1e-2 && (volume - number("volume")).abs() < 0.1, "{name}: {area} {volume}");
+        assert!(
+            (area - number("area")).abs() < 1e-2 && (volume - number("volume")).abs() < 0.1,
+            "{name}: {area} {volume}"
+        );
         for (i, pick) in [DVec3::min as fn(DVec3, DVec3) -> DVec3, DVec3::max].into_iter().enumerate() {
             let bound = corners.iter().flatten().copied().reduce(pick).expect("corners").to_array();
             for (axis, coordinate) in bound.into_iter().enumerate() {

@@ -40,6 +40,15 @@ fn compressed_vertices_are_refused_with_the_command_that_expands_them() {
 }
 
 #[test]
+fn positions_need_no_bounds() {
+    let mesh = changed(|file| {
+        let accessor = file["accessors"][0].as_object_mut().expect("an accessor");
+        ["min", "max"].map(|bound| accessor.remove(bound));
+    });
+    assert_eq!(mesh.expect("readable").triangles.len(), 2);
+}
+
+#[test]
 fn fallbacks_of_compressed_vertices_are_used() {
     let plain = square();
     let mesh = changed(|file| {

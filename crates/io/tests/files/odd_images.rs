@@ -123,7 +123,7 @@ fn images_of_the_case_table_are_read() {
     let request = |layer: &str| AssetRequest {
         path: path.clone(),
         kind: AssetKind::ImageLayer(layer.to_owned()),
-        place: Place::file_head(&path),
+        place: Place::file_head(path.as_path()),
         covered: ReplacedMaterials::All,
     };
     let assets = load_assets(&[request("ViewLayer.Combined")]).unwrap_or_else(|errors| panic!("{errors:?}"));

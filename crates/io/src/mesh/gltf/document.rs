@@ -59,6 +59,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
         .into());
     }
     check_positions(&root)?;
+    add_bounds(&mut root);
     // The crate supports fewer of them.
     root.extensions_required.clear();
     let document = gltf::Document::from_json(root).map_err(|cause| format!("not a valid glTF file: {cause}"))?;
@@ -69,6 +70,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
 pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, Problem> {
     let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
     serde_json::from_slice(json).map_err(|cause| format!("not a glTF file: invalid JSON: {cause}").into())
+}
+
+/// Adds missing bounds of positions, which the specification requires and nothing here uses: some writers omit them, and the crate would refuse the file.
+fn add_bounds(root: &mut Root) {
+    let Root { meshes, accessors, .. } = root;
+    let primitives = meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
+    for index in positions.map(|index| index.value()) {
+        let Some(accessor) = accessors.get_mut(index) else { continue };
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| Value::from(vec![0.0; 3]));
+        }
+    }
 }
 
 /// Refuses missing positions: the crate's own check assumes them.

@@ -270,6 +270,10 @@ fn notes(header: &PlyHeader, unused: &[String], elements: &[(String, usize)]) ->
             shortened(image)
         ));
     }
+    let unknown = header.unknown.iter();
+    notes.extend(
+        unknown.map(|(line, word)| format!("line {line} of the header is no statement: it begins with `{word}`")),
+    );
     notes.extend(elements.iter().map(|(name, count)| format!("{count} elements `{}` are not used", shortened(name))));
     notes
 }

@@ -52,6 +52,8 @@ pub(super) struct PlyHeader {
     pub(super) elements: Vec<PlyElement>,
     /// Image that a comment of MeshLab names; `None` without one.
     pub(super) texture_file: Option<String>,
+    /// Lines that are no statement, with their first words.
+    pub(super) unknown: Vec<(usize, String)>,
     /// Bytes before the first row.
     pub(super) length: usize,
     /// Lines before the first row.
@@ -95,7 +97,8 @@ impl PlyHeader {
     pub(super) fn read(bytes: &[u8]) -> Result<Self, HeaderError> {
         let mut lines = Lines::new(bytes)?;
         let encoding = lines.encoding()?;
-        let mut header = Self { encoding, elements: Vec::new(), texture_file: None, length: 0, lines: 0 };
+        let mut header =
+            Self { encoding, elements: Vec::new(), texture_file: None, unknown: Vec::new(), length: 0, lines: 0 };
         loop {
             let (number, line) = lines.next()?;
             let located = |what: String| (number, what);
@@ -106,12 +109,7 @@ impl PlyHeader {
                 Some("property") => header.property(words.collect()).map_err(located)?,
                 Some("comment") => header.comment(&line),
                 Some("obj_info") | None => {}
-                Some(other) => {
-                    return Err(located(format!(
-                        "unknown statement `{}` in the PLY header; expected `element`, `property`, `comment` or `end_header`",
-                        shortened(other)
-                    )));
-                }
+                Some(other) => header.unknown.push((number, shortened(other))),
             }
         }
         (header.length, header.lines) = (lines.at, lines.number);
