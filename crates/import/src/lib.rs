@@ -4,7 +4,6 @@
 
 mod gltf;
 mod lamps;
-mod lookup;
 mod mitsuba;
 mod moving;
 mod naming;

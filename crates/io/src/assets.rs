@@ -2,12 +2,12 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
+use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore, layer_key};
 
 use crate::calibration::{ImportedCamera, read_calibration};
 use crate::lens_table::{read_lens_table, read_point_spread};
 use crate::mesh::{read_mesh_frame, read_mesh_in};
-use crate::picture::{ImageHead, head, large_image, read_image};
+use crate::picture::{ImageHead, head, large_image, read_image, read_image_layer};
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
 use crate::{
@@ -114,6 +114,10 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         }
         AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
         AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_image(path)?)),
+        AssetKind::ImageLayer(layer) => {
+            let image = read_image_layer(path, layer)?;
+            assets.images.insert(layer_key(path, layer), image);
+        }
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry_in(path, sandbox)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),

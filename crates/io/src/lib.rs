@@ -44,6 +44,7 @@ pub mod inspect;
 pub mod jpeg;
 pub mod lens_table;
 pub mod mesh;
+pub mod named_file;
 pub mod output;
 pub mod paths;
 pub mod photograph;

@@ -76,6 +76,11 @@ impl Sandbox {
 }
 
 impl Sandbox {
+    /// Returns true if a folder may be listed.
+    pub(crate) fn allows(&self, folder: &Path) -> bool {
+        self.admits(folder)
+    }
+
     fn admits(&self, path: &Path) -> bool {
         let Some(folders) = &self.folders else { return true };
         end_of(path).is_ok_and(|end| folders.iter().any(|folder| end.starts_with(folder)))

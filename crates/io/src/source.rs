@@ -26,6 +26,19 @@ pub(crate) fn read_expected_bytes(file: &Path, what: &str, max: u64) -> Result<V
     explained(file, what, read_checked(file, max, check))
 }
 
+/// Error of a pointer of Git LFS.
+const LFS_POINTER: &str =
+    "a pointer of Git LFS, not the file itself; fetch the file in its repository with `git lfs pull`";
+
+/// Returns true for the text that Git LFS stores in place of a large file (git-lfs specification, version 1).
+fn is_lfs_pointer(bytes: &[u8]) -> bool {
+    const MAX_BYTES: usize = 1024;
+    bytes.len() <= MAX_BYTES
+        && [&b"version https://git-lfs.github.com/spec/"[..], b"version https://hawser.github.com/spec/"]
+            .iter()
+            .any(|begin| bytes.starts_with(begin))
+}
+
 fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, Error> {
     explained(file, what, read_regular(file, limit))
 }
@@ -44,6 +57,9 @@ fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<
     })?;
     if bytes.is_empty() {
         return Err(Error::coded(ErrorCode::Empty, file, format!("this {what} file is empty")));
+    }
+    if is_lfs_pointer(&bytes) {
+        return Err(Error::coded(ErrorCode::UnsupportedFile, file, LFS_POINTER));
     }
     Ok(bytes)
 }
@@ -159,6 +175,9 @@ pub fn read_text(path: &Path) -> Result<String, Problem> {
         _ => error.to_string(),
     };
     let bytes = read_regular(path, &DESCRIPTION).map_err(|error| Problem::new(code_of(&error), words(&error)))?;
+    if is_lfs_pointer(&bytes) {
+        return Err(Problem::new(ErrorCode::UnsupportedFile, LFS_POINTER));
+    }
     String::from_utf8(bytes).map_err(|_| "it is no text (UTF-8)".into())
 }
 

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{collections::HashMap, rc::Rc};
 
-use etendue_io::Error;
+use etendue_io::named_file::find_named_file;
+use etendue_io::{Error, Sandbox};
 use etendue_scene::record::Transform;
 use etendue_scene::record::medium::{MediumShape, UnboundedRegion};
 
@@ -118,12 +119,24 @@ impl<'a> Importer<'a> {
     /// Path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
         let existing = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
-        existing.unwrap_or_else(|| self.scenery.source_folder.join(name))
+        let folders: Vec<&Path> = self.folders.iter().map(PathBuf::as_path).collect();
+        let beside = || find_named_file(&folders, name, &Sandbox::NONE).ok().filter(|file| file.exists);
+        existing.or_else(|| Some(beside()?.path)).unwrap_or_else(|| self.scenery.source_folder.join(name))
+    }
+
+    /// The same; a file at another path than the stated one is noted.
+    pub(super) fn noted_file(&mut self, name: &str) -> PathBuf {
+        let file = self.file(name);
+        if file.is_file() && !self.folders.iter().any(|folder| folder.join(name).is_file()) {
+            self.scenery.report.note(format!("`{name}` is read from `{}`", self.scenery.relative_path(&file)));
+        }
+        file
     }
 
     /// The path of a file as the written scene names it.
-    pub(super) fn path(&self, name: &str) -> String {
-        self.scenery.relative_path(&self.file(name))
+    pub(super) fn path(&mut self, name: &str) -> String {
+        let file = self.noted_file(name);
+        self.scenery.relative_path(&file)
     }
 
     /// Notes the unused parameters of an element.

@@ -193,7 +193,7 @@ impl<'a> Importer<'a> {
     fn mesh_file(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<(), Error> {
         let is_obj = element.kind() == "obj";
         let name = text(element, "filename")?.ok_or_else(|| element.error("the mesh has no \"filename\""))?;
-        let mut mesh = Triangles::read(&self.file(name)).map_err(|problem| element.error(problem))?;
+        let mut mesh = Triangles::read(&self.noted_file(name)).map_err(|problem| element.error(problem))?;
         // Mitsuba's v points downwards in images.
         if !flag(element, "flip_tex_coords", is_obj)? {
             mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use etendue_io::Sandbox;
+use etendue_io::named_file::{NamedFile, find_named_file};
 use etendue_scene::limits;
 use etendue_scene::record::material::{Factor, Sides};
 use etendue_scene::record::{Curve, Emission, Level, LightColour, Scene, SurfaceEmission};
@@ -12,7 +14,6 @@ use glam::{DAffine3, DMat3};
 use super::infinite_light::InfiniteLight;
 use super::projection::TextureBase;
 use super::texture::{PlacedTexture, TextureTree};
-use crate::lookup::{FileMatch, search};
 use crate::naming::{UniqueNames, path_between};
 
 /// Placeholder for the material of a surface that only separates two media.
@@ -146,16 +147,15 @@ impl SceneBuilder {
         limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }
 
-    /// Path of a file that the scene names, with a note if it is not exactly there. A missing file has the path that the scene states.
+    /// Path of a file that the scene names. A path of another machine is searched for beside the scene file, with a note. A missing file has the path that the
+    /// scene states.
     pub(crate) fn find_file(&mut self, name: &str) -> PathBuf {
-        match search(&self.source_folder, name) {
-            Some(FileMatch { path, is_exact: true }) => path,
-            Some(FileMatch { path, .. }) => {
-                let shown = path.strip_prefix(&self.source_folder).unwrap_or(&path).display().to_string();
-                self.report.note(format!("`{name}` does not exist: `{shown}` is used"));
+        match find_named_file(&[&self.source_folder], name, &Sandbox::NONE) {
+            Ok(NamedFile { path, note, .. }) => {
+                note.into_iter().for_each(|note| self.report.note(note));
                 path
             }
-            None => self.source_folder.join(name),
+            Err(_) => self.source_folder.join(name),
         }
     }
 

@@ -26,7 +26,7 @@ use std::path::Path;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, OpticalFlow};
 
-use crate::picture::{PixelStorage, decode_raster};
+use crate::picture::{PixelStorage, RasterFormats, decode_raster};
 use crate::png::{encode_grey16, encode_rgb16, title, with_text};
 use crate::{Error, exr::EncodeError, source::read_bytes};
 
@@ -92,7 +92,7 @@ pub(crate) fn is_kitti_flow(bytes: &[u8]) -> bool {
 
 /// Flow in the bytes of a KITTI PNG, NaN where unknown.
 pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
-    let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", PixelStorage::Floats)?;
+    let (_, picture) = decode_raster(file, bytes, RasterFormats::measured("KITTI's PNG"), PixelStorage::Floats)?;
     let image::DynamicImage::ImageRgb16(picture) = picture else {
         return Err(Error::new(file, "not KITTI's optical flow: expected a PNG with three 16-bit channels"));
     };

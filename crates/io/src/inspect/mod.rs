@@ -74,7 +74,7 @@ fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
     }
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     match extension.to_str() {
-        Some("obj" | "glb" | "gltf" | "ply") => text::mesh(file),
+        Some("obj" | "glb" | "gltf" | "ply" | "stl") => text::mesh(file),
         Some("json") => text::sidecar(file, &bytes),
         Some("ies" | "ldt") => lamp::report(file),
         Some("csv") => text::table(file, &bytes),

@@ -1,4 +1,4 @@
-//! Inspection of PNG, JPEG and HDR files.
+//! Inspection of image files.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use image::{ColorType, DynamicImage, GenericImageView as _};
 
 use super::{FileReport, Preview, report::ChannelReport};
 use crate::Error;
-use crate::picture::{PixelStorage, decode_raster};
+use crate::picture::{PixelStorage, TEXTURES, decode_raster};
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    let (format, image) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", PixelStorage::Floats)?;
+    let (format, image) = decode_raster(file, bytes, TEXTURES, PixelStorage::Floats)?;
     let mut report = FileReport::new(file, format!("image, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (image.width() as usize, image.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));

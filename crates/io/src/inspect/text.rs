@@ -6,7 +6,7 @@ use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface
 use serde_json::Value;
 
 use super::{FileReport, report::ChannelReport};
-use crate::mesh::{is_ply, read_mesh};
+use crate::mesh::{is_ply, is_stl, read_mesh};
 use crate::table::{read_complex_index, read_retro_table};
 use crate::{Error, spectrum::read_spectrum};
 
@@ -16,6 +16,8 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
         "mesh, glTF 2.0"
     } else if is_ply(file) {
         "mesh, PLY"
+    } else if is_stl(file) {
+        "mesh, STL"
     } else {
         "mesh, Wavefront OBJ"
     };

@@ -8,12 +8,14 @@ use super::obj::{Obj, scan};
 use super::ply::{is_ply, read_ply};
 use super::polygon::{newell, triangulate};
 use super::slot::{MaterialSlots, slots};
+use super::stl::{is_stl, read_stl};
 use super::vertex::{middle_of_far, relative, unit};
 use super::{gltf::read_gltf, texture_option::UvLayout};
-use crate::source::{decode_text, name_notes, read_bytes};
+use crate::source::{name_notes, read_bytes};
 use crate::{Error, Sandbox, hash};
 
-/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and images, or a PLY file.
+/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and images, a PLY file,
+/// or an STL file.
 ///
 /// # Errors
 /// The first fault, with its line.
@@ -29,9 +31,13 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
     if is_ply(file) {
         return read_ply(file);
     }
+    if is_stl(file) {
+        return read_stl(file);
+    }
     let bytes = read_bytes(file, "mesh")?;
-    let obj = scan(file, decode_text(file, &bytes)?)?;
-    let MaterialSlots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj, sandbox)?;
+    let obj = scan(file, &bytes)?;
+    let MaterialSlots { materials, layouts, report, library_bytes, missing_libraries, images } =
+        slots(file, &obj, sandbox)?;
     let parts = obj.parts(file)?;
     let coordinates =
         |axis| parts.iter().flat_map(move |p: &tobj::Mesh| p.positions.iter().skip(axis).step_by(3).copied());
@@ -50,6 +56,7 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
     mesh.report.extend(notes(&obj));
     name_notes(file, mesh.report.iter_mut().chain(&mut mesh.warnings));
     mesh.slot_materials = materials;
+    mesh.embedded_images = images;
     mesh.missing_libraries = missing_libraries;
     mesh.report.extend(report);
     Ok(mesh)
@@ -169,7 +176,7 @@ fn notes(obj: &Obj) -> Vec<String> {
 /// pose, must be cut like these.
 pub fn read_mesh_frame(file: &Path) -> Result<MeshFrameAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
-    let obj = scan(file, decode_text(file, &bytes)?)?;
+    let obj = scan(file, &bytes)?;
     let parts: Vec<MeshFramePart> =
         obj.parts_by_corners(file)?.into_iter().map(|part| frame_part(part, &obj.materials)).collect();
     let triangles = triangles(&parts);

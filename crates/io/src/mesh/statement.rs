@@ -1,6 +1,7 @@
 //! Lines of OBJ and MTL files as statements: a keyword and its words, with the line they begin on.
 //!
-//! Blanks are those of Unicode, as in tobj.
+//! The files state no encoding. Each line that is valid UTF-8 is read as such, with the blanks of Unicode. Any other line is read byte by byte (Latin-1): equal
+//! bytes give equal names, so that names written in GBK or Shift-JIS match between files. UTF-16 is recognised by its byte-order mark.
 //!
 //! Text for tobj: one statement per line, with the line of the file that each comes from.
 //!
@@ -18,12 +19,15 @@ pub(super) struct ObjStatement<'a> {
     text: Cow<'a, str>,
     /// End of the first word.
     keyword_end: usize,
+    /// True if the line is not UTF-8: its blanks are those of ASCII.
+    is_bytes: bool,
 }
 
 impl<'a> ObjStatement<'a> {
-    fn new(line: usize, text: Cow<'a, str>) -> Self {
-        let keyword_end = text.find(char::is_whitespace).unwrap_or(text.len());
-        Self { line, text, keyword_end }
+    fn new(line: usize, text: LineText<'a>) -> Self {
+        let keyword_end = text.text.find(|c: char| c.is_ascii_whitespace() || (!text.is_bytes && c.is_whitespace()));
+        let keyword_end = keyword_end.unwrap_or(text.text.len());
+        Self { line, text: text.text, keyword_end, is_bytes: text.is_bytes }
     }
 
     /// The first word.
@@ -33,17 +37,46 @@ impl<'a> ObjStatement<'a> {
 
     /// The rest, without blanks at its ends.
     pub(super) fn rest(&self) -> &str {
-        self.text[self.keyword_end..].trim()
+        let rest = &self.text[self.keyword_end..];
+        if self.is_bytes { rest.trim_matches(|c: char| c.is_ascii_whitespace()) } else { rest.trim() }
     }
 
     /// Words after the keyword.
     pub(super) fn words(&self) -> impl Iterator<Item = &str> {
         self.rest().split_whitespace()
     }
+}
 
-    /// The words as numbers; an error if one is no number.
-    pub(super) fn numbers(&self) -> Result<Vec<f64>, Problem> {
-        self.words().map(number).collect()
+/// Text of a line, and true if the line is not UTF-8.
+#[derive(Clone, Debug)]
+struct LineText<'a> {
+    text: Cow<'a, str>,
+    is_bytes: bool,
+}
+
+impl<'a> LineText<'a> {
+    fn new(line: &'a [u8]) -> Self {
+        match std::str::from_utf8(line) {
+            Ok(text) => Self { text: Cow::Borrowed(trimmed(text)), is_bytes: false },
+            Err(_) => {
+                let bytes = trimmed_bytes(line);
+                // The part without its comment may be UTF-8.
+                match std::str::from_utf8(bytes) {
+                    Ok(text) => Self { text: Cow::Borrowed(trimmed(text)), is_bytes: false },
+                    Err(_) => {
+                        Self { text: Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect()), is_bytes: true }
+                    }
+                }
+            }
+        }
+    }
+
+    /// True if the next line continues this one. A backslash after a byte of 128 or more may be the second byte of a character in Shift-JIS, GBK or Big5.
+    fn is_continued(&self) -> bool {
+        match self.text.strip_suffix('\\') {
+            None => false,
+            Some(before) => !self.is_bytes || before.chars().next_back().is_none_or(|c| c.is_ascii()),
+        }
     }
 }
 
@@ -53,34 +86,53 @@ pub(super) fn number(word: &str) -> Result<f64, Problem> {
     if value.is_finite() { Ok(value) } else { Err(format!("`{word}` is not finite; expected a finite number").into()) }
 }
 
-/// Statements of `text`: without comments and empty lines, with continued lines joined.
-pub(super) fn statements(text: &str) -> impl Iterator<Item = ObjStatement<'_>> {
-    let mut lines = text.lines().enumerate();
+/// Content of a file as bytes that contain ASCII: UTF-16 with a byte-order mark becomes UTF-8, and a byte-order mark is removed.
+pub(super) fn without_mark(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let wide = |unit: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+        Cow::Owned(text.into_bytes())
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => Cow::Borrowed(rest),
+        _ => Cow::Borrowed(bytes),
+    }
+}
+
+/// Statements of a file: without comments and empty lines, with continued lines joined.
+pub(super) fn statements(bytes: &[u8]) -> impl Iterator<Item = ObjStatement<'_>> {
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    let mut lines = bytes.split(move |byte| *byte == end).map(LineText::new).enumerate();
     std::iter::from_fn(move || {
         loop {
             let (index, first) = lines.next()?;
-            let first = trimmed(first);
-            let text = match first.ends_with('\\') {
-                true => Cow::Owned(joined(first, &mut lines)),
-                false => Cow::Borrowed(first),
+            let line = match first.is_continued() {
+                true => joined(first, &mut lines),
+                false => first,
             };
-            if !text.is_empty() {
-                return Some(ObjStatement::new(index + 1, text));
+            if !line.text.is_empty() {
+                return Some(ObjStatement::new(index + 1, line));
             }
         }
     })
 }
 
 /// A line that ends in a backslash, and those that continue it.
-fn joined<'a>(first: &str, lines: &mut impl Iterator<Item = (usize, &'a str)>) -> String {
-    let mut text = first.to_owned();
-    while text.ends_with('\\') {
+fn joined<'a>(first: LineText<'a>, lines: &mut impl Iterator<Item = (usize, LineText<'a>)>) -> LineText<'a> {
+    let (mut text, mut is_bytes, mut is_continued) = (first.text.into_owned(), first.is_bytes, true);
+    while is_continued {
         text.pop();
         text.push(' ');
-        text.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
-        text.truncate(text.trim_end().len());
+        let Some((_, next)) = lines.next() else { break };
+        is_continued = next.is_continued();
+        is_bytes |= next.is_bytes;
+        text.push_str(&next.text);
     }
-    if text.starts_with(' ') { text.trim_start().to_owned() } else { text }
+    text.truncate(text.trim_end().len());
+    let text = if text.starts_with(' ') { text.trim_start().to_owned() } else { text };
+    LineText { text: Cow::Owned(text), is_bytes }
 }
 
 /// Line without blanks at its ends and without a comment. A comment begins with a `#` at the start of a word: names may contain one inside.
@@ -88,6 +140,13 @@ fn trimmed(line: &str) -> &str {
     let begins = |&(at, _): &(usize, &str)| at == 0 || line[..at].ends_with(char::is_whitespace);
     let end = line.match_indices('#').find(begins).map_or(line.len(), |(at, _)| at);
     line[..end].trim()
+}
+
+/// The same for bytes.
+fn trimmed_bytes(line: &[u8]) -> &[u8] {
+    let begins = |at: &usize| line[*at] == b'#' && (*at == 0 || line[*at - 1].is_ascii_whitespace());
+    let end = (0..line.len()).find(begins).unwrap_or(line.len());
+    line[..end].trim_ascii()
 }
 
 /// Statements for tobj.
@@ -140,7 +199,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Vec<(usize, String, String)> {
-        statements(text).map(|s| (s.line, s.keyword().to_owned(), s.rest().to_owned())).collect()
+        statements(text.as_bytes()).map(|s| (s.line, s.keyword().to_owned(), s.rest().to_owned())).collect()
     }
 
     #[test]
@@ -158,11 +217,26 @@ mod tests {
         assert_eq!(read("v 1 \\"), [(1, "v".to_owned(), "1".to_owned())]);
     }
 
+    #[test]
+    fn lines_that_are_not_utf8_are_read_byte_by_byte() {
+        let names = |bytes: &[u8]| -> Vec<String> { statements(bytes).map(|s| s.rest().to_owned()).collect() };
+        assert_eq!(names(b"usemtl Geh\xe4use\nusemtl Geh\xc3\xa4use\n"), ["Geh\u{e4}use"; 2], "Latin-1, UTF-8");
+        assert_eq!(names(b"usemtl Geh\xc3\xa4use # Ma\xdfe\n"), ["Geh\u{e4}use"], "a comment in another encoding");
+        // 0x85 and 0xa0 are blanks in Unicode; 0x5c, the last byte of a character in Shift-JIS, is no continuation.
+        assert_eq!(names(b"usemtl \xb0\x85\nusemtl \xb0\xa0\n"), ["\u{b0}\u{85}", "\u{b0}\u{a0}"]);
+        assert_eq!(names(b"usemtl \x95\x5c\nusemtl b\n"), ["\u{95}\\", "b"]);
+        assert_eq!(names(b"f 1 2 \\\n3\n"), ["1 2  3"]);
+        assert_eq!(names(b"v 1\rv 2\r"), ["1", "2"], "line ends of old Macintosh files");
+        let wide: Vec<u8> =
+            [0xfeff].into_iter().chain("usemtl ä\n".encode_utf16()).flat_map(u16::to_le_bytes).collect();
+        assert_eq!(names(&without_mark(&wide)), ["ä"]);
+    }
+
     /// A copy of the whole for each line would move 10¹² bytes here.
     #[test]
     fn a_statement_goes_over_many_lines() {
         let text = format!("f{}", " 1\\\n".repeat(1_000_000));
-        let actual: Vec<ObjStatement<'_>> = statements(&text).collect();
+        let actual: Vec<ObjStatement<'_>> = statements(text.as_bytes()).collect();
         assert_eq!((actual.len(), actual[0].words().count()), (1, 1_000_000));
     }
 

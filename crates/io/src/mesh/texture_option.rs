@@ -21,32 +21,63 @@ impl UvLayout {
     }
 }
 
+/// Use of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TextureUsage {
+    Colour,
+    Number,
+    Normals,
+}
+
 /// Texture reference of a material library.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureReference {
-    /// File name, with forward slashes.
+    /// File name as written.
     pub(super) file: String,
     pub(super) layout: UvLayout,
+    /// Channel of a texture of numbers (`-imfchan`): r, g, b, m (opacity), l (mean) or z.
+    pub(super) channel: Option<String>,
+    /// Factor on the slopes of a bump or normal map (`-bm`).
+    pub(super) multiplier: Option<f64>,
     /// Notes on unused options and other differences.
     pub(super) notes: Vec<String>,
 }
 
 /// Parses everything after the keyword.
 pub(super) fn parse(text: &str) -> Result<TextureReference, String> {
-    let mut texture = TextureReference { file: String::new(), layout: UvLayout::PLAIN, notes: Vec::new() };
+    let mut texture = TextureReference {
+        file: String::new(),
+        layout: UvLayout::PLAIN,
+        channel: None,
+        multiplier: None,
+        notes: Vec::new(),
+    };
     let mut rest = text;
     while let Some((option, after)) = next_option(rest) {
         rest = texture.take(option, after)?;
     }
-    let name = rest.trim();
+    let (name, options) = name_and_options(rest.trim());
     if name.is_empty() {
         return Err("texture without a file name".to_owned());
     }
-    texture.file = name.replace('\\', "/");
-    if texture.file != name {
-        texture.notes.push(format!("`{name}` is interpreted as `{}`", texture.file));
+    texture.file = name.to_owned();
+    // The last word of options after the name is no file.
+    let ended = format!("{options} .");
+    let mut rest = &ended[..];
+    while let Some((option, after)) = next_option(rest) {
+        rest = texture.take(option, after)?;
     }
     Ok(texture)
+}
+
+/// Splits the file name from options that some programs write after it: those that follow a file ending.
+fn name_and_options(text: &str) -> (&str, &str) {
+    let begins = text.match_indices(" -").map(|(at, _)| at);
+    let is_option = |at: &usize| next_option(&text[*at..]).is_some() && text[..*at].contains('.');
+    match begins.into_iter().find(is_option) {
+        Some(at) => (text[..at].trim(), text[at..].trim()),
+        None => (text, ""),
+    }
 }
 
 /// Option at the start of `rest`, and the text after it. A name that begins with `-` and is no known option is a file.
@@ -72,6 +103,16 @@ impl TextureReference {
             "-o" => vector(option, after, &mut self.layout.offset),
             "-t" => Ok(self.pass_over(option, after, numbers(after, 3).0.len())),
             "-mm" => Ok(self.pass_over(option, after, 2)),
+            "-imfchan" => {
+                let (word, after) = first_word(after).ok_or("`-imfchan` without a channel")?;
+                self.channel = Some(word.to_ascii_lowercase());
+                Ok(after)
+            }
+            "-bm" => {
+                let (word, after) = first_word(after).ok_or("`-bm` without a number")?;
+                self.multiplier = Some(number(word).map_err(|problem| problem.words)?);
+                Ok(after)
+            }
             "-clamp" => {
                 let (word, after) = first_word(after).ok_or("`-clamp` without on or off")?;
                 if word == "on" {
@@ -81,6 +122,22 @@ impl TextureReference {
             }
             _ => Ok(self.pass_over(option, after, 1)),
         }
+    }
+
+    /// Factor on the slopes of a normal map.
+    pub(super) fn strength(&self) -> f64 {
+        const MAX_STRENGTH: f64 = 10.0;
+        self.multiplier.unwrap_or(1.0).clamp(0.0, MAX_STRENGTH)
+    }
+
+    /// Notes on options without use: those of colours, of numbers or of normals.
+    pub(super) fn notes_for(&self, usage: TextureUsage) -> Vec<String> {
+        let channel = self.channel.as_ref().filter(|_| usage != TextureUsage::Number);
+        let multiplier = self.multiplier.filter(|_| usage != TextureUsage::Normals);
+        let options = channel.map(|channel| format!("-imfchan {channel}")).into_iter();
+        let options = options.chain(multiplier.map(|multiplier| format!("-bm {multiplier}")));
+        let notes = options.map(|option| format!("the texture option `{option}` is not used"));
+        self.notes.iter().cloned().chain(notes).collect()
     }
 
     fn pass_over<'a>(&mut self, option: &str, after: &'a str, words: usize) -> &'a str {
@@ -134,6 +191,18 @@ mod tests {
                 "the texture option `-clamp on` is not used: the texture repeats",
             ]
         );
+    }
+
+    #[test]
+    fn options_may_follow_the_name() {
+        let texture = parse("my bump.png -bm 0.3 -imfchan R").expect("readable");
+        assert_eq!(
+            (&texture.file[..], texture.multiplier, texture.channel.as_deref()),
+            ("my bump.png", Some(0.3), Some("r"))
+        );
+        assert_eq!(texture.notes_for(TextureUsage::Colour).len(), 2);
+        assert_eq!(parse("a.png -s 2 3").expect("readable").layout.scale, [2.0, 3.0]);
+        assert_eq!(parse("a -so.png").expect("readable").file, "a -so.png");
     }
 
     #[test]

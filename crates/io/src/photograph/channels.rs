@@ -11,7 +11,7 @@ use image::DynamicImage;
 
 use super::side_car::RawFacts;
 use crate::encoding::{Encoding, SourcedEncoding};
-use crate::picture::{PixelStorage, decode_raster};
+use crate::picture::{PixelStorage, RasterFormats, decode_raster};
 use crate::{Error, ErrorCode, png};
 
 /// Supported kinds of file.
@@ -98,7 +98,7 @@ pub(super) fn separated(names: &[&str], samples: &[f32]) -> Vec<PhotographChanne
 }
 
 pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
-    let (_, image) = decode_raster(file, bytes, super::KINDS, PixelStorage::Floats)?;
+    let (_, image) = decode_raster(file, bytes, RasterFormats::measured(super::KINDS), PixelStorage::Floats)?;
     let (width, height, colour) = (image.width() as usize, image.height() as usize, image.color());
     let (samples, full_scale) = samples(&image);
     let channels = usize::from(colour.channel_count());

@@ -6,6 +6,7 @@ use std::{borrow::Cow, ops::RangeInclusive, path::Path};
 
 use etendue_scene::asset::{PhotometryAxes, Tilt};
 
+use crate::named_file::{NamedFile, find_named_file};
 use crate::{Error, Problem, Sandbox, source::read_description_bytes};
 
 /// Numbers of a text from some line on.
@@ -245,18 +246,27 @@ pub(super) fn table(fields: &mut FieldReader<'_>) -> Result<Tilt, Error> {
     Ok(Tilt::Table { geometry, factors: tilts.into_iter().zip(factors).collect() })
 }
 
-/// Table in the file of that name next to `file`, and its bytes.
-pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox) -> Result<(Tilt, Vec<u8>), Error> {
-    let path = file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
+/// Table of a separate file.
+pub(super) struct TiltFile {
+    pub(super) tilt: Tilt,
+    pub(super) bytes: Vec<u8>,
+    /// Difference between the name and the file.
+    pub(super) note: Option<String>,
+}
+
+/// Table in the file of that name next to `file`.
+pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox) -> Result<TiltFile, Error> {
+    let folder = file.parent().unwrap_or(Path::new(""));
     let place = format!("{}:{line}: TILT", file.display());
     let read = || {
-        sandbox.check(&path).map_err(|problem| Error::new(&path, problem))?;
+        let NamedFile { path, note, .. } = find_named_file(&[folder], name, sandbox)
+            .map_err(|problem| Error::new(&folder.join(name.replace('\\', "/")), problem))?;
         let bytes = read_description_bytes(&path, "tilt")?;
         let text = decode(&path, &bytes)?.into_owned();
         let mut fields = FieldReader::divided_by_commas(&path, text.lines().enumerate().map(|(i, line)| (i + 1, line)));
         let tilt = table(&mut fields)?;
         fields.end("the factors of tilts")?;
-        Ok((tilt, bytes))
+        Ok(TiltFile { tilt, bytes, note })
     };
     read().map_err(|error: Error| error.named_at(place))
 }

@@ -50,18 +50,19 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
     let head = head(file, text)?;
     let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
     let mut fields = FieldReader::divided_by_commas(file, numbered);
-    let (tilt, further) = match head.tilt {
-        fields::TiltStatement::None => (Tilt::None, None),
-        fields::TiltStatement::Include => (fields::table(&mut fields)?, None),
+    let (tilt, further, tilt_note) = match head.tilt {
+        fields::TiltStatement::None => (Tilt::None, None, None),
+        fields::TiltStatement::Include => (fields::table(&mut fields)?, None, None),
         fields::TiltStatement::File(name) => {
-            let (tilt, bytes) = fields::from_file(file, head.line, name, sandbox)?;
-            (tilt, Some(bytes))
+            let fields::TiltFile { tilt, bytes, note } = fields::from_file(file, head.line, name, sandbox)?;
+            (tilt, Some(bytes), note)
         }
     };
     let body = body(&mut fields)?;
     let edition = head.identification.edition(file, body.further)?;
     let mut report: Vec<String> = head.identification.note().into_iter().collect();
     report.extend(body.edition_notes(edition));
+    report.extend(tilt_note);
     report.extend(fields::note(&tilt));
     let factor = body.factor(edition);
     let (vertical_deg, planes) = grid(file, &mut fields, &body, factor, &mut report)?;

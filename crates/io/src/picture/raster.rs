@@ -1,4 +1,4 @@
-//! Decoder of PNG, JPEG and Radiance HDR, and of float images.
+//! Decoder of images, except OpenEXR (`formats.rs` lists them).
 
 use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
@@ -6,13 +6,20 @@ use std::path::Path;
 use etendue_scene::asset::{ColourMatrix, ImagePixels, PixelFormat};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
-use crate::exr::{ExrChannel, ExrFile};
+use super::formats::{RasterFormats, TEXTURES, consistent_tga, unread_format};
+use super::radiance::RadianceFile;
 use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
 /// Decodes `bytes`, identified by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<DecodedImage, Error> {
-    let (_, image) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", PixelStorage::Stored)?;
-    Ok((image.width(), image.height(), as_pixels(image), None))
+    let (format, image) = decode_raster(file, bytes, TEXTURES, PixelStorage::Stored)?;
+    let size = [image.width(), image.height()];
+    if format != ImageFormat::Hdr {
+        return Ok((size[0], size[1], as_pixels(image), None));
+    }
+    let radiance = RadianceFile::new(bytes);
+    let ([width, height], pixels) = radiance.upright(size, as_pixels(image));
+    Ok((width, height, pixels, radiance.to_rec_709()))
 }
 
 /// Decodes `bytes` of a known format.
@@ -21,22 +28,27 @@ pub(super) fn decode_as(file: &Path, bytes: &[u8], format: ImageFormat) -> Resul
     Ok((image.width(), image.height(), as_pixels(image), None))
 }
 
-/// Image as stored, with its format; the error for other files names the supported `kinds`.
+/// Image as stored, with its format; the error for other files names the supported `formats`.
 pub(crate) fn decode_raster(
     file: &Path,
     bytes: &[u8],
-    kinds: &str,
+    formats: RasterFormats,
     storage: PixelStorage,
 ) -> Result<(ImageFormat, DynamicImage), Error> {
-    let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
-    let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
-    let unknown =
-        || Error::coded(ErrorCode::UnsupportedFile, file, format!("not an image of a known format; expected {kinds}"));
-    let format = format.ok_or_else(unknown)?;
+    let unknown = || {
+        let words = unread_format(bytes).map(str::to_owned);
+        let words = words.unwrap_or_else(|| format!("not an image of a known format; expected {}", formats.words));
+        Error::coded(ErrorCode::UnsupportedFile, file, words)
+    };
+    let format = formats.recognise(bytes).ok_or_else(unknown)?;
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(Error::new(file, "the JPEG has no end marker: it is truncated; create or download it again"));
     }
-    guarded(file, || decode_unguarded(file, bytes, format, storage))
+    guarded(file, || match format {
+        ImageFormat::Hdr => decode_unguarded(file, &RadianceFile::new(bytes).bytes, format, storage),
+        ImageFormat::Tga => decode_unguarded(file, &consistent_tga(bytes), format, storage),
+        _ => decode_unguarded(file, bytes, format, storage),
+    })
 }
 
 fn decode_unguarded(
@@ -45,14 +57,26 @@ fn decode_unguarded(
     format: ImageFormat,
     storage: PixelStorage,
 ) -> Result<(ImageFormat, DynamicImage), Error> {
-    let explained = |cause: ImageError| Error::new(file, explain(&cause));
+    let explained = |cause: ImageError| Error::new(file, explain(format, &cause));
     let mut limits = image::Limits::no_limits();
     limits.max_alloc = Some(u64::try_from(2 * texture_memory::max_bytes(bytes.len())).unwrap_or(u64::MAX));
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(explained)?;
     texture_memory::check_bytes(file, storage.bytes(&decoder), bytes.len())?;
-    Ok((format, DynamicImage::from_decoder(decoder).map_err(explained)?))
+    let image = DynamicImage::from_decoder(decoder).map_err(explained)?;
+    let may_omit_opacity = matches!(format, ImageFormat::Tga | ImageFormat::Bmp);
+    Ok((format, if may_omit_opacity { with_opacity(image) } else { image }))
+}
+
+/// An image whose pixels all have the opacity 0 is opaque: its writer left these bytes unset.
+fn with_opacity(mut image: DynamicImage) -> DynamicImage {
+    if let DynamicImage::ImageRgba8(pixels) = &mut image
+        && pixels.pixels().all(|pixel| pixel.0[3] == 0)
+    {
+        pixels.pixels_mut().for_each(|pixel| pixel.0[3] = u8::MAX);
+    }
+    image
 }
 
 /// Storage of an image's numbers.
@@ -93,10 +117,12 @@ pub(super) fn stored_format(colours: ColorType) -> PixelFormat {
     }
 }
 
-fn explain(cause: &ImageError) -> String {
+fn explain(format: ImageFormat, cause: &ImageError) -> String {
+    let is_float = matches!(format, ImageFormat::Hdr | ImageFormat::Tiff);
+    let other = if is_float { "OpenEXR" } else { "plain PNG" };
     match cause {
         ImageError::Unsupported(what) => {
-            format!("uses a feature that is not supported ({what}); save the image as plain PNG")
+            format!("uses a feature that is not supported ({what}); save the image as {other}")
         }
         ImageError::Limits(what) => format!("too large to be read ({what}); make the image smaller"),
         other => format!("not a readable image ({other}); it may be truncated or damaged: create or download it again"),
@@ -141,48 +167,6 @@ pub fn has_colours_of_8_bits(file: &Path, bytes: impl BufRead + Seek) -> bool {
 
 /// Width, height, pixels, and the matrix from their colours to Rec. 709.
 pub(super) type DecodedImage = (u32, u32, ImagePixels, Option<ColourMatrix>);
-
-/// R, G, B of an EXR file, or Y for all three; with A if present.
-pub(super) fn from_exr(file: &Path, exr: ExrFile) -> Result<DecodedImage, Error> {
-    exr.check_is_no_cube_map(file)?;
-    let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
-    let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
-    let to_rec_709 = exr.to_rec_709;
-    // Unused channels are dropped before the image is assembled.
-    let mut planes = ["R", "G", "B", "Y", "A"].map(|_| None);
-    for ExrChannel { name, samples } in exr.channels {
-        let place = ["R", "G", "B", "Y", "A"].iter().position(|wanted| name == *wanted);
-        if let Some(empty @ None) = place.map(|at| &mut planes[at]) {
-            *empty = Some(samples.into_floats());
-        }
-    }
-    let [r, g, b, y, a] = planes;
-    let (pixels, to_rec_709) = match (r, g, b, y) {
-        (Some(r), Some(g), Some(b), _) => {
-            (joined(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]), a), to_rec_709)
-        }
-        (None, None, None, Some(y)) => (joined(y.iter().map(|y| [*y; 3]), a), None),
-        _ => {
-            return Err(Error::new(
-                file,
-                format!("not an image of R, G, B or Y; its channels are {}", names.join(", ")),
-            ));
-        }
-    };
-    Ok((width, height, pixels, to_rec_709))
-}
-
-fn joined(colours: impl Iterator<Item = [f32; 3]>, opacity: Option<Vec<f32>>) -> ImagePixels {
-    match opacity {
-        None => ImagePixels::Rgb32F(colours.collect()),
-        Some(a) => ImagePixels::Rgba32F(colours.zip(&a).map(|([r, g, b], a)| [r, g, b, *a]).collect()),
-    }
-}
-
-fn size(file: &Path, pixels: usize) -> Result<u32, Error> {
-    u32::try_from(pixels)
-        .map_err(|_| Error::coded(ErrorCode::TooLarge, file, format!("a side of {pixels} pixels is too long")))
-}
 
 /// Refuses the first non-finite pixel.
 pub(super) fn check_finite(file: &Path, width: u32, pixels: &ImagePixels) -> Result<(), Error> {
@@ -283,7 +267,8 @@ mod tests {
             assert!(message.starts_with("t.png: ") && message.contains("truncated"), "{message}");
         }
         let message = read(b"#!/bin/sh\n").expect_err("a script");
-        assert_eq!(message, "t.png: not an image of a known format; expected PNG, JPEG, Radiance HDR or OpenEXR");
+        let kinds = "PNG, JPEG, TGA, BMP, TIFF, WebP, DDS, PNM, Radiance HDR or OpenEXR";
+        assert_eq!(message, format!("t.png: not an image of a known format; expected {kinds}"));
     }
 
     #[test]

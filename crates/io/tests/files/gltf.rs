@@ -71,7 +71,7 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
 }
 
 /// File of two triangles (corners 0 0 0, 1 0 0, 1 1 0, 0 1 0) with texture coordinates equal to their x and y, to be changed.
-fn square() -> Value {
+pub(super) fn square() -> Value {
     let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
     let mut bytes = floats(&[0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0.]);
     bytes.extend(floats(&[0., 0., 1., 0., 1., 1., 0., 1.]));
@@ -96,7 +96,7 @@ fn square() -> Value {
     })
 }
 
-fn base64(bytes: &[u8]) -> String {
+pub(super) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let group = |group: &[u8]| {
         let bits = group.iter().fold(0_u32, |bits, b| bits << 8 | u32::from(*b)) << (8 * (3 - group.len()));
@@ -107,7 +107,7 @@ fn base64(bytes: &[u8]) -> String {
     bytes.chunks(3).map(group).collect()
 }
 
-fn read_bytes(name: &str, bytes: &[u8], others: &[(&str, &[u8])]) -> Result<MeshAsset, String> {
+pub(super) fn read_bytes(name: &str, bytes: &[u8], others: &[(&str, &[u8])]) -> Result<MeshAsset, String> {
     let folder = tempfile::tempdir().expect("temporary folder");
     others.iter().for_each(|(name, bytes)| fs::write(folder.path().join(name), bytes).expect("written"));
     fs::write(folder.path().join(name), bytes).expect("written");
@@ -116,7 +116,7 @@ fn read_bytes(name: &str, bytes: &[u8], others: &[(&str, &[u8])]) -> Result<Mesh
 }
 
 /// Reads the square after a change.
-fn changed(change: impl FnOnce(&mut Value)) -> Result<MeshAsset, String> {
+pub(super) fn changed(change: impl FnOnce(&mut Value)) -> Result<MeshAsset, String> {
     let mut file = square();
     change(&mut file);
     read_bytes("a.gltf", file.to_string().as_bytes(), &[])
@@ -129,7 +129,7 @@ fn refused(phrases: &[&str], change: impl FnOnce(&mut Value)) {
 }
 
 /// A tiny PNG of one colour.
-fn png(rgba: [u8; 4]) -> Vec<u8> {
+pub(super) fn png(rgba: [u8; 4]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
     encoder.set_color(png::ColorType::Rgba);

@@ -404,7 +404,7 @@ fn mirrors_are_unfolded() {
 fn a_mirror_keeps_the_medium_before_it_and_codev_s_first_surface_is_the_stop() {
     let mangin = "RDM\nEPD 20\nSO 0 1e13\nS -120 5 NBK7_SCHOTT\nS -100 -5 REFL\nS -120 -50\nSI 0 -0.5\nGO\n";
     let lens = read("lens.seq", mangin).expect("a lens");
-    let glass = GlassAsset::Named("N-BK7".into());
+    let glass = built_in("N-BK7");
     let [front, mirror, back] = &lens.surfaces[..] else { panic!("three surfaces") };
     assert_eq!((&front.glass, &mirror.glass, &back.glass), (&glass, &glass, &GlassAsset::Air));
     // Behind the mirror z is reversed: the same surface is convex towards the light, and the image 0.5 mm further along it.

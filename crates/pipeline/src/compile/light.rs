@@ -79,7 +79,7 @@ fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spe
 }
 
 fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEnvironment> {
-    let Some(asset) = context.assets.images.get(&record.file.value) else {
+    let Some(asset) = context.assets.images.get(&record.image_key()) else {
         context.error(
             ErrorCode::UnreadableFile,
             &record.file.place,

@@ -7,6 +7,7 @@ mod lens_table;
 mod mesh;
 mod mesh_frame;
 mod mtl;
+mod mtl_layers;
 mod photometry;
 mod point_spread;
 mod prescription;
@@ -23,6 +24,7 @@ pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, UndistortedProje
 pub use mesh::{ColourMatrix, ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
+pub use mtl_layers::MtlPictures;
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use point_spread::{FieldPoint, PointSpreadAsset};
 pub use prescription::{
@@ -35,6 +37,6 @@ pub use slot_layers::{
     SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotPicture, SlotSolid, SlotTopLayer, SlotTransmission, SlotWrap,
     is_gltf,
 };
-pub use store::Assets;
+pub use store::{Assets, layer_key};
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};
 pub use trajectory::{TrajectoryAsset, TrajectoryRow};

@@ -2,9 +2,9 @@
 //!
 //! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights (`Ks` above 0, illumination model 2
 //! or more or not stated, and `Ns` above 0) or with a roughness `Pr` becomes "coated". The index is `Ni`, or 1.5 if it is absent or outside 1.1 … 4,
-//! which is reported. α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width with the curvature of a
+//! which is reported. Metal, transparency, and textures of numbers: `mtl_layers.rs`. α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width with the curvature of a
 //! Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007). An MTL has no unit for light, so `Ke` is reported and
-//! not used; the same applies to metalness, transparency and the colour of highlights.
+//! not used; the same applies to the colour of highlights.
 
 use std::path::PathBuf;
 
@@ -40,20 +40,20 @@ pub enum SlotSurface {
         /// GGX roughness of the coat.
         alpha: f64,
     },
-    /// A material of a glTF file.
+    /// A material of a glTF file, or of an MTL with more than a colour and a coat.
     Layers(Box<SlotLayers>),
 }
 
 impl SlotSurface {
-    /// The image file of its reflectance; `None` if there is none, or if it is embedded in the mesh's file.
+    /// Its images that are files of their own.
     #[must_use]
-    pub fn picture(&self) -> Option<&PathBuf> {
+    pub fn files(&self) -> Vec<&PathBuf> {
         match self {
             Self::Diffuse { reflectance } | Self::Coated { reflectance, .. } => match reflectance {
-                SlotReflectance::Image(file) => Some(file),
-                SlotReflectance::LinearSrgb(_) => None,
+                SlotReflectance::Image(file) => vec![file],
+                SlotReflectance::LinearSrgb(_) => Vec::new(),
             },
-            Self::Layers(_) => None,
+            Self::Layers(layers) => layers.files().collect(),
         }
     }
 }
@@ -90,6 +90,8 @@ pub struct MtlFields {
     pub opacity: Option<f64>,
     /// `illum`.
     pub illumination_model: Option<u8>,
+    /// `Tf`.
+    pub filter: Option<[f64; 3]>,
 }
 
 impl MtlFields {
@@ -105,7 +107,7 @@ impl MtlFields {
         (SlotMaterial { name: name.to_owned(), surface }, report)
     }
 
-    fn reflectance(&self, name: &str, report: &mut Vec<String>) -> Option<SlotReflectance> {
+    pub(super) fn reflectance(&self, name: &str, report: &mut Vec<String>) -> Option<SlotReflectance> {
         if let Some(map) = &self.diffuse_map {
             return Some(SlotReflectance::Image(map.clone()));
         }
@@ -120,7 +122,7 @@ impl MtlFields {
     }
 
     /// Roughness of the coat; `None` for a material without highlights.
-    fn alpha(&self) -> Option<f64> {
+    pub(super) fn alpha(&self) -> Option<f64> {
         let shiny = self.specular.is_some_and(|ks| ks.iter().any(|v| *v > 0.0));
         let by_exponent = self.exponent.filter(|n| shiny && *n > 0.0 && self.illumination_model.is_none_or(|m| m >= 2));
         let alpha = match (self.roughness, by_exponent) {
@@ -131,7 +133,7 @@ impl MtlFields {
         Some(alpha.min(1.0))
     }
 
-    fn coat_index(&self, name: &str, report: &mut Vec<String>) -> f64 {
+    pub(super) fn coat_index(&self, name: &str, report: &mut Vec<String>) -> f64 {
         let Some(index) = self.index else { return DEFAULT_INDEX };
         if COAT_INDICES.contains(&index) {
             return index;
@@ -145,14 +147,28 @@ impl MtlFields {
     }
 
     fn report_unused(&self, name: &str, report: &mut Vec<String>) {
-        let emits = self.emission.is_some_and(|ke| ke.iter().any(|v| *v > 0.0));
         let metal = self.metalness.is_some_and(|m| m > 0.0);
         let clear = self.opacity.is_some_and(|d| d < 1.0);
+        let notes = [
+            (metal, "Pm (metalness) is not used; set \"conductor\" in the scene"),
+            (clear, "transparency (d, Tr) is not used: the surface is opaque"),
+            (self.is_tinted(), "Tf is not used"),
+        ];
+        self.report_light(name, report);
+        report.extend(notes.iter().filter(|(is, _)| *is).map(|(_, note)| format!("material \"{name}\": {note}")));
+    }
+
+    /// True if `Tf` states a colour other than white.
+    pub(super) fn is_tinted(&self) -> bool {
+        self.filter.is_some_and(|filter| filter != [1.0; 3])
+    }
+
+    /// Reports emission and coloured highlights, which no conversion uses.
+    pub(super) fn report_light(&self, name: &str, report: &mut Vec<String>) {
+        let emits = self.emission.is_some_and(|ke| ke.iter().any(|v| *v > 0.0));
         let tinted = self.specular.is_some_and(|[r, g, b]| r != g || g != b);
         let notes = [
             (emits, "Ke has no unit and is not used; set \"emission\" in the scene"),
-            (metal, "Pm (metalness) is not used; set \"conductor\" in the scene"),
-            (clear, "transparency (d, Tr) is not used: the surface is opaque"),
             (tinted, "the colour of highlights (Ks) is not used"),
         ];
         report.extend(notes.iter().filter(|(is, _)| *is).map(|(_, note)| format!("material \"{name}\": {note}")));

@@ -59,6 +59,8 @@ pub enum AssetKind {
     MeshFrame,
     /// [`super::ImageAsset`].
     Image,
+    /// [`super::ImageAsset`] of a layer, at the key [`super::layer_key`].
+    ImageLayer(String),
     /// [`super::ImageAsset`] of a texture, or [`super::LargeImage`].
     Texture,
     /// [`super::SpectrumAsset`] of such values.

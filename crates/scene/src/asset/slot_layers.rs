@@ -1,4 +1,4 @@
-//! Conversion of a glTF material to a material of a scene.
+//! Materials of mesh files in layers: glTF, and MTL with textures of numbers, metal or glass.
 
 use std::path::{Path, PathBuf};
 
@@ -57,8 +57,10 @@ pub struct SlotTransmission {
     pub fraction: SlotNumber,
     /// Refractive index, 1 … 4.
     pub index: f64,
-    /// Absorption inside a solid; `None` for a pane without thickness, which the base colour tints.
+    /// Absorption inside a solid; `None` for a pane without thickness.
     pub solid: Option<SlotSolid>,
+    /// Transmittance of a pane, linear sRGB, 0 … 1; `None` for the base colour.
+    pub tint: Option<[f64; 3]>,
 }
 
 /// The inside of a clear solid.
@@ -104,6 +106,8 @@ pub enum SlotNumber {
 pub struct SlotPicture {
     /// Its name among the images of the assets.
     pub file: PathBuf,
+    /// True if it is part of the mesh's asset; false if it is a file of its own.
+    pub is_embedded: bool,
     /// True if its values are encoded by the curve of sRGB.
     pub is_encoded: bool,
     /// Extension outside u, v = 0 … 1, along u and v.
@@ -122,6 +126,24 @@ pub enum SlotWrap {
 }
 
 impl SlotLayers {
+    /// Its images that are files of their own.
+    pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let base = match &self.base {
+            SlotColour::Picture(picture) => Some(picture),
+            SlotColour::LinearSrgb(_) => None,
+        };
+        let numbers = [Some(&self.metal), Some(&self.alpha), self.opacity.as_ref()].into_iter();
+        let clear = self.transmission.as_ref().map(|transmission| &transmission.fraction);
+        let numbers = numbers.chain([clear]).flatten().filter_map(|number| match number {
+            SlotNumber::Picture(picture) => Some(picture),
+            SlotNumber::Number(_) => None,
+        });
+        let emission = self.emission.as_ref().and_then(|emission| emission.picture.as_ref());
+        let normals = self.normals.as_ref().map(|(picture, _)| picture);
+        let pictures = base.into_iter().chain(numbers).chain(emission).chain(normals);
+        pictures.filter(|picture| !picture.is_embedded).map(|picture| &picture.file)
+    }
+
     /// True if any part is an image, which needs texture coordinates.
     #[must_use]
     pub fn has_picture(&self) -> bool {

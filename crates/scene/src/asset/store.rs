@@ -91,13 +91,15 @@ impl Assets {
         } = self;
         let is_match = |file: &Path| file == path || is_numbered(path, file);
         let meshes: Vec<&MeshAsset> = meshes.iter().filter(|(file, _)| is_match(file)).map(|(_, mesh)| mesh).collect();
-        let image_files = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
+        let image_files = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().flat_map(files));
         let image = |path: &Path| {
             images.get(path).map(|asset| asset.hash).or_else(|| large_images.get(path).map(|asset| asset.hash))
         };
         let mut hashes: Vec<[u8; 32]> = meshes.iter().map(|asset| asset.hash).collect();
         hashes.extend(mesh_frames.iter().filter(|(file, _)| is_match(file)).map(|(_, asset)| asset.hash));
         hashes.extend(image_files.chain([path]).filter_map(image));
+        let layers = images.iter().filter(|(key, _)| is_layer_of(key, path));
+        hashes.extend(layers.map(|(_, asset)| asset.hash));
         hashes.extend(spectra.get(path).map(|asset| asset.hash));
         hashes.extend(photometry.get(path).map(|asset| asset.hash));
         hashes.extend(indices.get(path).map(|asset| asset.hash));
@@ -118,6 +120,7 @@ impl Assets {
             AssetKind::Mesh => self.meshes.contains_key(path),
             AssetKind::MeshFrame => self.mesh_frames.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
+            AssetKind::ImageLayer(layer) => self.images.contains_key(&layer_key(path, layer)),
             AssetKind::Texture => self.images.contains_key(path) || self.large_images.contains_key(path),
             AssetKind::Spectrum(_) => self.spectra.contains_key(path),
             AssetKind::Photometry => self.photometry.contains_key(path),
@@ -135,6 +138,23 @@ impl Assets {
     }
 }
 
+/// Key of a layer of an image file in [`Assets::images`].
+#[must_use]
+pub fn layer_key(file: &Path, layer: &str) -> PathBuf {
+    let mut key = file.as_os_str().to_owned();
+    key.push(format!("{LAYER_MARK}{layer}"));
+    key.into()
+}
+
+/// Text between the file and the layer in a key.
+const LAYER_MARK: &str = "#layer ";
+
+/// True if `key` is that of a layer of the file.
+fn is_layer_of(key: &Path, file: &Path) -> bool {
+    let (key, file) = (key.as_os_str().as_encoded_bytes(), file.as_os_str().as_encoded_bytes());
+    key.strip_prefix(file).is_some_and(|rest| rest.starts_with(LAYER_MARK.as_bytes()))
+}
+
 /// Images of the visible materials of a mesh's file.
 fn textures_of<'a>(
     file: &'a Path,
@@ -145,15 +165,15 @@ fn textures_of<'a>(
     let is_requested = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
     let visible_slots =
         mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, is_visible)| is_visible.then_some(slot));
-    visible_slots.filter(is_requested).filter_map(picture).map(move |path| {
+    visible_slots.filter(is_requested).flat_map(files).map(move |path| {
         let (path, place) = (path.to_owned(), Place::file_head(file));
         AssetRequest { path, kind: AssetKind::Texture, place, covered: ReplacedMaterials::All }
     })
 }
 
-/// Image of a material of a mesh's file.
-fn picture(slot: &SlotMaterial) -> Option<&Path> {
-    slot.surface.as_ref()?.picture().map(PathBuf::as_path)
+/// Image files of a material of a mesh's file.
+fn files(slot: &SlotMaterial) -> impl Iterator<Item = &Path> {
+    slot.surface.iter().flat_map(|surface| surface.files()).map(PathBuf::as_path)
 }
 
 #[cfg(test)]
@@ -176,6 +196,7 @@ mod tests {
                 drop(assets.mesh_frames.insert(file, MeshFrameAsset { hash, ..Default::default() }));
             }
             AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(file, image(hash))),
+            AssetKind::ImageLayer(layer) => drop(assets.images.insert(layer_key(&file, layer), image(hash))),
             AssetKind::Spectrum(_) => drop(assets.spectra.insert(file, SpectrumAsset { hash, ..Default::default() })),
             AssetKind::Photometry => drop(assets.photometry.insert(file, lamp(hash))),
             AssetKind::ComplexIndex => {
@@ -281,6 +302,7 @@ mod tests {
             AssetKind::Mesh,
             AssetKind::MeshFrame,
             AssetKind::Image,
+            AssetKind::ImageLayer("a".to_owned()),
             AssetKind::Texture,
             AssetKind::Spectrum(SpectrumValues::Share),
             AssetKind::Photometry,

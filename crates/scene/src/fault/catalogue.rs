@@ -153,7 +153,7 @@ error_codes! {
     UnsupportedFile "unsupported-file":
         "The file is of a format, or uses a feature of its format, that this program does not read.",
         "Convert the file, or store it in one of the formats that the message names.",
-        Example::keys("file = \"tower.stl\"", "file = \"tower.obj\"");
+        Example::keys("file = \"tower.fbx\"", "file = \"tower.obj\"");
     UnsuitableFile "unsuitable-file":
         "The file can be read, but its content does not fit its use: its size, channels, values or parts differ.",
         "Give a file that fits, or change what uses it.",

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::usage::UnusedNames;
 use crate::asset::file_list::{FileList, NamesFiles as _};
 use crate::asset::{AssetKind, AssetRequest, LensQuantity, ReplacedMaterials, SpectrumValues};
+use crate::place::Placed;
 use crate::record::effects::ModulationSource;
 use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::{IlluminationSource, PixelDirections};
@@ -30,7 +31,7 @@ pub(crate) fn requests<'d>(
         frames.for_each(|file| files.add(AssetKind::MeshFrame, &file));
     }
     let textures = scene.textures.iter().filter(|t| !unused.textures.contains(&t.name.value));
-    textures.for_each(|t| files.add(AssetKind::Texture, &t.file));
+    textures.for_each(|t| files.add(image(AssetKind::Texture, t.layer.as_ref()), &t.file));
     let materials = scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value));
     materials.for_each(|m| m.name_files(&mut files));
     let frames = scene.frames.iter().filter(|f| !unused.frames.contains(&f.name.value));
@@ -104,10 +105,17 @@ fn light(light: &Light, files: &mut FileList) {
     light.modulation().into_iter().for_each(|modulation| modulation.name_files(files));
 }
 
+/// Kind of an image, or of one of its layers.
+fn image(complete: AssetKind, layer: Option<&Placed<String>>) -> AssetKind {
+    layer.map_or(complete, |layer| AssetKind::ImageLayer(layer.value.clone()))
+}
+
 fn environment(environment: &Environment, files: &mut FileList) {
     match environment {
         Environment::Uniform(emission) => emission.name_files(files),
-        Environment::Image(image) => files.add(AssetKind::Image, &image.file),
+        Environment::Image(environment) => {
+            files.add(image(AssetKind::Image, environment.layer.as_ref()), &environment.file);
+        }
         Environment::Sky(_) => {}
     }
 }

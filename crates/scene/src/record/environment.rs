@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use super::light::Emission;
 use super::moment::{Date, TimeOfDay, date, time_of_day};
+use super::texture::image_key;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::{Place, Placed};
-use crate::reader::{choice, flag, number, path, record, variants, words};
+use crate::reader::{choice, flag, number, path, record, text, variants, words};
 
 variants! {
     /// Light from infinity.
@@ -26,12 +27,22 @@ record! {
     pub struct EnvironmentImage {
         /// The image, in linear sRGB.
         required file: Placed<PathBuf> = path(&["hdr", "exr"]);
+        /// Layer of an EXR file. Default: the channels R, G, B without a layer.
+        optional layer: Placed<String> = text("the name of a layer");
         /// Luminance of a pixel (1, 1, 1).
         required luminance_cd_m2_per_unit: Placed<f64> = number("cd/m²").above(0.0);
         /// Rotation about the vertical, positive to the left. Default: 0.
         optional rotation_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
         /// Treatment of negative texels. Default: an error.
         optional negative_texels: Placed<NegativeTexels> = choice();
+    }
+}
+
+impl EnvironmentImage {
+    /// Its image among the images of the assets.
+    #[must_use]
+    pub fn image_key(&self) -> PathBuf {
+        image_key(&self.file.value, self.layer.as_ref())
     }
 }
 

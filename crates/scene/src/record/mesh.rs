@@ -30,7 +30,7 @@ keyed! {
     /// Source of the vertices and faces of a mesh.
     pub enum MeshSource {
         /// Wavefront OBJ, glTF 2.0 or PLY; precision 3e-8 of the mesh's extent at any distance.
-        file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf", "ply"]);
+        file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf", "ply", "stl"]);
         /// Moving vertices, from several files.
         vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();
     }

@@ -1,10 +1,15 @@
 //! `[[textures]]`: images on surfaces.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use crate::asset::layer_key;
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
+
+/// Extensions of image files for textures and masks.
+pub(crate) const IMAGE_EXTENSIONS: &[&str] =
+    &["png", "jpg", "jpeg", "tga", "bmp", "tif", "tiff", "webp", "dds", "ppm", "pgm", "hdr", "exr"];
 
 record! {
     /// An image that materials use as reflectance, as a factor, as normals or on their emission.
@@ -12,7 +17,9 @@ record! {
         /// Name.
         required name: Placed<String> = text("the name of the texture");
         /// The image; its first row is at v = 1.
-        required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
+        required file: Placed<PathBuf> = path(IMAGE_EXTENSIONS);
+        /// Layer of an EXR file, or one of its channels. Default: the channels R, G, B or Y without a layer.
+        optional layer: Placed<String> = text("the name of a layer");
         /// Meaning of the file's values.
         required encoding: Placed<Encoding> = choice();
         /// Extension outside u, v = 0 … 1. Default: "repeat".
@@ -65,11 +72,22 @@ words! {
 }
 
 impl Texture {
+    /// Its image among the images of the assets.
+    #[must_use]
+    pub fn image_key(&self) -> PathBuf {
+        image_key(&self.file.value, self.layer.as_ref())
+    }
+
     /// Mapping from points of a surface to the image.
     #[must_use]
     pub fn mapping(&self) -> Mapping {
         self.mapping.as_ref().map_or(Mapping::Uv, |m| m.value)
     }
+}
+
+/// Key of an image, or of its layer, among the images of the assets.
+pub(crate) fn image_key(file: &Path, layer: Option<&Placed<String>>) -> PathBuf {
+    layer.map_or_else(|| file.to_owned(), |layer| layer_key(file, &layer.value))
 }
 
 fn check(texture: &Texture, errors: &mut DescriptionErrors) {

@@ -10,12 +10,12 @@ mod token;
 
 use std::path::{Path, PathBuf};
 
+use etendue_io::named_file::{NamedFile, find_named_file};
 use etendue_io::source::{decode_text, read_bytes};
 use etendue_io::{Error, Sandbox};
 use etendue_scene::limits;
 
 use self::parse::Parser;
-use crate::lookup::{FileMatch, search};
 
 pub use token::{PbrtDirective, PbrtParameter, PbrtPlace, PbrtValues};
 
@@ -63,17 +63,12 @@ impl PbrtReader<'_, '_> {
 
     fn include(&mut self, file: &Path, line: usize, name: &str, depth: usize) -> Result<(), Error> {
         let message = |what: String| Error::at(file, line, what);
-        let path = match search(&self.folder, name) {
-            Some(FileMatch { path, is_exact }) => {
-                if !is_exact {
-                    let shown = path.strip_prefix(&self.folder).unwrap_or(&path).display().to_string();
-                    (self.take)(PbrtDirective::Include(shown), PbrtPlace { file, line }).map_err(message)?;
-                }
-                path
-            }
-            None => self.folder.join(name),
-        };
-        self.sandbox.check(&path).map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
+        let NamedFile { path, note, .. } = find_named_file(&[&self.folder], name, &self.sandbox)
+            .map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
+        if note.is_some() {
+            let shown = path.strip_prefix(&self.folder).unwrap_or(&path).display().to_string();
+            (self.take)(PbrtDirective::Include(shown), PbrtPlace { file, line }).map_err(message)?;
+        }
         if depth + 1 >= MAX_DEPTH {
             return Err(message(format!(
                 "includes are nested more than {MAX_DEPTH} levels deep; check for files that include each other"

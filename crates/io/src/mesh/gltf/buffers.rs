@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use gltf::{json::Root, json::buffer::View};
 
+use super::compression;
+use crate::named_file::{NamedFile, find_named_file};
 use crate::{ErrorCode, Problem, Sandbox, source::read_bytes};
 
 /// The bytes of all buffers.
@@ -11,21 +13,29 @@ pub(super) struct Buffers {
     all: Vec<Vec<u8>>,
     /// True for those that are separate files.
     is_external: Vec<bool>,
+    /// True for fallbacks of compressed data that the file omits.
+    is_omitted: Vec<bool>,
+    /// Differences between URIs and files.
+    pub(super) notes: Vec<String>,
 }
 
 impl Buffers {
     pub(super) fn read(file: &Path, root: &Root, blob: Option<Vec<u8>>, sandbox: &Sandbox) -> Result<Self, Problem> {
-        let (mut all, mut is_external, mut blob) = (Vec::new(), Vec::new(), blob);
+        let (mut all, mut is_external, mut is_omitted) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut notes, mut blob) = (Vec::new(), blob);
         for (i, buffer) in root.buffers.iter().enumerate() {
-            let (bytes, external) = match &buffer.uri {
+            let omitted = buffer.uri.is_none() && compression::is_fallback(buffer);
+            let embedded = |bytes| LinkedBytes { bytes, path: None, note: None };
+            let LinkedBytes { bytes, path, note } = match &buffer.uri {
+                None if omitted => embedded(Vec::new()),
                 None if i == 0 => {
-                    (blob.take().ok_or("buffer 0 has no \"uri\", and the file has no binary chunk")?, false)
+                    embedded(blob.take().ok_or("buffer 0 has no \"uri\", and the file has no binary chunk")?)
                 }
                 None => return Err(format!("buffer {i} has no \"uri\"").into()),
                 Some(uri) => linked(file, uri, &format!("buffer {i}"), sandbox)?,
             };
             let stated = buffer.byte_length.0;
-            if (bytes.len() as u64) < stated {
+            if !omitted && (bytes.len() as u64) < stated {
                 let has = bytes.len();
                 return Err(format!(
                     "buffer {i} has {has} bytes, but {stated} are stated: it is truncated; export or copy it again"
@@ -33,14 +43,19 @@ impl Buffers {
                 .into());
             }
             all.push(bytes);
-            is_external.push(external);
+            is_external.push(path.is_some());
+            is_omitted.push(omitted);
+            notes.extend(note);
         }
-        Ok(Self { all, is_external })
+        Ok(Self { all, is_external, is_omitted, notes })
     }
 
     /// The bytes of a view.
     pub(super) fn view(&self, view: &View) -> Result<&[u8], Problem> {
         let buffer = self.all.get(view.buffer.value()).ok_or("a view of a buffer that does not exist")?;
+        if self.is_omitted.get(view.buffer.value()) == Some(&true) {
+            return Err(compression::MESHOPT.refusal("a view").into());
+        }
         let start = view.byte_offset.unwrap_or_default().0;
         let range = start
             .checked_add(view.byte_length.0)
@@ -61,35 +76,42 @@ impl Buffers {
     }
 }
 
-/// Bytes of a URI, and true if it is a file. A missing file is also searched for by its last name component next to the glTF file.
-pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), Problem> {
-    if let Some(bytes) = data_uri(uri) {
-        return bytes.map(|bytes| (bytes, false)).map_err(|problem| format!("{what}: {problem}").into());
-    }
-    let path = find(file, uri, what, sandbox)?;
-    read_bytes(&path, what)
-        .map(|bytes| (bytes, true))
-        .map_err(|error| Problem::new(error.code(), format!("{what}: {error}")))
+/// Content of a URI.
+pub(super) struct LinkedBytes {
+    pub(super) bytes: Vec<u8>,
+    /// The file; `None` for a data URI.
+    pub(super) path: Option<PathBuf>,
+    /// Difference between the URI and the file.
+    pub(super) note: Option<String>,
 }
 
-fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf, Problem> {
+/// Content of a URI. A missing file is also searched for by its last name components next to the glTF file.
+pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<LinkedBytes, Problem> {
+    if let Some(bytes) = data_uri(uri) {
+        let bytes = bytes.map_err(|problem| format!("{what}: {problem}"))?;
+        return Ok(LinkedBytes { bytes, path: None, note: None });
+    }
+    let NamedFile { path, note, .. } = find(file, uri, what, sandbox)?;
+    let bytes = read_bytes(&path, what).map_err(|error| Problem::new(error.code(), format!("{what}: {error}")))?;
+    Ok(LinkedBytes { bytes, path: Some(path), note: note.map(|note| format!("{what}: {note}")) })
+}
+
+fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<NamedFile, Problem> {
     let name = unescaped(uri);
-    if name.contains("://") {
+    if name.contains("://") && !name.starts_with("file://") {
         return Err(
             format!("{what} is on a network (`{uri}`), which is not supported; save it next to the file").into()
         );
     }
     let folder = file.parent().unwrap_or(Path::new(""));
-    let stated = folder.join(&name);
-    let sibling = Path::new(&name).file_name().map(|name| folder.join(name));
-    for path in [Some(&stated), sibling.as_ref()].into_iter().flatten() {
-        sandbox.check(path).map_err(|problem| problem.within(format_args!("{what} `{uri}`")))?;
-        if path.exists() {
-            return Ok(path.clone());
-        }
+    let named_file =
+        find_named_file(&[folder], &name, sandbox).map_err(|problem| problem.within(format_args!("{what} `{uri}`")))?;
+    if named_file.exists {
+        return Ok(named_file);
     }
-    let stated_path = stated.display();
-    let words = match sibling.filter(|b| *b != stated) {
+    let stated_path = named_file.path.display();
+    let sibling = Path::new(&name).file_name().map(|name| folder.join(name));
+    let words = match sibling.filter(|sibling| *sibling != named_file.path) {
         None => format!("{what} does not exist: no {stated_path}; add this file"),
         Some(sibling) => {
             format!("{what} does not exist: neither {stated_path} nor {}; add one of these files", sibling.display())

@@ -5,6 +5,7 @@ use gltf::json::material::{Material, NormalTexture};
 use gltf::json::{Root, Value};
 use gltf::{json::mesh::Semantic, json::validation::Checked};
 
+use super::compression;
 use super::picture::{TextureUse, UvLayout};
 use crate::Problem;
 
@@ -28,8 +29,12 @@ const KNOWN: &[&str] = &[
     "KHR_materials_unlit",
     "KHR_materials_variants",
     "KHR_materials_volume",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
     "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 /// The JSON, checked by the rules of the specification, and the binary chunk.
@@ -42,6 +47,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
     if root.asset.version.split('.').next() != Some("2") {
         return Err(format!("the glTF version is {}; expected 2.0: export the file again", root.asset.version).into());
     }
+    compression::check(&root)?;
     let unknown: Vec<&str> =
         root.extensions_required.iter().map(String::as_str).filter(|e| !KNOWN.contains(e)).collect();
     if !unknown.is_empty() {
@@ -53,6 +59,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
         .into());
     }
     check_positions(&root)?;
+    add_bounds(&mut root);
     // The crate supports fewer of them.
     root.extensions_required.clear();
     let document = gltf::Document::from_json(root).map_err(|cause| format!("not a valid glTF file: {cause}"))?;
@@ -63,6 +70,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
 pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, Problem> {
     let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
     serde_json::from_slice(json).map_err(|cause| format!("not a glTF file: invalid JSON: {cause}").into())
+}
+
+/// Adds missing bounds of positions, which the specification requires and nothing here uses: some writers omit them, and the crate would refuse the file.
+fn add_bounds(root: &mut Root) {
+    let Root { meshes, accessors, .. } = root;
+    let primitives = meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
+    for index in positions.map(|index| index.value()) {
+        let Some(accessor) = accessors.get_mut(index) else { continue };
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| Value::from(vec![0.0; 3]));
+        }
+    }
 }
 
 /// Refuses missing positions: the crate's own check assumes them.
@@ -178,6 +198,7 @@ fn numbers<const N: usize>(value: Option<&Value>, default: [f64; N]) -> [f64; N]
 
 /// Extensions that are used in part, or that do not affect what is read.
 const USED: &[&str] = &[
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -189,6 +210,7 @@ const USED: &[&str] = &[
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 pub(super) fn unused(root: &Root) -> Vec<String> {
@@ -217,7 +239,12 @@ pub(super) fn unused(root: &Root) -> Vec<String> {
         .filter(|(count, ..)| *count > 0)
         .map(|(count, what, note)| format!("{count} {what}: {note}"))
         .collect();
-    let unknown: Vec<&str> = root.extensions_used.iter().map(String::as_str).filter(|e| !USED.contains(e)).collect();
+    let unknown: Vec<&str> = root
+        .extensions_used
+        .iter()
+        .map(String::as_str)
+        .filter(|e| !USED.contains(e) && compression::find(e).is_none())
+        .collect();
     if !unknown.is_empty() {
         report.push(format!("extensions that are not used: {}", unknown.join(", ")));
     }

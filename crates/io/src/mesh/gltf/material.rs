@@ -12,8 +12,9 @@ use etendue_scene::asset::{
 use gltf::json::material::{AlphaMode, Material};
 use gltf::{json::Root, json::validation::Checked};
 
-use super::picture::{self, GltfImages, TextureUse};
+use super::picture::{GltfImages, TextureUse};
 use super::{buffers::Buffers, document};
+use crate::mesh::derived_image;
 use crate::{Problem, Sandbox};
 
 pub(super) use super::picture::UvLayout;
@@ -70,7 +71,8 @@ impl Materials {
             report.extend(notes.into_iter().map(|note| format!("{subject}: {note}")));
             slots.push(SlotMaterial { name, surface: Some(SlotSurface::Layers(Box::new(layers))) });
         }
-        let GltfImages { used, files, .. } = images;
+        let GltfImages { used, files, notes, .. } = images;
+        report.extend(notes);
         Ok(MeshMaterials { slots, images: used.into_iter().collect(), image_bytes: files, report })
     }
 }
@@ -121,7 +123,7 @@ impl MaterialReader<'_, '_, '_> {
             None => SlotColour::LinearSrgb(colour),
             Some(texture) if colour == [1.0; 3] => SlotColour::Picture(self.images.original(texture, true)?),
             Some(texture) => {
-                let make = |image: &ImageAsset| picture::tinted(image, colour);
+                let make = |image: &ImageAsset| derived_image::tinted(image, colour);
                 SlotColour::Picture(self.images.derived(texture, &format!("times {colour:?}"), false, make)?)
             }
         };
@@ -167,10 +169,10 @@ impl MaterialReader<'_, '_, '_> {
         rule: impl Fn(f64) -> f64,
     ) -> Result<SlotNumber, Problem> {
         let rule = |v: f32| rule(f64::from(v)) as f32;
-        let picture = self
-            .images
-            .derived(texture, &format!("channel {what}"), false, |image| picture::channel(image, channel, rule))?;
-        let only = self.images.used.get(&picture.file).and_then(picture::only_value);
+        let picture = self.images.derived(texture, &format!("channel {what}"), false, |image| {
+            derived_image::channel(image, channel, rule)
+        })?;
+        let only = self.images.used.get(&picture.file).and_then(derived_image::only_value);
         Ok(only.map_or(SlotNumber::Picture(picture), SlotNumber::Number))
     }
 
@@ -246,7 +248,7 @@ impl MaterialReader<'_, '_, '_> {
                 "a solid of clear material: the mesh must be closed; the base colour does not tint it".to_owned(),
             ),
         }
-        Ok(Some(SlotTransmission { fraction, index: self.index(), solid }))
+        Ok(Some(SlotTransmission { fraction, index: self.index(), solid, tint: None }))
     }
 
     fn emission(&mut self) -> Result<Option<SlotEmission>, Problem> {
@@ -279,7 +281,7 @@ impl MaterialReader<'_, '_, '_> {
         }
         let is_clear = match texture {
             None => false,
-            Some(texture) => picture::has_opacity(self.images.image(texture)?),
+            Some(texture) => derived_image::has_opacity(self.images.image(texture)?),
         };
         let opacity = match texture.filter(|_| is_clear) {
             None => SlotNumber::Number(rule(1.0)),

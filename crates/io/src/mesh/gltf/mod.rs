@@ -10,6 +10,7 @@
 
 mod accessor;
 mod buffers;
+mod compression;
 mod document;
 mod flatten;
 mod material;
@@ -49,7 +50,9 @@ fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, Probl
     mesh.slot_materials = converted.slots;
     mesh.embedded_images = converted.images;
     mesh.report.extend(converted.report);
+    mesh.report.extend(buffers.notes.iter().cloned());
     mesh.report.extend(document::unused(&root));
+    mesh.report.extend(compression::notes(&root));
     name_notes(file, &mut mesh.report);
     let parts =
         std::iter::once(bytes).chain(buffers.external_bytes()).chain(converted.image_bytes.iter().map(Vec::as_slice));

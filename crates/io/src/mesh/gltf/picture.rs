@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use etendue_core::maths::f64 as maths;
-use etendue_scene::asset::{ImageAsset, ImagePixels, SlotPicture, SlotWrap};
+use etendue_scene::asset::{ImageAsset, SlotPicture, SlotWrap};
 use etendue_scene::limits;
-use etendue_spectra::colour;
 use gltf::json::texture::{Info, WrappingMode};
 use gltf::{json::Root, json::validation::Checked};
 
-use super::buffers::{Buffers, linked};
-use crate::{Problem, Sandbox, hash, picture::decode_image};
+use super::buffers::{Buffers, LinkedBytes, linked};
+use super::compression;
+use crate::{Problem, Sandbox, picture::decode_image};
 
 /// Texture as used by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,8 @@ pub(super) struct GltfImages<'a> {
     pub(super) used: BTreeMap<PathBuf, ImageAsset>,
     /// Bytes of image files, in the order of reading.
     pub(super) files: Vec<Vec<u8>>,
+    /// Differences between URIs and files.
+    pub(super) notes: Vec<String>,
     unpacked: u64,
 }
 
@@ -80,6 +82,7 @@ impl<'a> GltfImages<'a> {
             images: BTreeMap::new(),
             used: BTreeMap::new(),
             files: Vec::new(),
+            notes: Vec::new(),
             unpacked: 0,
         }
     }
@@ -119,7 +122,7 @@ impl<'a> GltfImages<'a> {
         };
         match derived {
             Some(image) => self.keep(name, image, texture, is_encoded),
-            None => Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) }),
+            None => Ok(SlotPicture { file: name, is_embedded: true, is_encoded, wrap: self.wrap(texture) }),
         }
     }
 
@@ -134,12 +137,12 @@ impl<'a> GltfImages<'a> {
             self.count(&image)?;
             self.used.insert(name.clone(), image);
         }
-        Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) })
+        Ok(SlotPicture { file: name, is_embedded: true, is_encoded, wrap: self.wrap(texture) })
     }
 
     fn image_of(&self, texture: usize) -> Result<usize, Problem> {
         let entry = self.root.textures.get(texture).ok_or_else(|| format!("texture {texture} does not exist"))?;
-        Ok(entry.source.value())
+        compression::image_of(texture, entry)
     }
 
     /// Limits the total size of all images: materials may make many from one.
@@ -153,7 +156,7 @@ impl<'a> GltfImages<'a> {
     fn read(&mut self, number: usize) -> Result<ImageAsset, Problem> {
         let image = self.root.images.get(number).ok_or_else(|| format!("image {number} does not exist"))?;
         let what = format!("image {number}");
-        let (bytes, is_file) = match (&image.uri, image.buffer_view) {
+        let LinkedBytes { bytes, path, note } = match (&image.uri, image.buffer_view) {
             (Some(uri), _) => linked(self.file, uri, &what, self.sandbox)?,
             (None, Some(view)) => {
                 let view = self
@@ -161,7 +164,8 @@ impl<'a> GltfImages<'a> {
                     .buffer_views
                     .get(view.value())
                     .ok_or_else(|| format!("{what} refers to a buffer view that does not exist"))?;
-                (self.buffers.view(view).map_err(|problem| format!("{what} refers to {problem}"))?.to_vec(), false)
+                let bytes = self.buffers.view(view).map_err(|problem| format!("{what} refers to {problem}"))?.to_vec();
+                LinkedBytes { bytes, path: None, note: None }
             }
             (None, None) => return Err(format!("{what} has neither \"uri\" nor \"bufferView\"").into()),
         };
@@ -169,7 +173,8 @@ impl<'a> GltfImages<'a> {
             return Err(format!("{what} is empty").into());
         }
         let decoded = decode_image(Path::new(&what), &bytes).map_err(|error| error.to_string())?;
-        if is_file {
+        self.notes.extend(note);
+        if path.is_some() {
             self.files.push(bytes);
         }
         Ok(decoded)
@@ -184,55 +189,5 @@ impl<'a> GltfImages<'a> {
             Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => SlotWrap::Repeat,
         };
         sampler.map_or([SlotWrap::Repeat; 2], |s| [wrap_of(&s.wrap_s), wrap_of(&s.wrap_t)])
-    }
-}
-
-/// Red, green, blue and opacity of every pixel as numbers 0 … 1 (floats may exceed 1), as in the file.
-fn pixels(image: &ImageAsset) -> Box<dyn Iterator<Item = [f32; 4]> + '_> {
-    let byte = |b: u8| f32::from(b) / 255.0;
-    match &image.pixels {
-        ImagePixels::Gray8(p) => Box::new(p.iter().map(move |g| [byte(*g), byte(*g), byte(*g), 1.0])),
-        ImagePixels::Gray16(p) => Box::new(p.iter().map(|g| f32::from(*g) / 65_535.0).map(|g| [g, g, g, 1.0])),
-        ImagePixels::Rgb8(p) => Box::new(p.iter().map(move |p| p.map(byte)).map(|[r, g, b]| [r, g, b, 1.0])),
-        ImagePixels::Rgba8(p) => Box::new(p.iter().map(move |p| p.map(byte))),
-        ImagePixels::Rgb32F(p) => Box::new(p.iter().map(|[r, g, b]| [*r, *g, *b, 1.0])),
-        ImagePixels::Rgba32F(p) => Box::new(p.iter().copied()),
-    }
-}
-
-/// Returns true if any pixel is not opaque.
-pub(super) fn has_opacity(image: &ImageAsset) -> bool {
-    matches!(image.pixels, ImagePixels::Rgba8(_) | ImagePixels::Rgba32F(_)) && pixels(image).any(|p| p[3] < 1.0)
-}
-
-/// Decoded colours times a factor.
-pub(super) fn tinted(image: &ImageAsset, factor: [f64; 3]) -> ImageAsset {
-    let tint = |[r, g, b, _]: [f32; 4]| {
-        let linear = [r, g, b].map(colour::decode);
-        std::array::from_fn(|i| (linear[i] * factor[i] as f32).clamp(0.0, 1.0))
-    };
-    with_pixels(image, ImagePixels::Rgb32F(pixels(image).map(tint).collect()))
-}
-
-/// Numbers of one channel, by a rule.
-pub(super) fn channel(image: &ImageAsset, channel: usize, rule: impl Fn(f32) -> f32) -> ImageAsset {
-    let number = |p: [f32; 4]| (rule(p[channel]).clamp(0.0, 1.0) * 65_535.0 + 0.5) as u16;
-    with_pixels(image, ImagePixels::Gray16(pixels(image).map(number).collect()))
-}
-
-/// Value of a constant image; `None` if values differ.
-pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
-    let ImagePixels::Gray16(numbers) = &image.pixels else { return None };
-    let first = numbers.first()?;
-    numbers.iter().all(|n| n == first).then(|| f64::from(*first) / 65_535.0)
-}
-
-fn with_pixels(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
-    ImageAsset {
-        width: image.width,
-        height: image.height,
-        pixels,
-        to_rec_709: None,
-        hash: hash::hash_bytes(&image.hash),
     }
 }

@@ -1,8 +1,10 @@
 //! Assembly of a mesh from elements.
 
+use std::collections::BTreeMap;
+
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
 
-use super::faces::{PlyFace, has_uvs, is_used, polygons, strips};
+use super::faces::{PlyFace, has_uvs, is_used, polygons, strips, too_few_corners};
 use super::header::{PlyElement, PlyHeader, shortened};
 use super::input::PlyInput;
 use crate::Problem;
@@ -26,7 +28,8 @@ pub(super) fn mesh(header: &PlyHeader, input: &mut PlyInput<'_>) -> Result<MeshA
             }
         }
     }
-    input.end()?;
+    builder.check_vertices(input)?;
+    builder.check_faces(input)?;
     builder.finish(header)
 }
 
@@ -39,11 +42,60 @@ struct PlyMeshBuilder {
     sources: Vec<u32>,
     corners: u64,
     has_strips: bool,
+    /// Faces with fewer than three corners.
+    degenerate: Vec<DegenerateFace>,
+    /// Content after the last element.
+    rest: Option<String>,
     unused: Vec<String>,
     unused_elements: Vec<(String, usize)>,
 }
 
+/// First of the faces with fewer than three corners, or one of them.
+struct DegenerateFace {
+    number: usize,
+    corners: usize,
+    line: Option<usize>,
+}
+
 impl PlyMeshBuilder {
+    /// Refuses vertices of triangles whose coordinates are not finite; others take the place of a used vertex.
+    fn check_vertices(&mut self, input: &mut PlyInput<'_>) -> Result<(), Problem> {
+        let Some(vertices) = self.vertices.as_mut().filter(|vertices| !vertices.invalid.is_empty()) else {
+            return Ok(());
+        };
+        let sources = &self.sources;
+        let source = |corner: u32| sources.get(corner as usize).copied().unwrap_or(corner);
+        let mut used = self.mesh.triangles.iter().flatten().map(|corner| source(*corner));
+        let place = used.clone().next().and_then(|first| vertices.positions.get(first as usize).copied());
+        let first_used = used.clone().filter(|vertex| vertices.invalid.contains_key(vertex)).min();
+        let is_empty = used.next().is_none();
+        let refused = first_used.or_else(|| vertices.invalid.keys().next().copied().filter(|_| is_empty));
+        if let Some((vertex, invalid)) = refused.and_then(|vertex| Some((vertex, vertices.invalid.get(&vertex)?))) {
+            invalid.line.into_iter().for_each(|line| input.set_line(line));
+            return Err(invalid.problem.clone().within(format_args!("vertex {vertex}")));
+        }
+        for vertex in vertices.invalid.keys() {
+            vertices.positions[*vertex as usize] = place.unwrap_or_default();
+        }
+        Ok(())
+    }
+
+    /// Refuses a mesh whose faces all have fewer than three corners, and one without faces and with further content.
+    fn check_faces(&mut self, input: &mut PlyInput<'_>) -> Result<(), Problem> {
+        let rest = input.rest();
+        if self.mesh.triangles.is_empty() {
+            if let Some(DegenerateFace { number, corners, line }) = self.degenerate.first() {
+                line.into_iter().for_each(|line| input.set_line(*line));
+                return Err(too_few_corners(*corners).within(format_args!("face {number}")));
+            }
+            if let Some(rest) = &rest {
+                return Err(format!("{rest}{}", input.byte_order_hint()).into());
+            }
+        }
+        self.rest = rest;
+        Ok(())
+    }
+
     fn vertices(&mut self, element: &PlyElement, input: &mut PlyInput<'_>) -> Result<(), Problem> {
         let (vertices, unused) = Vertices::read(element, input)?;
         self.vertices = Some(vertices);
@@ -60,8 +112,10 @@ impl PlyMeshBuilder {
         // Counted first, so that no list grows.
         let (mut triangles, mut corners) = (0, 0);
         peek(input, |ahead| {
-            polygons(element, ahead, count, |face| {
-                (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
+            polygons(element, ahead, count, |face, _| {
+                if face.corners.len() >= 3 {
+                    (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
+                }
                 Ok(())
             })
         })?;
@@ -72,7 +126,16 @@ impl PlyMeshBuilder {
             self.sources.reserve_exact(corners);
             self.mesh.uvs.reserve_exact(corners);
         }
-        polygons(element, input, count, |face| self.face(face, own_uvs))?;
+        let mut number = 0;
+        polygons(element, input, count, |face, input| {
+            number += 1;
+            if face.corners.len() < 3 {
+                let degenerate = DegenerateFace { number: number - 1, corners: face.corners.len(), line: input.line() };
+                self.degenerate.push(degenerate);
+                return Ok(());
+            }
+            self.face(face, own_uvs)
+        })?;
         self.unused.extend(element.properties.iter().filter(|p| !is_used(p)).map(|p| p.name.clone()));
         Ok(())
     }
@@ -94,7 +157,11 @@ impl PlyMeshBuilder {
             self.mesh.triangles.push([0, 1, 2].map(vertex));
             return Ok(());
         }
-        let positions = &self.vertices.as_ref().ok_or("no vertices")?.positions;
+        let Vertices { positions, invalid, .. } = self.vertices.as_ref().ok_or("no vertices")?;
+        if let Some(corner) = face.corners.iter().position(|corner| invalid.contains_key(corner)) {
+            self.mesh.triangles.push([vertex(corner); 3]); // is refused with the vertex
+            return Ok(());
+        }
         let polygon: Vec<[f64; 3]> = face.corners.iter().map(|i| positions[*i as usize]).collect();
         let triangles = triangulate(&polygon).map_err(|error| error.message(polygon.len()))?;
         self.mesh.triangles.extend(triangles.iter().map(|t| t.map(vertex)));
@@ -120,7 +187,7 @@ impl PlyMeshBuilder {
     }
 
     fn finish(self, header: &PlyHeader) -> Result<MeshAsset, Problem> {
-        let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, .. } = self;
+        let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, degenerate, rest, .. } = self;
         if mesh.triangles.is_empty() {
             return Err("has no faces (a point cloud?); export it as a mesh".into());
         }
@@ -144,6 +211,11 @@ impl PlyMeshBuilder {
             mesh.positions = vertices.positions.iter().map(place).collect();
             (mesh.normals, mesh.uvs) = (vertices.normals, vertices.uvs);
         }
+        mesh.report.extend(vertices.notes);
+        if !degenerate.is_empty() {
+            mesh.report.push(format!("{} faces with fewer than 3 corners are not used", degenerate.len()));
+        }
+        mesh.report.extend(rest);
         fill_normals(&mut mesh);
         mesh.slots = vec![0; mesh.triangles.len()];
         mesh.slot_materials = vec![SlotMaterial { name: String::new(), surface: None }];
@@ -198,6 +270,10 @@ fn notes(header: &PlyHeader, unused: &[String], elements: &[(String, usize)]) ->
             shortened(image)
         ));
     }
+    let unknown = header.unknown.iter();
+    notes.extend(
+        unknown.map(|(line, word)| format!("line {line} of the header is no statement: it begins with `{word}`")),
+    );
     notes.extend(
         elements.iter().map(|(name, count)| format!("elements `{}`, which are not used: {count}", shortened(name))),
     );
@@ -215,6 +291,16 @@ pub(super) struct Vertices {
     pub(super) normals: Vec<[f32; 3]>,
     /// One per vertex, or none.
     pub(super) uvs: Vec<[f32; 2]>,
+    /// Vertices that no face may use.
+    invalid: BTreeMap<u32, InvalidVertex>,
+    notes: Vec<String>,
+}
+
+/// Vertex whose position is not finite or too large.
+#[derive(Debug)]
+struct InvalidVertex {
+    line: Option<usize>,
+    problem: Problem,
 }
 
 /// Use of a property: none, or a coordinate.
@@ -267,34 +353,57 @@ impl Vertices {
             positions: Vec::with_capacity(element.count),
             normals: Vec::with_capacity(capacity(uses.has_normals)),
             uvs: Vec::with_capacity(capacity(uses.has_uvs)),
+            invalid: BTreeMap::new(),
+            notes: Vec::new(),
         };
+        let mut bare = 0;
         for number in 0..element.count {
-            vertices.row(element, &uses, input).map_err(|what| format!("vertex {number}: {what}"))?;
+            let is_bare = vertices.row(element, &uses, input).map_err(|what| format!("vertex {number}: {what}"))?;
+            bare += usize::from(is_bare);
+        }
+        if bare > 0 {
+            let note = format!("{bare} vertices whose texture coordinates are not finite use u = v = 0");
+            vertices.notes.push(note);
+        }
+        if !vertices.invalid.is_empty() {
+            let note = format!("{} vertices that are not finite belong to no face", vertices.invalid.len());
+            vertices.notes.push(note);
         }
         let unused = element.properties.iter().zip(&uses.each).filter(|(_, used)| matches!(used, PropertyUse::Nothing));
         Ok((vertices, unused.map(|(p, _)| p.name.clone()).collect()))
     }
 
-    fn row(&mut self, element: &PlyElement, uses: &PropertyUses, input: &mut PlyInput<'_>) -> Result<(), Problem> {
+    /// Reads a vertex; returns true if its texture coordinates are not finite.
+    fn row(&mut self, element: &PlyElement, uses: &PropertyUses, input: &mut PlyInput<'_>) -> Result<bool, Problem> {
         let (mut position, mut normal, mut uv) = ([0.0; 3], [0.0_f64; 3], [0.0_f64; 2]);
         for (property, used) in element.properties.iter().zip(&uses.each) {
             match used {
                 PropertyUse::Nothing => input.skip(property)?,
-                PropertyUse::Position(axis) => position[*axis] = input.number(property.number)?,
-                PropertyUse::Normal(axis) => normal[*axis] = input.number(property.number)?,
-                PropertyUse::Uv(axis) => uv[*axis] = input.number(property.number)?,
+                PropertyUse::Position(axis) => position[*axis] = input.number_of_any_size(property.number)?,
+                PropertyUse::Normal(axis) => normal[*axis] = input.number_of_any_size(property.number)?,
+                PropertyUse::Uv(axis) => uv[*axis] = input.number_of_any_size(property.number)?,
             }
         }
-        check_range(&position)?;
+        let problem = match position.iter().all(|v| v.is_finite()) {
+            true => check_range(&position).err().map(Problem::from),
+            false => Some(input.not_finite()),
+        };
+        if let Some(problem) = problem {
+            let place = self.positions.len() as u32; // fewer than 2³², which are counted
+            self.invalid.insert(place, InvalidVertex { line: input.line(), problem });
+            position = [0.0; 3];
+        }
         self.positions.push(position);
         if uses.has_normals {
-            let is_zero = normal == [0.0; 3];
-            self.normals.push(if is_zero { [0.0; 3] } else { unit(normal) });
+            let is_usable = normal != [0.0; 3] && normal.iter().all(|v| v.is_finite());
+            self.normals.push(if is_usable { unit(normal) } else { [0.0; 3] });
         }
+        let is_bare = uses.has_uvs && !uv.iter().all(|v| v.is_finite());
         if uses.has_uvs {
+            uv = if is_bare { [0.0; 2] } else { uv };
             check_range(&uv)?;
             self.uvs.push(uv.map(|v| v as f32));
         }
-        Ok(())
+        Ok(is_bare)
     }
 }

@@ -30,12 +30,17 @@ pub(super) fn has_uvs(element: &PlyElement) -> bool {
     element.properties.iter().any(|p| p.count.is_some() && p.name == UV_NAME)
 }
 
-/// Reads all faces, passes each to `take`, and moves the input past them.
+/// Error of a face of too few corners.
+pub(super) fn too_few_corners(corners: usize) -> Problem {
+    format!("has {corners} corners; expected three or more").into()
+}
+
+/// Reads all faces, passes each to `take` (also those of fewer than three corners), and moves the input past them.
 pub(super) fn polygons(
     element: &PlyElement,
     input: &mut PlyInput<'_>,
     vertices: usize,
-    mut take: impl FnMut(&PlyFace) -> Result<(), Problem>,
+    mut take: impl FnMut(&PlyFace, &PlyInput<'_>) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
     check(element, input)?;
     let mut face = PlyFace::default();
@@ -51,13 +56,13 @@ pub(super) fn polygons(
                 }
             }
             if face.corners.len() < 3 {
-                return Err(format!("has {} corners; expected three or more", face.corners.len()).into());
+                return take(&face, input);
             }
             if !face.uvs.is_empty() && face.uvs.len() != face.corners.len() {
                 let (uvs, corners) = (face.uvs.len(), face.corners.len());
                 return Err(format!("has texture coordinates of {uvs} corners; expected {corners}").into());
             }
-            take(&face)
+            take(&face, input)
         };
         read().map_err(|what| format!("face {number}: {what}"))?;
     }

@@ -1,5 +1,7 @@
 //! Header of a file: encoding, elements and properties.
 
+use std::borrow::Cow;
+
 /// Maximum length of a header, bytes.
 const MAX_HEAD: usize = 1 << 16;
 
@@ -50,6 +52,8 @@ pub(super) struct PlyHeader {
     pub(super) elements: Vec<PlyElement>,
     /// Image that a comment of MeshLab names; `None` without one.
     pub(super) texture_file: Option<String>,
+    /// Lines that are no statement, with their first words.
+    pub(super) unknown: Vec<(usize, String)>,
     /// Bytes before the first row.
     pub(super) length: usize,
     /// Lines before the first row.
@@ -93,7 +97,8 @@ impl PlyHeader {
     pub(super) fn read(bytes: &[u8]) -> Result<Self, HeaderError> {
         let mut lines = Lines::new(bytes)?;
         let encoding = lines.encoding()?;
-        let mut header = Self { encoding, elements: Vec::new(), texture_file: None, length: 0, lines: 0 };
+        let mut header =
+            Self { encoding, elements: Vec::new(), texture_file: None, unknown: Vec::new(), length: 0, lines: 0 };
         loop {
             let (number, line) = lines.next()?;
             let located = |what: String| (number, what);
@@ -102,14 +107,9 @@ impl PlyHeader {
                 Some("end_header") => break,
                 Some("element") => header.element(words.collect()).map_err(located)?,
                 Some("property") => header.property(words.collect()).map_err(located)?,
-                Some("comment") => header.comment(line),
+                Some("comment") => header.comment(&line),
                 Some("obj_info") | None => {}
-                Some(other) => {
-                    return Err(located(format!(
-                        "unknown statement `{}` in the PLY header; expected `element`, `property`, `comment` or `end_header`",
-                        shortened(other)
-                    )));
-                }
+                Some(other) => header.unknown.push((number, shortened(other))),
             }
         }
         (header.length, header.lines) = (lines.at, lines.number);
@@ -200,7 +200,8 @@ impl<'a> Lines<'a> {
         Ok(Self { bytes: &bytes[..bytes.len().min(MAX_HEAD)], end, at: 3 + blanks + end.len(), number: 1 })
     }
 
-    fn next(&mut self) -> Result<(usize, &'a str), HeaderError> {
+    /// Next line; one that is not UTF-8, as comments may be, is read byte by byte.
+    fn next(&mut self) -> Result<(usize, Cow<'a, str>), HeaderError> {
         self.number += 1;
         let rest = &self.bytes[self.at..];
         let length = rest.windows(self.end.len()).position(|w| w == self.end).ok_or_else(|| {
@@ -210,8 +211,10 @@ impl<'a> Lines<'a> {
             )
         })?;
         self.at += length + self.end.len();
-        let line = std::str::from_utf8(&rest[..length])
-            .map_err(|_| (self.number, "the PLY header is not text; export the mesh again".to_owned()))?;
+        let line = match std::str::from_utf8(&rest[..length]) {
+            Ok(line) => Cow::Borrowed(line),
+            Err(_) => Cow::Owned(rest[..length].iter().map(|byte| char::from(*byte)).collect()),
+        };
         Ok((self.number, line))
     }
 
@@ -226,7 +229,7 @@ impl<'a> Lines<'a> {
                 number,
                 format!(
                     "found `{}`; expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
-                    shortened(line)
+                    shortened(&line)
                 ),
             )),
         }

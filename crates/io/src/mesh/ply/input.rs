@@ -45,24 +45,31 @@ impl<'a> PlyInput<'a> {
 
     /// Reads the next number, which must be finite.
     pub(super) fn number(&mut self, number: PlyNumber) -> Result<f64, Problem> {
-        let value = match self.encoding {
+        let value = self.number_of_any_size(number)?;
+        if value.is_finite() { Ok(value) } else { Err(self.not_finite()) }
+    }
+
+    /// Reads the next number, which may be infinite or NaN.
+    pub(super) fn number_of_any_size(&mut self, number: PlyNumber) -> Result<f64, Problem> {
+        Ok(match self.encoding {
             PlyEncoding::Text => self.word_number(number)?,
             PlyEncoding::Little => binary(number, self.take(number.bytes())?, |b| b),
             PlyEncoding::Big => binary(number, self.take(number.bytes())?, |mut b| {
                 b[..number.bytes()].reverse();
                 b
             }),
-        };
-        match value.is_finite() {
-            true => Ok(value),
-            false => {
-                let hint = if self.encoding == PlyEncoding::Text { "" } else { self.byte_order_hint() };
-                Err(format!(
-                    "a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}"
-                )
-                .into())
-            }
-        }
+        })
+    }
+
+    /// Error of a number that is not finite.
+    pub(super) fn not_finite(&self) -> Problem {
+        let hint = if self.encoding == PlyEncoding::Text { "" } else { self.byte_order_hint() };
+        format!("a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}").into()
+    }
+
+    /// Sets the line that an error names.
+    pub(super) fn set_line(&mut self, line: usize) {
+        self.line = line;
     }
 
     /// Reads the length of the next list, which must fit into the rest of the file.
@@ -117,22 +124,15 @@ impl<'a> PlyInput<'a> {
         }
     }
 
-    /// Refuses numbers after the last element.
-    pub(super) fn end(&mut self) -> Result<(), Problem> {
+    /// Sentence on numbers after the last element; `None` if the file ends there.
+    pub(super) fn rest(&self) -> Option<String> {
         let rest = &self.bytes[self.at..];
         let is_end = match self.encoding {
             PlyEncoding::Text => rest.iter().all(u8::is_ascii_whitespace),
             _ => rest.is_empty() || rest == b"\n" || rest == b"\r\n",
         };
-        match is_end {
-            true => Ok(()),
-            false => Err(format!(
-                "{} bytes follow the last element: the header does not describe the whole file{}",
-                rest.len(),
-                self.byte_order_hint()
-            )
-            .into()),
-        }
+        let bytes = rest.len();
+        (!is_end).then(|| format!("{bytes} bytes follow the last element: the header does not describe the whole file"))
     }
 
     fn advance(&mut self, bytes: usize) -> Result<(), Problem> {

@@ -4,8 +4,8 @@
 //! coordinates of its vertices (`u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`) or of the corners of its faces (`texcoord`), polygons of `face`,
 //! and `tristrips`. All other elements and properties are ignored and noted in the report. A file names no material: it has one slot, without a name.
 //!
-//! Refused: numbers that are not finite, indices out of range, faces of fewer than three corners, polygons that cross themselves, and elements that the bytes
-//! of the file cannot hold, before memory is taken for them.
+//! Refused: vertices of faces that are not finite, indices out of range, polygons that cross themselves, and elements that the bytes of the file cannot hold,
+//! before memory is taken for them. Vertices of no face that are not finite, faces of fewer than three corners and bytes after the last element are noted.
 
 mod assemble;
 mod faces;

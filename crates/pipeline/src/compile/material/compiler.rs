@@ -61,7 +61,7 @@ impl MaterialCompiler<'_, '_> {
         let encoded = record.encoding.value == Encoding::Srgb;
         let colour = record.encoding.value != Encoding::Data;
         let reading = TexelInterpretation { encoded, alpha: usage == ImageUse::Alpha, colour, scale: scale as f32 };
-        self.pictures.picture(&record.file.value, &record.place, reading, sampling(&record), self.context)
+        self.pictures.picture(&record.image_key(), &record.place, reading, sampling(&record), self.context)
     }
 
     /// Refuses colours as plain numbers, and encoded plain numbers.

@@ -1,4 +1,4 @@
-//! Materials of glTF files: metal, coat and base, sheen, transparent substances, mixed.
+//! Materials of mesh files in layers: metal, coat and base, sheen, transparent substances, mixed.
 
 use super::super::context::Context;
 use super::super::spectrum::scaled_to_luminance;
@@ -39,7 +39,7 @@ struct Layering<'l, 'c, 'a> {
 }
 
 impl MaterialTableBuilder {
-    /// A material of a glTF file.
+    /// A material in layers.
     pub(super) fn add_layers(
         &mut self,
         layers: &SlotLayers,
@@ -147,7 +147,10 @@ impl Layering<'_, '_, '_> {
 
     fn transmissive(&mut self, clear: &SlotTransmission, layers: &SlotLayers) -> Option<Surface> {
         let Some(solid) = &clear.solid else {
-            let tint = self.reflectance(&layers.base)?;
+            let tint = match clear.tint {
+                Some(rgb) => self.reflectance(&SlotColour::LinearSrgb(rgb))?,
+                None => self.reflectance(&layers.base)?,
+            };
             return self.context.accept(self.place, ThinSheet::new(clear.index, tint)).map(Surface::from);
         };
         let absorption = match solid.distance_m {

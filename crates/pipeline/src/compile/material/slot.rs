@@ -44,6 +44,6 @@ pub(super) fn surface(
 pub(in super::super) fn has_picture(slot: &SlotMaterial) -> bool {
     slot.surface.as_ref().is_some_and(|surface| match surface {
         SlotSurface::Layers(layers) => layers.has_picture(),
-        _ => surface.picture().is_some(),
+        _ => !surface.files().is_empty(),
     })
 }

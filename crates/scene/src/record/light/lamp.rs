@@ -10,6 +10,7 @@ use super::strength::{LampStrength, MeasuredStrength};
 use crate::fault::{DescriptionErrors, ErrorCode};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
+use crate::record::texture::IMAGE_EXTENSIONS;
 
 record! {
     /// A lamp with equal intensity in all directions.
@@ -128,8 +129,8 @@ record! {
     /// An image in front of a lamp that shapes its light. Its middle is projected along the lamp's +x axis, its left column to the lamp's left (+y),
     /// its top row up.
     pub struct Mask {
-        /// Image whose luminance is the transmittance (PNG, JPEG: sRGB-encoded; HDR may exceed 1).
-        required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
+        /// Image whose luminance is the transmittance (sRGB-encoded; HDR and EXR are linear and may exceed 1).
+        required file: Placed<PathBuf> = path(IMAGE_EXTENSIONS);
         /// Full angles of the image's width and height; no light falls outside.
         required field_deg: Placed<[f64; 2]> = vector::<2>(number("°").above(0.0).at_most(179.0));
     }
