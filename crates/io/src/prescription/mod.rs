@@ -14,6 +14,7 @@ mod private;
 mod seq;
 mod seq_edit;
 mod text;
+mod unfold;
 mod zmx;
 mod zmx_surface;
 
