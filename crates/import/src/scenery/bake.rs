@@ -71,7 +71,7 @@ impl SceneBuilder {
         };
         let Placement { base, scale: uv_scale, offset } = &image.placement;
         let is_plain = format.is_ours() && !image.is_inverted && uv_scale.iter().all(|s| *s > 0.0);
-        if !is_plain || !(scale > 0.0 && scale <= 1.0) || usage == TextureUse::SquareRoots {
+        if !(is_plain && scale > 0.0 && scale <= 1.0) || usage == TextureUse::SquareRoots {
             return Ok(None);
         }
         let numbers = match usage {
@@ -281,10 +281,10 @@ impl Grid {
 /// Placement of an image that covers `period` of the coordinates and has a border of as many pixels; negative scales are mirrored in it.
 fn covering(placement: &Placement, period: f64, size: [usize; 2], border: usize) -> Placement {
     let mut covering = placement.clone();
-    for i in 0..2 {
+    for (i, pixels) in size.into_iter().enumerate() {
         let (scale, offset) = (placement.scale[i] / period, placement.offset[i] / period);
         let (scale, offset) = if scale < 0.0 { (-scale, 1.0 - offset) } else { (scale, offset) };
-        let pixels = size[i] as f64;
+        let pixels = pixels as f64;
         let padded = pixels + 2.0 * border as f64;
         covering.scale[i] = scale * pixels / padded;
         covering.offset[i] = (offset * pixels + border as f64) / padded;

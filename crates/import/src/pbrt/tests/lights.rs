@@ -15,7 +15,7 @@ fn uniform_lights_add() {
         "LightSource \"infinite\" {table} \"float scale\" 3\nLightSource \"infinite\" {table} \"float scale\" 2\nShape \"sphere\""
     ));
     converted.assert_reports("2 environment lights become one, their sum");
-    let sum = converted.names().into_iter().filter(|name| name.starts_with("spectra/")).next_back().expect("a table");
+    let sum = converted.names().into_iter().rfind(|name| name.starts_with("spectra/")).expect("a table");
     let rows = converted.table(sum);
     let value = |nm: f64| rows.iter().find(|row| row[0] == nm).expect("a row")[1];
     // 683 lm/W · L · ∫ȳ dλ = 5 cd/m², with ∫ȳ dλ = 106.857 nm (CIE 1931), of which 0.01 % lies outside 400 to 700 nm.
