@@ -241,3 +241,18 @@ fn a_telescope_is_measured_with_its_obscuration() {
         assert!(axis["other_bundles"].as_array().expect("a list").is_empty(), "{axis}");
     }
 }
+
+/// K16: a fast plastic asphere (f/1.4) whose only field is the axis. Without a requested radius its image ends where half of the axis's light arrives: cos⁴ and
+/// vignetting leave 0.494 at 9.6 mm and 0.69 at 7.2 mm.
+#[test]
+fn a_lens_file_without_fields_is_measured_as_far_as_half_of_the_light() {
+    let lens = "RDM;LEN\nEPD 11.0\nDIM M\nWL 656.3 587.6 486.1\nREF 2\nYAN 0\nSO 0 1e13\nS 9.5 3.5 531158.560\n STO\n CIR 5.6\n ASP\n K -0.7\n \
+                A -1.6e-5;B -2.7e-7;C -1.2e-9;D 0\nS -50 13\n CIR 5.6\nSI 0 0\nGO\n";
+    let measured = measure_lens("fast.seq", lens);
+    let edge = measured.report["fields"].as_array().and_then(|fields| fields.last()).expect("fields").clone();
+    let number = |key: &str| edge[key].as_f64().unwrap_or_else(|| panic!("no {key} in {edge}"));
+    // The search ends within 1/64 of a step of 25 %, over which the light falls by 0.003.
+    assert!((number("relative_illumination") - 0.5).abs() < 4e-3, "{edge}");
+    assert!((7.2..9.6).contains(&number("height_mm")), "{edge}");
+    assert!(measured.remarks().contains("the file states no field"), "{}", measured.remarks());
+}

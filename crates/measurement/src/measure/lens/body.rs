@@ -85,8 +85,9 @@ const HALVINGS: usize = 6;
 fn half_light_radius_mm(lens_of_radius: impl Fn(f64) -> Result<Lens, Error>) -> Result<f64, Error> {
     let is_lit = |radius_mm: f64| -> Result<bool, Error> {
         let lens = lens_of_radius(radius_mm)?;
-        let light = |at_mm: DVec2| lens.projected_solid_angle_sr(at_mm);
-        Ok(light(DVec2::new(radius_mm, 0.0)) >= 0.5 * light(DVec2::ZERO))
+        let light = |at_mm: f64| lens.projected_solid_angle_sr(DVec2::new(at_mm, 0.0));
+        // The corner of the image may be nearer by the rounding of its pixel pitch.
+        Ok(light(radius_mm * (1.0 - 1e-9)) >= 0.5 * light(0.0))
     };
     let mut lit_mm = SMALL_MM;
     let mut dark_mm = FULL_FRAME_MM;

@@ -109,7 +109,8 @@ impl PrescriptionLens {
         let lens = &self.prescription;
         let first_order = lens.paraxial_at(first_order_nm);
         let edge = fields.max(2) - 1;
-        let height = |i: usize| self.regions.limit_mm * i as f64 / edge as f64;
+        // The last height is the limit itself, without rounding.
+        let height = |i: usize| self.regions.limit_mm * (i as f64 / edge as f64);
         let axis_sr = self.projected_solid_angle_sr(DVec2::ZERO);
         let image_mm = |nm: f64| lens.image_mm(nm);
         let last = self.chiefs.ray(lens, height(edge));
