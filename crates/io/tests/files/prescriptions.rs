@@ -391,7 +391,7 @@ fn mirrors_are_unfolded() {
         assert!((primary.obscured_radius_mm - 38.1).abs() < 1e-12 && secondary.obscured_radius_mm == 0.0);
         assert!((primary.radius_mm + 2032.0).abs() < 1e-9 && (secondary.radius_mm - 1016.0).abs() < 1e-9);
         // The sag of r⁴ turns with z: 1 in⁻³ is 25.4⁻³ mm⁻³.
-        let per_mm3 = 25.4_f64.powi(-3);
+        let per_mm3 = 1.0 / (25.4 * 25.4 * 25.4);
         assert!((primary.asphere[1] / (1e-6 * per_mm3) - 1.0).abs() < 1e-12);
         assert!((secondary.asphere[1] / (2e-6 * per_mm3) - 1.0).abs() < 1e-12);
         let thickness: Vec<f64> = lens.surfaces.iter().map(|s| s.thickness_mm).collect();

@@ -63,7 +63,7 @@ impl PbrtReader<'_, '_> {
 
     fn include(&mut self, file: &Path, line: usize, name: &str, depth: usize) -> Result<(), Error> {
         let message = |what: String| Error::at(file, line, what);
-        let NamedFile { path, note, .. } = find_named_file(&[&self.folder], name, &self.sandbox)
+        let NamedFile { path, note, .. } = find_named_file(&[&self.folder], name, self.sandbox)
             .map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
         if note.is_some() {
             let shown = path.strip_prefix(&self.folder).unwrap_or(&path).display().to_string();

@@ -85,7 +85,7 @@ impl PlyMeshBuilder {
         let rest = input.rest();
         if self.mesh.triangles.is_empty() {
             if let Some(DegenerateFace { number, corners, line }) = self.degenerate.first() {
-                line.into_iter().for_each(|line| input.set_line(*line));
+                line.iter().for_each(|line| input.set_line(*line));
                 return Err(too_few_corners(*corners).within(format_args!("face {number}")));
             }
             if let Some(rest) = &rest {
