@@ -20,6 +20,7 @@ def lens(
     *,
     set: Mapping[str, Any] | Sequence[str] | None = None,
     f_number: float | None = None,
+    glasses: _Path | Sequence[_Path] | None = None,
     fields: int | None = None,
     picture_radius_mm: float | None = None,
     wavelength_nm: float | None = None,
@@ -30,8 +31,9 @@ def lens(
     lens: Camera file (TOML), lens of Zemax (.zmx) or CODE V (.seq), or name of a published lens (double-gauss, wide-angle, fisheye, telephoto).
     set: Change a key of the camera, e.g. --set lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     f_number: F-number at infinity focus, in place of the camera's or the lens file's.
+    glasses: Glass catalogue of Zemax (.agf), searched before those built in; may be repeated. One, or a sequence of them.
     fields: Number of field heights, from the axis to the edge of the image. Default: 6.
-    picture_radius_mm: For a lens without a sensor: radius of the image from the axis, mm [default: the largest field that a lens file states, otherwise 21.64; or as far as there is light].
+    picture_radius_mm: For a lens without a sensor: radius of the image from the axis, mm [default: the largest field that a lens file states, otherwise where half of the axis's light arrives; at most 21.64].
     wavelength_nm: Wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise 587.56]; fields stay at 587.56 nm.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
