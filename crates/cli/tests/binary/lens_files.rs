@@ -4,7 +4,7 @@ use crate::support::{etendue, text};
 use serde_json::Value;
 
 /// A biconvex singlet of N-BK7 as written by Zemax: 49.04 mm, f/9.81.
-fn zmx(front: &str, glass: &str) -> String {
+pub(crate) fn zmx(front: &str, glass: &str) -> String {
     format!(
         "VERS 140124 258 36214\nMODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 5\nGCAT SCHOTT\nFTYP 0 0 2 1 0 0 0\nYFLN 0 10\nXFLN 0 0\n\
          WAVM 1 0.58756 1\nPWAV 1\nSURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n  DIAM 0 0 0 0 1 \"\"\n{front}\
@@ -14,7 +14,7 @@ fn zmx(front: &str, glass: &str) -> String {
     )
 }
 
-const BK7: &str = "N-BK7 0 0 1.5168 64.17";
+pub(crate) const BK7: &str = "N-BK7 0 0 1.5168 64.17";
 
 struct LensFileReport {
     report: Value,
