@@ -139,7 +139,7 @@ mod tests {
             ("C:\\Users\\someone\\Desktop\\wall.png", "wall.png"),
             ("C:\\Users\\someone\\maps\\wall.png", "maps/wall.png"),
             ("\\\\server\\share\\WALL.png", "wall.png"),
-            ("/home/someone/Maps/floor.png", "maps/Floor.PNG"),
+            ("/data/someone/Maps/floor.png", "maps/Floor.PNG"),
             ("../../maps/wall.png", "maps/wall.png"),
             ("textures/wall.png", "wall.png"),
             ("file:///C:/x/wall.png", "wall.png"),

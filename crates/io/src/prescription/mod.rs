@@ -11,6 +11,7 @@
 mod build;
 mod glasses;
 mod private;
+mod raw_surface;
 mod seq;
 mod seq_edit;
 mod text;

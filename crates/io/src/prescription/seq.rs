@@ -13,8 +13,9 @@ use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, GlassCatalogueAsset, LensFields, PrescriptionAsset};
 
-use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening};
+use super::build::{PrimaryWavelength, RawLens, StatedOpening};
 use super::glasses::{self, GlassSearch};
+use super::raw_surface::RawSurface;
 use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 

@@ -6,7 +6,7 @@
 use core::ops::RangeInclusive;
 
 use super::seq::{SeqReader, is_count, thickness};
-use super::{build::RawSurface, text::Words};
+use super::{raw_surface::RawSurface, text::Words};
 use crate::{Error, ErrorCode};
 
 /// Surfaces of a command, and the index of its first value.

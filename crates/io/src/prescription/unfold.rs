@@ -4,7 +4,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensOpening, SurfaceAsset};
 
-use super::build::{RawSurface, SurfaceForm};
+use super::raw_surface::{RawSurface, SurfaceForm};
 use crate::{Error, ErrorCode};
 
 /// Unfolds mirrors: reverses z behind each, so that light travels towards +z. Fills in the media behind mirrors and coordinate breaks.

@@ -16,8 +16,9 @@ use std::{collections::BTreeSet, path::Path};
 
 use etendue_scene::asset::{GlassAsset, GlassCatalogueAsset, LensFields, PrescriptionAsset};
 
-use super::build::{PrimaryWavelength, RawLens, RawSurface, StatedOpening};
+use super::build::{PrimaryWavelength, RawLens, StatedOpening};
 use super::glasses::{self, GlassSearch, NotedGlass};
+use super::raw_surface::RawSurface;
 use super::text::Words;
 use super::zmx_surface::property;
 use crate::{Error, ErrorCode};

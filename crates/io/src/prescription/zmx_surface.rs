@@ -1,6 +1,6 @@
 //! Lines of one surface in a Zemax file.
 
-use super::build::{RawSurface, SurfaceForm};
+use super::raw_surface::{RawSurface, SurfaceForm};
 use super::text::Words;
 use crate::{Error, ErrorCode};
 

@@ -91,7 +91,7 @@ fn textures_of_other_machines_are_those_beside_the_library() {
         ("C:\\Users\\someone\\Desktop\\maps\\wall.png", "wall.png"),
         ("Tex\\wall.png", "tex/Wall.PNG"),
         ("\"D:/my files/wall.png\"", "wall.png"),
-        ("-s 2 2 1 -bm 0.5 /home/someone/WALL.png", "wall.png"),
+        ("-s 2 2 1 -bm 0.5 /data/someone/WALL.png", "wall.png"),
     ] {
         let (mesh, assets) = square(&format!("newmtl a\nmap_Kd {statement}\n"), &[file]);
         let (image, _) = assets.images.first_key_value().expect("an image");
