@@ -194,7 +194,8 @@ impl<'a> CameraLine<'a> {
             ));
         };
         if self.parameters.len() != count {
-            let what = format!("found {} parameters; the model {} has {count}", self.parameters.len(), self.model);
+            let what =
+                format!("the number of parameters is {}; the model {} has {count}", self.parameters.len(), self.model);
             return Err(TreeError::at(self.number, what));
         }
         let (matrix, k) = self.matrix();

@@ -12,8 +12,9 @@ pub(super) fn perspective(line: usize, k: &[f64]) -> TreeResult<Model> {
 
 /// Polynomial fisheye with k₁ … k₄.
 pub(super) fn fisheye(line: usize, k: &[f64]) -> TreeResult<Model> {
-    let k =
-        k.try_into().map_err(|_| TreeError::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
+    let k = k
+        .try_into()
+        .map_err(|_| TreeError::at(line, format!("the number of values is {}; expected k1, k2, k3, k4", k.len())))?;
     KannalaBrandt::new(k).map(Model::KannalaBrandt).map_err(invalid_model(line))
 }
 

@@ -121,7 +121,7 @@ fn omnidirectional(camera: &StoredCamera<'_>, line: usize, k: &[f64]) -> TreeRes
         return Err(TreeError::at(xi.line, "expected xi as one number"));
     };
     let &[k1, k2, p1, p2] = k else {
-        return Err(TreeError::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
+        return Err(TreeError::at(line, format!("the number of values is {}; expected k1, k2, p1, p2", k.len())));
     };
     unified(xi_value, [k1, k2, p1, p2]).map_err(invalid_model(xi.line))
 }

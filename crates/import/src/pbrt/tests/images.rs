@@ -43,7 +43,7 @@ fn images_of_other_formats_are_written_as_linear_numbers() {
     let name = "C:\\\\scenes\\\\A.TGA".replace("\\\\", "\\");
     let converted =
         with_texture(&format!("{image} \"{name}\""), &[SceneFile { name: "a.tga", bytes: &tga }]).expect("a scene");
-    converted.assert_reports("does not exist: `a.tga` is used");
+    converted.assert_reports("is read from `a.tga`");
     let refused = with_texture(&format!("{image} \"a.psd\""), &[]).err().expect("refused");
     assert!(
         refused.starts_with("a.pbrt:4: Texture \"t\": the format of the image `a.psd` is not supported"),

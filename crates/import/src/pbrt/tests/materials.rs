@@ -83,7 +83,7 @@ fn unknown_spectra_are_refused_with_their_line() {
     for (parameter, expected) in [
         ("\"spectrum reflectance\" \"none.spd\"", "the spectrum \"none.spd\" is neither a name of pbrt-v4"),
         ("\"spectrum reflectance\" \"bad.spd\"", "bad.spd:2: expected a finite number, found `x`"),
-        ("\"rgb reflectance\" [ 0.5 0.5 ]", "2 numbers in an rgb; expected three"),
+        ("\"rgb reflectance\" [ 0.5 0.5 ]", "the number of values in an rgb is 2; expected three"),
     ] {
         let bad = SceneFile { name: "bad.spd", bytes: b"400 1\n500 x\n" };
         let message = read(&format!("Material \"diffuse\" {parameter}"), &[bad]).err().expect("refused");
