@@ -9,7 +9,8 @@
 //!
 //! Indices are relative to air at the catalogue's temperature. Thermal coefficients and absorption are left out.
 
-use super::{Dispersion, DispersionSeries, GlassError};
+use super::dispersion::{Dispersion, GlassError};
+use super::series::DispersionSeries;
 
 /// A glass of a catalogue file.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::{Dispersion, GlassError, LINE_D_NM, agf};
+use super::agf;
+use super::dispersion::{Dispersion, GlassError, LINE_D_NM};
 
 /// A glass of a manufacturer's catalogue.
 #[derive(Clone, Copy, Debug, PartialEq)]
