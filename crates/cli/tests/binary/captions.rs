@@ -137,20 +137,20 @@ fn digits(text: &str) -> String {
 /// A page in which the comments of a block of commands, without numbers that their commands contain, stand in place of the block.
 fn without_commands(page: &str) -> String {
     let mut is_block = false;
-    let mut kept = String::new();
+    let mut remaining = String::new();
     for line in page.lines() {
         let is_fence = line.starts_with("```");
         is_block ^= is_fence;
         if !is_block && !is_fence {
-            kept.extend([line, "\n"]);
+            remaining.extend([line, "\n"]);
         } else if let Some((command, comment)) = line.split_once("# ") {
             let (known, comment) = (numbers(command), digits(comment));
             numbers_in_order(&comment)
                 .filter(|number| !known.contains(number))
-                .for_each(|number| kept.extend([number, " "]));
+                .for_each(|number| remaining.extend([number, " "]));
         }
     }
-    kept
+    remaining
 }
 
 /// Replaces the keys of an expression by their values.

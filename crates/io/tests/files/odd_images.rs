@@ -12,9 +12,17 @@ fn pixels(name: &str, bytes: &[u8]) -> ImagePixels {
     decode_image(Path::new(name), bytes).unwrap_or_else(|error| panic!("{error}")).pixels
 }
 
+/// Colour map of a TGA file.
+#[derive(Clone, Copy)]
+struct ColourMap<'a> {
+    /// Bits of an entry; 0 without a map.
+    entry_bits: u8,
+    entries: &'a [u8],
+}
+
 /// TGA file of 2 × 2 pixels.
-fn tga(image_type: u8, depth: u8, descriptor: u8, map: (u8, &[u8]), data: &[u8]) -> Vec<u8> {
-    let (entry_bits, entries) = map;
+fn tga(image_type: u8, depth: u8, descriptor: u8, colour_map: ColourMap<'_>, data: &[u8]) -> Vec<u8> {
+    let ColourMap { entry_bits, entries } = colour_map;
     let count = if entry_bits == 0 { 0 } else { (entries.len() / usize::from(entry_bits.div_ceil(8))) as u8 };
     let head =
         [3, u8::from(count > 0), image_type, 0, 0, count, 0, entry_bits, 0, 0, 0, 0, 2, 0, 2, 0, depth, descriptor];
@@ -28,7 +36,7 @@ const RGB: [[u8; 3]; 4] = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255
 #[test]
 fn tga_of_every_form_is_read() {
     let bgr: Vec<u8> = RGB.iter().flat_map(|[r, g, b]| [*b, *g, *r]).collect();
-    let no_map: (u8, &[u8]) = (0, &[]);
+    let no_map = ColourMap { entry_bits: 0, entries: &[] };
     let expected = ImagePixels::Rgb8(RGB.to_vec());
     assert_eq!(pixels("a.tga", &tga(2, 24, TOP_LEFT, no_map, &bgr)), expected);
     let from_bottom = [&bgr[6..], &bgr[..6]].concat();
@@ -43,11 +51,22 @@ fn tga_of_every_form_is_read() {
     for (depth, descriptor) in [(16, 1), (16, 0), (15, 0)] {
         assert_eq!(pixels("a.tga", &tga(2, depth, TOP_LEFT | descriptor, no_map, &words)), expected, "{depth}");
     }
-    assert_eq!(pixels("a.tga", &tga(1, 8, TOP_LEFT, (24, &bgr), &[0, 1, 2, 3])), expected, "a palette");
-    assert_eq!(pixels("a.tga", &tga(1, 8, TOP_LEFT, (16, &words), &[0, 1, 2, 3])), expected, "a palette of 16 bits");
+    assert_eq!(
+        pixels("a.tga", &tga(1, 8, TOP_LEFT, ColourMap { entry_bits: 24, entries: &bgr }, &[0, 1, 2, 3])),
+        expected,
+        "a palette"
+    );
+    assert_eq!(
+        pixels("a.tga", &tga(1, 8, TOP_LEFT, ColourMap { entry_bits: 16, entries: &words }, &[0, 1, 2, 3])),
+        expected,
+        "a palette of 16 bits"
+    );
     let packets = [&[0x00, 0, 0, 255, 0x02][..], &bgr[3..]].concat();
     assert_eq!(pixels("a.tga", &tga(10, 24, TOP_LEFT, no_map, &packets)), expected, "run lengths");
-    assert_eq!(pixels("a.tga", &tga(9, 8, TOP_LEFT, (24, &bgr), &[0x03, 0, 1, 2, 3])), expected);
+    assert_eq!(
+        pixels("a.tga", &tga(9, 8, TOP_LEFT, ColourMap { entry_bits: 24, entries: &bgr }, &[0x03, 0, 1, 2, 3])),
+        expected
+    );
     let run = tga(10, 24, TOP_LEFT, no_map, &[0x83, 50, 100, 200]);
     assert_eq!(pixels("a.tga", &run), ImagePixels::Rgb8(vec![[200, 100, 50]; 4]), "a run over both rows");
     assert_eq!(pixels("a.tga", &tga(3, 8, TOP_LEFT, no_map, &[1, 2, 3, 4])), ImagePixels::Gray8(vec![1, 2, 3, 4]));

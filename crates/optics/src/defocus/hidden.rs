@@ -1,6 +1,6 @@
 //! Estimates of surfaces that are hidden from the centre of the pupil but visible from its edge, from neighbouring pixels.
 //!
-//! Where the distance jumps, the farther surface is assumed to continue behind the nearer one. From each pixel the first jump to a farther surface is
+//! The farther surface at a jump of the distance is assumed to continue behind the nearer one. From each pixel the first jump to a farther surface is
 //! searched in eight directions, within the reach of the blurs. The pixel one step beyond the jump provides light and inverse distance, because the
 //! pixel at the jump may mix both surfaces. The mean over the directions, weighted by the inverse square of the number of steps, is the estimate of
 //! the surface behind the pixel.

@@ -61,7 +61,7 @@ fn parallel(height_mm: f64) -> LensRay {
     LensRay { point: DVec3::new(height_mm, 0.0, -10.0), direction: DVec3::Z }
 }
 
-/// Where a ray of light meets the sensor.
+/// Point at which a ray of light meets the sensor, mm.
 fn landing(lens: &Prescription, ray: LensRay) -> DVec2 {
     let (out, _) = lens.to_sensor(ray, 550.0).expect("passes");
     (out.point + out.direction * ((lens.sensor_position_mm() - out.point.z) / out.direction.z)).truncate()
